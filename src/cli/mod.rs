@@ -1,0 +1,1 @@
+//! The command line: arguments as typed, resolved, carried out; streams and exit codes.

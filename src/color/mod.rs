@@ -1,0 +1,1 @@
+//! Colour: display values and how they become integers.

@@ -1,0 +1,78 @@
+//! The table of codes, one row each, in families that are the passes; a code is stable for ever.
+//!
+//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `VA` values, `IR` the container, `RD` what a render found.
+
+use std::fmt;
+
+mod container;
+mod files;
+mod picture;
+mod shape;
+mod syntax;
+mod values;
+
+pub use container::*;
+pub use files::*;
+pub use picture::*;
+pub use shape::*;
+pub use syntax::*;
+pub use values::*;
+
+/// How bad it is. Only errors stop the work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The input is refused.
+    Error,
+    /// Probably not what was meant.
+    Warning,
+    /// Worth knowing, shown with `-v`.
+    Note,
+}
+
+/// One row of the table.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Code {
+    /// Family and number, as `VA003`.
+    pub id: &'static str,
+    /// The severity unless an option changes it.
+    pub severity: Severity,
+    /// One line: what the finding is.
+    pub summary: &'static str,
+    /// The long text of `rtc explain`.
+    pub explanation: &'static str,
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.id)
+    }
+}
+
+/// Declares a family: a static for each row, and `FAMILY`, all of them in order.
+macro_rules! codes {
+    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $summary]
+            pub static $name: $crate::diag::Code = $crate::diag::Code {
+                id: $id,
+                severity: $crate::diag::Severity::$severity,
+                summary: $summary,
+                explanation: $explanation,
+            };
+        )*
+        /// The rows of this family, in order.
+        pub static $family: &[&$crate::diag::Code] = &[$(&$name),*];
+    };
+}
+use codes;
+
+/// Every code there is, family by family.
+pub fn all() -> impl Iterator<Item = &'static Code> {
+    [IO, SY, SC, VA, IR, RD].into_iter().flatten().copied()
+}
+
+/// The code with the id given, in any case.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static Code> {
+    all().find(|code| code.id.eq_ignore_ascii_case(id))
+}

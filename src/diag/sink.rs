@@ -1,0 +1,67 @@
+//! The sink: collects findings, counts errors, and keeps no more than a hostile file can be allowed to make.
+
+use super::{Diagnostic, Severity};
+
+/// No more findings than this are kept; the rest is counted.
+const CAPACITY: usize = 10_000;
+
+/// Where every stage pushes its findings.
+#[derive(Default, Debug)]
+pub struct Sink {
+    kept: Vec<Diagnostic>,
+    errors: usize,
+    dropped: usize,
+}
+
+impl Sink {
+    /// Takes one finding. An error always finds a place among the first of its kind, however many notes came before.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        let first_error = diagnostic.severity == Severity::Error && self.errors == 0;
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
+        if self.kept.len() < CAPACITY || first_error {
+            self.kept.push(diagnostic);
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    /// True if any finding was an error.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// The findings so far, in the order they were made.
+    #[must_use]
+    pub fn kept(&self) -> &[Diagnostic] {
+        &self.kept
+    }
+
+    /// How many findings were only counted.
+    #[must_use]
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// Sorts the findings by place; those without one come last, in the order they were made.
+    pub fn sort(&mut self) {
+        self.kept.sort_by_key(|d| (d.primary.is_none(), d.primary.as_ref().map(|label| label.span)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::codes;
+    use super::*;
+
+    #[test]
+    fn a_flood_of_warnings_hides_no_error() {
+        let mut sink = Sink::default();
+        for _ in 0..CAPACITY + 5 {
+            sink.push(Diagnostic::new(&codes::UNKNOWN_KEY, "x"));
+        }
+        sink.push(Diagnostic::new(&codes::NOT_UTF8, "y"));
+        assert!(sink.has_errors());
+        assert_eq!((sink.kept().len(), sink.dropped()), (CAPACITY + 1, 5));
+    }
+}

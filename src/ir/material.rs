@@ -1,0 +1,48 @@
+//! The materials.
+
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The index of a material in [`super::Scene::materials`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(transparent)]
+pub struct MaterialId(pub u32);
+
+/// A material of any family.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub enum Material {
+    /// Phong's model with mirror and refraction.
+    Phong(Phong),
+}
+
+/// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) + kt·I(refracted)`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Phong {
+    /// C, the colour of the surface, each channel at least 0.
+    #[schemars(inner(range(min = 0.0)))]
+    pub color: [f64; 3],
+    /// The weight of the ambient term, at least 0.
+    #[schemars(range(min = 0.0))]
+    pub ka: f64,
+    /// The weight of the diffuse term, at least 0.
+    #[schemars(range(min = 0.0))]
+    pub kd: f64,
+    /// The weight of the highlight and of the mirror ray, at least 0.
+    #[schemars(range(min = 0.0))]
+    pub ks: f64,
+    /// The exponent of the highlight and of the glossy lobe, at least 0.
+    #[schemars(range(min = 0.0))]
+    pub n: f64,
+    /// The weight of the refracted ray, at least 0; 0 is opaque.
+    #[schemars(range(min = 0.0))]
+    pub kt: f64,
+    /// The index of refraction of the inside over that of the outside, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub eta: f64,
+    /// How many rays sample the glossy lobe, at least 1; 1 is the mirror.
+    #[schemars(range(min = 1))]
+    pub glossy_samples: u32,
+}

@@ -1,0 +1,52 @@
+//! The intermediate representation: a scene with names gone, defaults filled and units resolved.
+//!
+//! It holds numbers as stored, in or out of range: [`crate::valid`] proves them. It knows neither YAML nor glTF, nor
+//! the renderer. Lengths are in scene units, colours are linear display values per channel (red, green, blue), where
+//! 1 is the full byte. Surfaces refer to materials by index; where each value was written is kept beside the scene, in
+//! [`Origins`], and is not part of it.
+
+mod camera;
+mod light;
+mod material;
+mod origin;
+mod settings;
+mod shape;
+
+pub use camera::{Camera, Lens};
+pub use light::{Light, PointLight};
+pub use material::{Material, MaterialId, Phong};
+pub use origin::{Field, Noun, Origins, Place};
+pub use settings::{Gooch, Mode, Settings};
+pub use shape::{Plane, Shape, Sphere, Surface, Triangle};
+
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The version of the representation that this build writes. It reads this one and every older one.
+pub const VERSION: u32 = 1;
+
+/// One scene: what the camera sees, by which rules, and all there is to see.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Scene {
+    /// Where rays start and which way they go.
+    pub camera: Camera,
+    /// By which rules the picture is made.
+    pub settings: Settings,
+    /// The lights, in the order in which their terms are summed.
+    pub lights: Vec<Light>,
+    /// The materials, referred to by index.
+    pub materials: Vec<Material>,
+    /// The surfaces; at equal distance the earlier one is seen.
+    pub surfaces: Vec<Surface>,
+}
+
+/// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values beside it.
+#[derive(Clone, Debug)]
+pub struct Lowered {
+    /// The scene; entities that failed are left out, and the sink has an error for each.
+    pub scene: Scene,
+    /// Where its values were written.
+    pub origins: Origins,
+}

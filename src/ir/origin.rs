@@ -1,0 +1,177 @@
+//! Where each value of a scene was written: kept beside the scene, never serialised.
+
+use crate::source::Span;
+use std::fmt;
+
+/// A kind of entity of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Noun {
+    /// The camera.
+    Camera,
+    /// The settings.
+    Settings,
+    /// A light.
+    Light,
+    /// A material.
+    Material,
+    /// A surface.
+    Surface,
+}
+
+/// A value of an entity, or all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "each names the field of the IR it stands for")]
+pub enum Field {
+    Whole,
+    Eye,
+    Center,
+    Right,
+    Up,
+    Size,
+    LensRadius,
+    LensSamples,
+    Mode,
+    GoochB,
+    GoochY,
+    GoochAlpha,
+    GoochBeta,
+    MaxDepth,
+    Supersampling,
+    Position,
+    Color,
+    Ka,
+    Kd,
+    Ks,
+    N,
+    Kt,
+    Eta,
+    GlossySamples,
+    SphereCenter,
+    SphereRadius,
+    PlaneCenter,
+    PlaneNormal,
+    TriangleVertex0,
+    TriangleVertex1,
+    TriangleVertex2,
+    Material,
+}
+
+/// The address of a value in a scene; prints as a JSON pointer into the text form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The kind of entity.
+    pub noun: Noun,
+    /// Its index; 0 for the camera and the settings.
+    pub index: u32,
+    /// The value.
+    pub field: Field,
+}
+
+impl Place {
+    /// The address of `field` in entity `index` of kind `noun`.
+    #[must_use]
+    pub fn new(noun: Noun, index: usize, field: Field) -> Self {
+        Self { noun, index: u32::try_from(index).unwrap_or(u32::MAX), field }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let index = self.index;
+        match self.noun {
+            Noun::Camera => f.write_str("/camera"),
+            Noun::Settings => f.write_str("/settings"),
+            Noun::Light => write!(f, "/lights/{index}"),
+            Noun::Material => write!(f, "/materials/{index}"),
+            Noun::Surface => write!(f, "/surfaces/{index}"),
+        }?;
+        f.write_str(pointer_tail(self.noun, self.field))
+    }
+}
+
+fn pointer_tail(noun: Noun, field: Field) -> &'static str {
+    match field {
+        Field::Whole => "",
+        Field::Eye => "/eye",
+        Field::Center => "/center",
+        Field::Right => "/right",
+        Field::Up => "/up",
+        Field::Size => "/size",
+        Field::LensRadius => "/lens/radius",
+        Field::LensSamples => "/lens/samples",
+        Field::Mode => "/mode",
+        Field::GoochB => "/mode/gooch/b",
+        Field::GoochY => "/mode/gooch/y",
+        Field::GoochAlpha => "/mode/gooch/alpha",
+        Field::GoochBeta => "/mode/gooch/beta",
+        Field::MaxDepth => "/maxDepth",
+        Field::Supersampling => "/supersampling",
+        Field::Position => "/point/position",
+        Field::Color if noun == Noun::Light => "/point/color",
+        Field::Color => "/phong/color",
+        Field::Ka => "/phong/ka",
+        Field::Kd => "/phong/kd",
+        Field::Ks => "/phong/ks",
+        Field::N => "/phong/n",
+        Field::Kt => "/phong/kt",
+        Field::Eta => "/phong/eta",
+        Field::GlossySamples => "/phong/glossySamples",
+        Field::SphereCenter => "/shape/sphere/center",
+        Field::SphereRadius => "/shape/sphere/radius",
+        Field::PlaneCenter => "/shape/plane/center",
+        Field::PlaneNormal => "/shape/plane/normal",
+        Field::TriangleVertex0 => "/shape/triangle/vertices/0",
+        Field::TriangleVertex1 => "/shape/triangle/vertices/1",
+        Field::TriangleVertex2 => "/shape/triangle/vertices/2",
+        Field::Material => "/material",
+    }
+}
+
+/// The places of a scene and the spans they were written at; empty for a scene that was never text.
+#[derive(Clone, Debug, Default)]
+pub struct Origins {
+    spans: Vec<(Place, Span)>,
+    sorted: bool,
+}
+
+impl Origins {
+    /// Remembers where the value at `place` was written; without a span nothing happens.
+    pub fn record(&mut self, place: Place, span: impl Into<Option<Span>>) {
+        if let Some(span) = span.into() {
+            self.sorted = self.spans.last().is_none_or(|(last, _)| self.sorted && *last < place);
+            self.spans.push((place, span));
+        }
+    }
+
+    /// Brings the places into order; call it once, after the last `record`.
+    pub fn finish(&mut self) {
+        if !self.sorted {
+            self.spans.sort_by_key(|(place, _)| *place);
+            self.sorted = true;
+        }
+    }
+
+    /// The span the value was written at; a value that was a default has that of its entity.
+    #[must_use]
+    pub fn span(&self, place: Place) -> Option<Span> {
+        let find = |place| self.spans.binary_search_by_key(&place, |(place, _)| *place).ok().map(|at| self.spans[at].1);
+        find(place).or_else(|| find(Place { field: Field::Whole, ..place }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_default_falls_back_to_its_entity() {
+        let file = crate::source::SourceMap::default().add("x", Vec::new());
+        let mut origins = Origins::default();
+        origins.record(Place::new(Noun::Surface, 3, Field::SphereRadius), Span::new(file, 5, 6));
+        origins.record(Place::new(Noun::Surface, 3, Field::Whole), Span::new(file, 1, 9));
+        origins.finish();
+        let span = |field| origins.span(Place::new(Noun::Surface, 3, field)).map(|span| span.start);
+        assert_eq!((span(Field::SphereRadius), span(Field::SphereCenter)), (Some(5), Some(1)));
+        assert_eq!(Place::new(Noun::Surface, 3, Field::SphereRadius).to_string(), "/surfaces/3/shape/sphere/radius");
+    }
+}

@@ -1,0 +1,48 @@
+//! The settings: what a pixel shows and how much work goes into it.
+
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// By which rules the picture is made.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Settings {
+    /// What a pixel shows.
+    pub mode: Mode,
+    /// Whether surfaces hide lights from each other.
+    pub shadows: bool,
+    /// How many mirror or refraction bounces follow the first hit.
+    pub max_depth: u32,
+    /// Sub-samples along each side of a pixel, at least 1.
+    #[schemars(range(min = 1))]
+    pub supersampling: u32,
+}
+
+/// What a pixel shows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub enum Mode {
+    /// Phong's model with shadows, mirrors and refraction.
+    Phong,
+    /// The distance of the first hit: near is white, far is black.
+    Zbuffer,
+    /// The normal of the first hit, (N + 1)/2 per component.
+    Normal,
+    /// Gooch's cool-to-warm shading.
+    Gooch(Gooch),
+}
+
+/// The parameters of Gooch shading.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Gooch {
+    /// The blue of the cool colour.
+    pub b: f64,
+    /// The yellow of the warm colour.
+    pub y: f64,
+    /// How much of the surface's colour the cool tone takes.
+    pub alpha: f64,
+    /// How much of the surface's colour the warm tone takes.
+    pub beta: f64,
+}

@@ -1,0 +1,2 @@
+//! The `rtc` binary.
+fn main() {}

@@ -1,0 +1,77 @@
+//! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here prints or exits.
+
+use crate::diag::Sink;
+use crate::front::course;
+use crate::ir::{Lowered, Origins, Scene};
+use crate::render::{Film, Job, World};
+use crate::source::{FileId, SourceMap};
+use crate::valid::{self, ValidScene};
+use crate::{codec, front};
+
+/// How strict the check is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options {
+    /// What the front end lets pass.
+    pub front: front::Options,
+    /// What the proof lets pass.
+    pub valid: valid::Options,
+}
+
+/// Values that replace those of the scene before it is proven.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Overrides {
+    /// Width and height in pixels. The picture keeps its height in the scene, so pixels shrink or grow.
+    pub size: Option<[u32; 2]>,
+    /// Sub-samples along each side of a pixel.
+    pub supersampling: Option<u32>,
+    /// Bounces after the first hit.
+    pub depth: Option<u32>,
+}
+
+impl Overrides {
+    /// Writes the values given into `scene`.
+    pub fn apply(&self, scene: &mut Scene) {
+        let Self { size, supersampling, depth } = *self;
+        if let Some(size) = size {
+            let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
+            scene.camera.right = scene.camera.right.map(|component| component * ratio);
+            scene.camera.up = scene.camera.up.map(|component| component * ratio);
+            scene.camera.size = size;
+        }
+        scene.settings.supersampling = supersampling.unwrap_or(scene.settings.supersampling);
+        scene.settings.max_depth = depth.unwrap_or(scene.settings.max_depth);
+    }
+}
+
+/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content.
+pub fn load(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+    match codec::recognise(map.bytes(file)) {
+        Some(form) => {
+            let scene = codec::decode(form, file, map, sink)?;
+            Some(Lowered { scene, origins: Origins::default() })
+        }
+        None => course::lower(file, map, &options.front, sink),
+    }
+}
+
+/// Proves a scene. `None` if it or what was read before has errors; the sink says which.
+pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
+    let proof = valid::validate(&lowered.scene, &lowered.origins, &options.valid, sink);
+    proof.filter(|_| !sink.has_errors())
+}
+
+/// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
+///
+/// `proceed` is called from all threads with the number of rays traced since its last call.
+///
+/// # Errors
+/// If the system gives no threads.
+pub fn render(
+    scene: &ValidScene,
+    job: &Job,
+    threads: usize,
+    proceed: &(dyn Fn(u64) -> bool + Sync),
+) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| World::prepare(scene).render(job, proceed)))
+}

@@ -1,0 +1,139 @@
+//! The source map: owns the bytes of every file read and turns offsets into lines and columns.
+
+/// Names one file of a [`SourceMap`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FileId(u32);
+
+/// A half-open range of bytes of one file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Span {
+    /// The file the bytes belong to.
+    pub file: FileId,
+    /// The first byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The span of bytes `start..end` of `file`.
+    #[must_use]
+    pub fn new(file: FileId, start: u32, end: u32) -> Self {
+        Self { file, start, end }
+    }
+
+    /// The smallest span that holds both; `other` must lie in the same file.
+    #[must_use]
+    pub fn to(self, other: Span) -> Self {
+        Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+}
+
+/// A place as people count it: both numbers start at 1, columns in characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LineColumn {
+    /// The line, from 1.
+    pub line: u32,
+    /// The column in characters, from 1.
+    pub column: u32,
+}
+
+struct SourceFile {
+    name: String,
+    bytes: Vec<u8>,
+    line_starts: Vec<u32>,
+}
+
+/// All files of one run, with their names as the user gave them.
+#[derive(Default)]
+pub struct SourceMap {
+    files: Vec<SourceFile>,
+}
+
+impl SourceMap {
+    /// Adds a file and returns its handle.
+    ///
+    /// # Panics
+    /// If the file holds 4 GiB or more; [`super::Loader`] refuses such files before.
+    pub fn add(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> FileId {
+        assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
+        let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
+        self.files.push(SourceFile { name: name.into(), line_starts: line_starts(&bytes), bytes });
+        id
+    }
+
+    /// The name the user gave the file.
+    #[must_use]
+    pub fn name(&self, file: FileId) -> &str {
+        &self.file(file).name
+    }
+
+    /// The bytes of the file.
+    #[must_use]
+    pub fn bytes(&self, file: FileId) -> &[u8] {
+        &self.file(file).bytes
+    }
+
+    /// The text of the file, if it is UTF-8 and not a binary container.
+    #[must_use]
+    pub fn text(&self, file: FileId) -> Option<&str> {
+        let bytes = self.bytes(file);
+        std::str::from_utf8(bytes).ok()
+    }
+
+    /// The text a span covers, with what is not UTF-8 replaced.
+    #[must_use]
+    pub fn slice(&self, span: Span) -> std::borrow::Cow<'_, str> {
+        let bytes = self.bytes(span.file);
+        let end = (span.end as usize).min(bytes.len());
+        String::from_utf8_lossy(&bytes[(span.start as usize).min(end)..end])
+    }
+
+    /// The line and column of a byte offset.
+    #[must_use]
+    pub fn line_column(&self, file: FileId, offset: u32) -> LineColumn {
+        let source = self.file(file);
+        let line = source.line_starts.partition_point(|&start| start <= offset).max(1);
+        let start = source.line_starts.get(line - 1).copied().unwrap_or(0);
+        let span = Span::new(file, start, offset);
+        let column = self.slice(span).chars().count() + 1;
+        LineColumn { line: to_u32(line), column: to_u32(column) }
+    }
+
+    /// The byte range of the lines `first..=last` (from 1), line ends included; clipped to the file.
+    #[must_use]
+    pub fn lines(&self, file: FileId, first: u32, last: u32) -> Span {
+        let source = self.file(file);
+        let end = to_u32(source.bytes.len());
+        let at = |line: u32| source.line_starts.get(line as usize).copied().unwrap_or(end);
+        Span::new(file, at(first.saturating_sub(1)), at(last))
+    }
+
+    fn file(&self, file: FileId) -> &SourceFile {
+        &self.files[file.0 as usize]
+    }
+}
+
+fn line_starts(bytes: &[u8]) -> Vec<u32> {
+    let after = |(index, _)| to_u32(index + 1);
+    std::iter::once(0).chain(bytes.iter().enumerate().filter(|(_, b)| **b == b'\n').map(after)).collect()
+}
+
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters_and_lines_start_after_the_newline() {
+        let mut map = SourceMap::default();
+        let file = map.add("x", "a\nü-b\n".as_bytes().to_vec());
+        assert_eq!(map.line_column(file, 0), LineColumn { line: 1, column: 1 });
+        assert_eq!(map.line_column(file, 5), LineColumn { line: 2, column: 3 });
+        assert_eq!(map.slice(map.lines(file, 2, 2)), "ü-b\n");
+        assert_eq!(map.line_column(file, 6), LineColumn { line: 2, column: 4 });
+    }
+}

@@ -1,0 +1,7 @@
+//! Files, their bytes, and spans into them: every byte a person wrote has a place.
+
+mod loader;
+mod map;
+
+pub use loader::{LoadError, Loader};
+pub use map::{FileId, LineColumn, SourceMap, Span};
