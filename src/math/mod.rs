@@ -8,6 +8,7 @@ mod exact;
 mod func;
 mod number;
 mod onb;
+mod turns;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
 pub use double::Double;
@@ -16,6 +17,7 @@ pub use func::{cos, ldexp, pow, sin};
 pub use glam::DVec3 as Vec3;
 pub use number::{NonNegative, Positive};
 pub use onb::Basis;
+pub use turns::{cos_sin_turns, golden_turns};
 
 /// The unit round-off of f64, u = 2⁻⁵³.
 pub const U: f64 = f64::EPSILON / 2.0;
