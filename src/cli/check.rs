@@ -1,9 +1,9 @@
 //! `rtc check`: every file is checked, whatever is found in those before.
 
+use super::Failure;
 use super::args::Check;
 use super::input::Input;
 use super::talk::Talk;
-use super::Failure;
 
 /// Checks the files and tells what was found.
 pub(super) fn run(args: &Check) -> Result<(), Failure> {

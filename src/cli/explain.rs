@@ -22,7 +22,8 @@ fn unknown(id: &str) -> Failure {
 
 /// `schema/diagnostics.md`.
 fn page() -> String {
-    let head = "# Diagnostics\n\nEvery code rtc gives, printed by `rtc explain --all`. A code never changes its meaning.\n";
+    let head =
+        "# Diagnostics\n\nEvery code rtc gives, printed by `rtc explain --all`. A code never changes its meaning.\n";
     codes::all().fold(head.to_owned(), |page, code| format!("{page}\n{}", entry(code)))
 }
 

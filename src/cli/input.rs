@@ -45,11 +45,8 @@ impl Input {
         } else {
             path.display().to_string()
         };
-        let read = if from_stdin {
-            Loader.reader(&name, io::stdin().lock(), &mut map)
-        } else {
-            Loader.file(path, &mut map)
-        };
+        let read =
+            if from_stdin { Loader.reader(&name, io::stdin().lock(), &mut map) } else { Loader.file(path, &mut map) };
         let file = read.map_err(|error| sink.push(unreadable(&name, &error))).ok();
         Self { name, map, sink, file, options }
     }

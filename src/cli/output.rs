@@ -33,7 +33,7 @@ impl Output {
             return Ok(Self::Stdout);
         }
         let name = path.display();
-        Self::beside(path).map_err(|error| Failure::Trouble(format!("can't write `{name}`: {error}")))
+        Self::beside(path).map_err(|error| failure(&format!("`{name}`"), &error))
     }
 
     fn beside(path: &Path) -> io::Result<Self> {
@@ -69,10 +69,7 @@ impl Output {
                 synced.and_then(|()| draft.persist(target).map_err(|error| error.error).map(drop))
             }
         };
-        written.map_err(|error| match error.kind() {
-            ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            _ => Failure::Trouble(format!("can't write `{name}`: {error}")),
-        })
+        written.map_err(|error| failure(&format!("`{name}`"), &error))
     }
 }
 
@@ -94,13 +91,19 @@ fn reason(error: &io::Error) -> String {
     error.raw_os_error().map_or_else(|| error.kind().to_string(), |code| io::Error::from_raw_os_error(code).to_string())
 }
 
+/// A closed pipe is a reader that had enough; all else is trouble.
+fn failure(name: &str, error: &io::Error) -> Failure {
+    if error.kind() == ErrorKind::BrokenPipe {
+        return Failure::ClosedPipe;
+    }
+    Failure::Trouble(format!("can't write {name}: {error}"))
+}
+
 /// Writes to standard output; if its reader has gone that is no failure of ours.
 pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    stdout.write_all(bytes).and_then(|()| stdout.flush()).map_err(|error| match error.kind() {
-        ErrorKind::BrokenPipe => Failure::ClosedPipe,
-        _ => Failure::Trouble(format!("can't write to standard output: {error}")),
-    })
+    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
+    written.map_err(|error| failure("standard output", &error))
 }
 
 /// Refuses to write bytes that are not text to a terminal.

@@ -30,7 +30,8 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
         Some(name) => rtc.find_subcommand(name).cloned(),
         None => Some(rtc),
     };
-    let command = command.ok_or_else(|| Failure::Trouble("there is no such command; `rtc help` lists them".to_owned()))?;
+    let command =
+        command.ok_or_else(|| Failure::Trouble("there is no such command; `rtc help` lists them".to_owned()))?;
     let mut page = Vec::new();
     clap_mangen::Man::new(command).render(&mut page).map_err(|error| Failure::Trouble(error.to_string()))?;
     output::to_stdout(&page)

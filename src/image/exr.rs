@@ -49,7 +49,8 @@ mod tests {
 
     fn bright() -> (Image, Form) {
         let pixels = vec![[0.0, 0.5, 1.0], [2.5, -1.0, 1e30], [0.1, f64::INFINITY, 1e-3], [3.0, 4.0, 5.0]];
-        let origin = Origin { software: "rtc 1".into(), scene: "abc".into(), settings: "{\"size\":\"2×2→\"}".into() };
+        let origin =
+            Origin { software: "rtc 1".into(), scene: "abc".into(), settings: "{\"size\":\"2×2→\"}".into() };
         (Image { width: 2, height: 2, pixels }, Form::Exr(origin))
     }
 

@@ -73,9 +73,8 @@ impl Printer {
     /// The text for the findings of the file `name`; empty if there are none to show.
     pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
         sink.sort();
-        let visible = |diagnostic: &&Diagnostic| {
-            self.format.is_for_programs() || diagnostic.severity <= self.options.least
-        };
+        let visible =
+            |diagnostic: &&Diagnostic| self.format.is_for_programs() || diagnostic.severity <= self.options.least;
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
         let shown = cap(&found, self.options.max);
         let hidden = found.len() - shown.len() + sink.dropped();
