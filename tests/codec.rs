@@ -21,7 +21,7 @@ fn frozen(name: &str) -> PathBuf {
 }
 
 /// The scene or the first finding, and the text the finding points at.
-fn decode(form: Form, bytes: &[u8]) -> Result<Scene, (Diagnostic, String)> {
+fn decode(form: Form, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("test", bytes.to_vec());
     let scene = codec::decode(form, file, &map, &mut sink);
@@ -29,13 +29,13 @@ fn decode(form: Form, bytes: &[u8]) -> Result<Scene, (Diagnostic, String)> {
     scene.ok_or_else(|| {
         let finding = sink.kept()[0].clone();
         let place = map.slice(finding.primary.as_ref().expect("every fault has a place").span).into_owned();
-        (finding, place)
+        Box::new((finding, place))
     })
 }
 
 /// The code, the text pointed at, and the pointer of the finding.
 fn fault(form: Form, bytes: &[u8]) -> (&'static str, String, String) {
-    let (finding, place) = decode(form, bytes).unwrap_err();
+    let (finding, place) = *decode(form, bytes).unwrap_err();
     (finding.code.id, place, finding.pointer.unwrap_or_default())
 }
 
@@ -196,7 +196,7 @@ fn a_container_copied_as_text_is_recognised_and_says_so() {
     let spoilt = [(lines, "line ends"), (seven_bits, "eighth bit"), (latin1.into(), "UTF-8"), (lossy.into(), "UTF-8")];
     for (bytes, word) in spoilt {
         assert_eq!(codec::recognise(&bytes), Some(Form::Binary), "{word}");
-        let (finding, _) = decode(Form::Binary, &bytes).unwrap_err();
+        let (finding, _) = *decode(Form::Binary, &bytes).unwrap_err();
         assert!(finding.code.id == "IR004" && finding.hints[0].text.contains(word), "{finding:?}");
     }
 }
@@ -247,13 +247,13 @@ fn parts_that_do_not_fit_together_are_refused() {
 #[test]
 fn newer_files_say_so_where_the_version_stands() {
     let text = "{\"irVersion\": 7, \"spectra\": []}";
-    let (finding, place) = decode(Form::Text, text.as_bytes()).unwrap_err();
+    let (finding, place) = *decode(Form::Text, text.as_bytes()).unwrap_err();
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
     assert_eq!(finding.message, "IR version 7 is newer than 1, the newest this rtc reads");
     let mut file = codec::encode(Form::Binary, &small()).unwrap();
     file[8] = 2;
     let file = with_header(&file, |header| header);
-    let (finding, _) = decode(Form::Binary, &file).unwrap_err();
+    let (finding, _) = *decode(Form::Binary, &file).unwrap_err();
     assert_eq!(finding.message, "container version 2 is newer than 1, the newest this rtc reads");
     assert_eq!(finding.primary.unwrap().span.start, 8);
 }
