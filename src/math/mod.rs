@@ -1,3 +1,23 @@
-//! Numbers: vectors, bases, and arithmetic that is the same on every machine.
+//! Numbers: vectors, bases, ranges, and arithmetic that gives the same bits on every machine.
+//!
+//! Everything geometric is f64. `u` in comments is the unit round-off, 2⁻⁵³.
 
+mod basis;
+mod double;
+mod exact;
+mod func;
+mod number;
+mod onb;
+mod turns;
+
+pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
+pub use double::Double;
+pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum, unit_scale};
+pub use func::{cos, ldexp, pow, sin};
 pub use glam::DVec3 as Vec3;
+pub use number::{NonNegative, Positive};
+pub use onb::Basis;
+pub use turns::{cos_sin_turns, golden_turns};
+
+/// The unit round-off of f64, u = 2⁻⁵³.
+pub const U: f64 = f64::EPSILON / 2.0;

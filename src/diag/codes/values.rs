@@ -4,4 +4,46 @@ super::codes! { VA:
     NOT_FINITE = "VA001", Error, "a number is not finite or too large to compute with",
         "Every number of a scene must be finite, and lengths and coordinates must keep their squares within what a \
          64-bit float holds: at most 1e60 in size. An overflow would show as black or white pixels far from its cause.";
+    RADIUS = "VA002", Error, "a radius is not above 0",
+        "A sphere needs a radius above 0, and of at least 1e-60 so that its powers can be computed. A negative radius \
+         is most often a sign in the wrong place.";
+    ZERO_NORMAL = "VA003", Error, "the normal of a plane is the zero vector",
+        "A plane is a point and a normal; only the direction of the normal counts, but it must have one.";
+    DEGENERATE_TRIANGLE = "VA004", Warning, "a triangle has no area",
+        "The three corners are in line or fall together, so no ray can hit the triangle. It is left out of the picture. \
+         Exporters leave such triangles behind where vertices were merged.";
+    NEGATIVE = "VA005", Error, "a weight, colour or radius of the lens is negative",
+        "Colours, the weights ka, kd, ks and refract, and the radius of the aperture are at least 0. Colours of lights \
+         and surfaces may exceed 1.";
+    NEGATIVE_EXPONENT = "VA006", Error, "the exponent of a highlight is negative",
+        "The exponent `n` of Phong's highlight is at least 0. A negative one would make the highlight infinite where it \
+         should be dark.";
+    ZERO_COUNT = "VA007", Error, "a number of samples is 0",
+        "The supersampling factor, `apertureSamples` and `glossySamples` are at least 1: with 0 a pixel would be the \
+         mean of nothing.";
+    EMPTY_IMAGE = "VA008", Error, "the image has no pixels",
+        "Width and height of the image are at least 1.";
+    HUGE_IMAGE = "VA009", Error, "the image has more than 16384 × 16384 pixels",
+        "A picture of that size takes gigabytes. It is most often a slip of the keyboard; if it is meant, \
+         `--allow-huge` lifts the limit.";
+    TOO_MANY_RAYS = "VA010", Error, "the picture takes more than 2^32 rays from the eye",
+        "Pixels × supersampling² × aperture samples, times what glossy bounces may multiply it by, is the number of \
+         rays. More than 2^32 of them take hours. `--allow-huge` lifts the limit.";
+    LIGHT_IN_SPHERE = "VA011", Note, "a light stands inside a sphere",
+        "With shadows on, the sphere hides the light from all that is outside. That may be meant, as for a lamp seen \
+         from within, but most often the lamp should stand beside its glass.";
+    CAMERA_BASIS = "VA012", Error, "the steps between the camera's pixels are no basis",
+        "The IR camera has two steps, `right` and `up`, from a pixel to its neighbours. Neither may be zero, and they \
+         must be at a right angle to within 1e-9.";
+    EYE_IN_IMAGE_PLANE = "VA013", Error, "the eye lies in the image plane",
+        "Rays go from the eye through the points of the image plane. An eye inside that plane sees the image edge-on, \
+         and every ray would run inside the plane.";
+    BAD_HANDLE = "VA014", Error, "a surface refers to a material that does not exist",
+        "Surfaces refer to materials by index, from 0. Only a damaged or hand-made IR file gets here.";
+    ETA = "VA015", Error, "an index of refraction is not above 0",
+        "The index of refraction is that of the inside over that of the outside: glass in air has about 1.5, water \
+         1.33, and 1 does not bend light.";
+    TOO_DEEP = "VA016", Error, "more than 1000000 bounces",
+        "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
+         10, a box of mirrors a few hundred.";
 }

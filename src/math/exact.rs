@@ -1,0 +1,129 @@
+//! Error-free transformations and the compensated sums built on them.
+//!
+//! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps scenes far inside.
+
+use super::{Vec3, ldexp};
+
+/// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
+#[must_use]
+#[inline]
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let b_virtual = s - a;
+    (s, (a - (s - b_virtual)) + (b - b_virtual))
+}
+
+/// The difference and its rounding error: `a − b = s + e` exactly.
+#[must_use]
+#[inline]
+pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
+    two_sum(a, -b)
+}
+
+/// The product and its rounding error: `a·b = p + e` exactly.
+///
+/// With an FMA unit known at build time the error is one instruction, else Dekker's product (Numerische Mathematik 18,
+/// 1971); both are exact, so the bits are the same.
+#[must_use]
+#[inline]
+#[expect(clippy::disallowed_methods, reason = "only where it is one instruction")]
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    if cfg!(target_feature = "fma") {
+        return (p, a.mul_add(b, -p));
+    }
+    let (a_high, a_low) = split(a);
+    let (b_high, b_low) = split(b);
+    let e = ((a_high * b_high - p) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    (p, e)
+}
+
+/// Veltkamp's splitting into two halves of at most 26 bits each.
+#[inline]
+fn split(a: f64) -> (f64, f64) {
+    const FACTOR: f64 = 134_217_729.0;
+    let c = FACTOR * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+/// `a·b − c·d` to within 2 u of the result; exactly antisymmetric under exchange of the two products.
+///
+/// After Kahan; see Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm", Math. Comp. 82 (2013).
+#[must_use]
+#[inline]
+pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
+    let (p, p_error) = two_product(a, b);
+    let (q, q_error) = two_product(c, d);
+    (p - q) + (p_error - q_error)
+}
+
+/// The cross product, each component to within 2 u of itself.
+#[must_use]
+#[inline]
+pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(
+        difference_of_products(a.y, b.z, a.z, b.y),
+        difference_of_products(a.z, b.x, a.x, b.z),
+        difference_of_products(a.x, b.y, a.y, b.x),
+    )
+}
+
+/// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi, "Accurate sum and dot
+/// product", SIAM J. Sci. Comput. 26 (2005), algorithm 5.3).
+#[must_use]
+#[inline]
+pub fn dot(a: Vec3, b: Vec3) -> f64 {
+    let (x, x_error) = two_product(a.x, b.x);
+    let (y, y_error) = two_product(a.y, b.y);
+    let (z, z_error) = two_product(a.z, b.z);
+    let (xy, xy_error) = two_sum(x, y);
+    let (xyz, xyz_error) = two_sum(xy, z);
+    xyz + ((x_error + y_error) + xy_error + (z_error + xyz_error))
+}
+
+/// `v` times the power of two that brings its largest component into [1, 2), and the exponent taken out:
+/// `v = scaled·2^exponent`. `None` for the zero vector and for components that are not finite.
+#[must_use]
+pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
+    let largest = v.abs().max_element();
+    if !v.is_finite() || largest == 0.0 {
+        return None;
+    }
+    let exponent = libm::ilogb(largest);
+    Some((Vec3::new(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent)), exponent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dekker_and_a_wide_integer_agree_on_the_error_of_a_product() {
+        let (a, b) = (9_007_199_254_740_991.0, 9_007_199_254_740_989.0);
+        let (p, e) = two_product(a, b);
+        let exact = 9_007_199_254_740_991_i128 * 9_007_199_254_740_989_i128;
+        assert_eq!(exact - p as i128, e as i128);
+    }
+
+    #[test]
+    fn a_difference_of_nearly_equal_products_keeps_its_digits() {
+        let a = 1.0 + f64::EPSILON;
+        // (1 + ε)² − (1 + 2ε)·1 = ε²
+        assert_eq!(difference_of_products(a, a, 1.0 + 2.0 * f64::EPSILON, 1.0), f64::EPSILON * f64::EPSILON);
+    }
+
+    #[test]
+    fn a_dot_product_survives_cancellation() {
+        let a = Vec3::new(1e16, 1.0, -1e16);
+        assert_eq!(dot(a, Vec3::new(1.0, 3.0, 1.0)), 3.0);
+    }
+
+    #[test]
+    fn unit_scale_reaches_subnormals_and_refuses_nothing_to_scale() {
+        let (scaled, exponent) = unit_scale(Vec3::new(0.0, 5e-324, 0.0)).unwrap();
+        assert_eq!((scaled.y, exponent), (1.0, -1074));
+        assert!(unit_scale(Vec3::ZERO).is_none());
+        assert!(unit_scale(Vec3::new(f64::NAN, 1.0, 0.0)).is_none());
+    }
+}

@@ -1,0 +1,25 @@
+//! Elementary functions from `libm`: std's differ between platforms, these do not.
+
+/// The sine of an angle in radians.
+#[must_use]
+pub fn sin(x: f64) -> f64 {
+    libm::sin(x)
+}
+
+/// The cosine of an angle in radians.
+#[must_use]
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// `x` to the power `y`.
+#[must_use]
+pub fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
+/// `x·2^exponent`, rounded once.
+#[must_use]
+pub fn ldexp(x: f64, exponent: i32) -> f64 {
+    libm::ldexp(x, exponent)
+}

@@ -1,0 +1,52 @@
+//! Numbers with a range, so that who holds one need not ask again.
+
+/// A finite number above 0.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Positive(f64);
+
+impl Positive {
+    /// `None` unless the value is finite and above 0.
+    #[must_use]
+    pub fn new(value: f64) -> Option<Self> {
+        (value > 0.0 && value.is_finite()).then_some(Self(value))
+    }
+
+    /// The number.
+    #[must_use]
+    #[inline]
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
+/// A finite number of at least 0; never −0.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct NonNegative(f64);
+
+impl NonNegative {
+    /// `None` unless the value is finite and at least 0.
+    #[must_use]
+    pub fn new(value: f64) -> Option<Self> {
+        (value >= 0.0 && value.is_finite()).then_some(Self(value + 0.0))
+    }
+
+    /// The number.
+    #[must_use]
+    #[inline]
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_kept_at_their_ends() {
+        assert!(Positive::new(0.0).is_none() && Positive::new(f64::INFINITY).is_none());
+        assert!(Positive::new(f64::NAN).is_none() && NonNegative::new(f64::NAN).is_none());
+        assert!(NonNegative::new(-f64::MIN_POSITIVE).is_none());
+        assert!(NonNegative::new(-0.0).unwrap().get().is_sign_positive());
+    }
+}

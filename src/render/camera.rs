@@ -1,0 +1,50 @@
+//! Rays of the camera: sub-samples of pixels, and points of the lens.
+
+use super::ray::Ray;
+use crate::math::{Vec3, cos_sin_turns, golden_turns};
+use crate::valid::{Camera, Lens};
+
+/// The point of the image plane that sub-sample (i, j) of pixel (x, y) looks at, `factor` sub-samples a side:
+/// `center + (x + (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
+#[must_use]
+pub fn image_point(camera: &Camera, [x, y]: [u32; 2], [i, j]: [u32; 2], factor: u32) -> Vec3 {
+    let factor = f64::from(factor);
+    let across = f64::from(x) + (f64::from(i) + 0.5) / factor - f64::from(camera.width.get()) / 2.0;
+    let upward = f64::from(camera.height.get()) / 2.0 - f64::from(y) - (f64::from(j) + 0.5) / factor;
+    camera.center + camera.right * across + camera.up * upward
+}
+
+/// The ray from a point of the lens through a point of the image plane, with a unit direction.
+#[must_use]
+pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
+    Ray { origin, direction: (image_point - origin).normalize() }
+}
+
+/// How many points of the lens a sub-sample takes: one where all points are the same.
+#[must_use]
+pub(super) fn lens_samples(lens: &Lens) -> u32 {
+    if lens.radius.get() == 0.0 { 1 } else { lens.samples.get() }
+}
+
+/// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ = k·π(3 − √5)`.
+///
+/// All points lie within R of the eye and each stands for the same area (Vogel, "A better way to construct the
+/// sunflower head", Mathematical Biosciences 44 (1979)).
+#[must_use]
+pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
+    let scale = radius / (pixel * f64::from(n).sqrt());
+    let r = scale * f64::from(k).sqrt();
+    let (cosine, sine) = cos_sin_turns(golden_turns(u64::from(k)));
+    [r * cosine, r * sine]
+}
+
+/// The origin of ray k of a sub-sample.
+#[must_use]
+pub fn lens_point(camera: &Camera, k: u32) -> Vec3 {
+    let n = lens_samples(&camera.lens);
+    if n == 1 {
+        return camera.eye;
+    }
+    let [across, upward] = vogel(k, n, camera.lens.radius.get(), camera.up.length());
+    camera.eye + camera.right * across + camera.up * upward
+}

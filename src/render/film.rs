@@ -1,0 +1,85 @@
+//! The film: a picture, and the rays it took.
+
+use crate::image::Image;
+
+/// What to render of a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Job {
+    /// The part of the picture wanted, or all of it; what lies outside the picture is cut off.
+    pub crop: Option<Crop>,
+    /// Which values the film holds.
+    pub values: Values,
+}
+
+/// A rectangle of pixels, y downwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// Left edge.
+    pub x: u32,
+    /// Upper edge.
+    pub y: u32,
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+}
+
+impl Crop {
+    /// The part of this rectangle inside a picture of the size given; may be empty.
+    #[must_use]
+    pub fn within(self, width: u32, height: u32) -> Self {
+        let (x, y) = (self.x.min(width), self.y.min(height));
+        Self { x, y, width: self.width.min(width - x), height: self.height.min(height - y) }
+    }
+}
+
+/// Which values a film holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Values {
+    /// Each sub-sample clamped to [0, 1] before the mean: what a display shows.
+    #[default]
+    Display,
+    /// The plain mean of the sub-samples.
+    Linear,
+}
+
+/// How many rays were traced, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// From the eye.
+    pub camera: u64,
+    /// To a light.
+    pub shadow: u64,
+    /// Mirrored and refracted.
+    pub secondary: u64,
+    /// Camera rays that hit something.
+    pub hits: u64,
+}
+
+impl Counts {
+    /// All rays.
+    #[must_use]
+    pub fn rays(&self) -> u64 {
+        self.camera + self.shadow + self.secondary
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            camera: self.camera + other.camera,
+            shadow: self.shadow + other.shadow,
+            secondary: self.secondary + other.secondary,
+            hits: self.hits + other.hits,
+        }
+    }
+}
+
+/// A picture and what it took.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// The picture, of the size of the crop.
+    pub image: Image,
+    /// The rays it took.
+    pub counts: Counts,
+}

@@ -1,0 +1,114 @@
+//! From world to film: pixels in tiles of one row each, on all threads of the pool.
+
+use super::camera::{camera_ray, image_point, lens_point, lens_samples};
+use super::film::{Counts, Crop, Film, Job, Values};
+use super::sampler::Key;
+use super::whitted::Tracer;
+use super::world::World;
+use crate::image::Image;
+use crate::math::Vec3;
+use crate::valid::Mode;
+use rayon::prelude::*;
+
+impl World {
+    /// Renders on the threads of the current pool; `None` if `proceed` said stop.
+    ///
+    /// `proceed` is called from all threads with the number of rays traced since that thread's last call.
+    #[must_use]
+    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+        let camera = self.scene.camera();
+        let (width, height) = (camera.width.get(), camera.height.get());
+        let whole = Crop { x: 0, y: 0, width, height };
+        let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
+        match self.scene.settings().mode {
+            Mode::Zbuffer => {
+                let (mut depths, counts) = self.tiles(whole, proceed, |tracer, pixel| tracer.depth(pixel))?;
+                normalize_depths(&mut depths);
+                let image = cut(&depths, whole, crop);
+                Some(Film { image, counts })
+            }
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) => {
+                let (pixels, counts) = self.tiles(crop, proceed, |tracer, pixel| tracer.pixel(pixel, job.values))?;
+                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+            }
+        }
+    }
+
+    /// The values of all pixels of a rectangle, row by row, and the rays they took.
+    fn tiles<T: Send + Clone + Default>(
+        &self,
+        crop: Crop,
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+        value: impl Fn(&mut Tracer<'_>, [u32; 2]) -> T + Sync,
+    ) -> Option<(Vec<T>, Counts)> {
+        let mut pixels = vec![T::default(); crop.width as usize * crop.height as usize];
+        let row = |(y, row): (u32, &mut [T])| {
+            let mut tracer = Tracer::new(self);
+            for (x, pixel) in (crop.x..).zip(row) {
+                let before = tracer.counts.rays();
+                *pixel = value(&mut tracer, [x, y]);
+                if !proceed(tracer.counts.rays() - before) {
+                    return None;
+                }
+            }
+            Some(tracer.counts)
+        };
+        let width = (crop.width as usize).max(1);
+        let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
+        let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
+        Some((pixels, counts))
+    }
+}
+
+impl Tracer<'_> {
+    /// The mean of all sub-samples and points of the lens.
+    fn pixel(&mut self, pixel: [u32; 2], values: Values) -> [f64; 3] {
+        let scene = self.scene();
+        let camera = scene.camera();
+        let factor = scene.settings().supersampling.get();
+        let points = lens_samples(&camera.lens);
+        let mut sum = Vec3::ZERO;
+        let mut sample = 0_u64;
+        for j in 0..factor {
+            for i in 0..factor {
+                let target = image_point(camera, pixel, [i, j], factor);
+                for k in 0..points {
+                    let ray = camera_ray(lens_point(camera, k), target);
+                    let radiance = self.radiance(ray, Key::new(pixel, sample));
+                    sum += match values {
+                        Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+                        Values::Linear => radiance,
+                    };
+                    sample += 1;
+                }
+            }
+        }
+        (sum / sample as f64).to_array()
+    }
+
+    /// The distance to what the middle of a pixel shows.
+    fn depth(&mut self, pixel: [u32; 2]) -> Option<f64> {
+        let camera = self.scene().camera();
+        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0, 0], 1));
+        self.distance(&ray)
+    }
+}
+
+/// Turns distances into brightness: `(t_max − t)/(t_max − t_min)` over all that was hit.
+fn normalize_depths(depths: &mut [Option<f64>]) {
+    let hits = || depths.iter().flatten().copied();
+    let near = hits().fold(f64::INFINITY, f64::min);
+    let far = hits().fold(0.0, f64::max);
+    let range = far - near;
+    for t in depths.iter_mut().flatten() {
+        *t = if range > 0.0 { (far - *t) / range } else { 1.0 };
+    }
+}
+
+/// The pixels of `crop` out of those of `whole`, in grey; black where nothing was hit.
+fn cut(values: &[Option<f64>], whole: Crop, crop: Crop) -> Image {
+    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
+    let inside = rows.flat_map(|row| row.iter().skip(crop.x as usize).take(crop.width as usize));
+    let pixels = inside.map(|value| [value.unwrap_or(0.0); 3]).collect();
+    Image { width: crop.width, height: crop.height, pixels }
+}

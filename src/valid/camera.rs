@@ -1,0 +1,103 @@
+//! The proof of the camera: a frustum with an inside, steps at right angles, an image with pixels.
+
+use super::check::{Check, SMALLEST};
+use crate::diag::Diagnostic;
+use crate::diag::codes;
+use crate::ir::{self, Field, Noun, Place};
+use crate::math::{NonNegative, Vec3};
+use std::num::NonZeroU32;
+
+/// The largest cosine between `right` and `up` that counts as a right angle.
+const RIGHT_ANGLE: f64 = 1e-9;
+
+/// A camera whose image has pixels and whose eye is off the image plane.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// Where rays start.
+    pub eye: Vec3,
+    /// The middle of the image.
+    pub center: Vec3,
+    /// The step to the right neighbour of a pixel.
+    pub right: Vec3,
+    /// The step to the upper neighbour; at a right angle to `right`.
+    pub up: Vec3,
+    /// Width in pixels.
+    pub width: NonZeroU32,
+    /// Height in pixels.
+    pub height: NonZeroU32,
+    /// The aperture.
+    pub lens: Lens,
+}
+
+/// A lens with at least one sample.
+#[derive(Clone, Copy, Debug)]
+pub struct Lens {
+    /// The radius of the aperture.
+    pub radius: NonNegative,
+    /// Points of the aperture each sub-sample takes.
+    pub samples: NonZeroU32,
+}
+
+pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camera> {
+    let ir::Camera { eye, center, right, up, size, lens } = camera;
+    let ir::Lens { radius, samples } = lens;
+    let eye = check.vector(*eye, at(Field::Eye));
+    let center = check.vector(*center, at(Field::Center));
+    let right = step(*right, Field::Right, check);
+    let up = step(*up, Field::Up, check);
+    let size = image_size(*size, check);
+    let radius = check.non_negative(*radius, "apertureRadius", at(Field::LensRadius));
+    let samples = check.count(*samples, "apertureSamples", at(Field::LensSamples));
+    let (eye, center, right, up) = (eye?, center?, right?, up?);
+    frustum(eye, center, right, up, check)?;
+    let (width, height) = size?;
+    Some(Camera { eye, center, right, up, width, height, lens: Lens { radius: radius?, samples: samples? } })
+}
+
+fn at(field: Field) -> Place {
+    Place::new(Noun::Camera, 0, field)
+}
+
+/// A step between pixels: a vector with a length.
+fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
+    let vector = check.vector(value, at(field))?;
+    if vector.abs().max_element() < SMALLEST {
+        let finding = Diagnostic::new(&codes::CAMERA_BASIS, "the camera's pixels have no size");
+        check.report(at(field), "this step between pixels is zero", finding);
+        return None;
+    }
+    Some(vector)
+}
+
+fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>) -> Option<()> {
+    let cosine = right.normalize().dot(up.normalize());
+    if cosine.abs() > RIGHT_ANGLE {
+        let message = format!("the camera's `right` and `up` are not at a right angle: their cosine is {cosine:.3e}");
+        check.report(at(Field::Up), "", Diagnostic::new(&codes::CAMERA_BASIS, message));
+        return None;
+    }
+    let normal = crate::math::cross(right.normalize(), up.normalize());
+    if crate::math::dot(normal, center - eye) == 0.0 {
+        let finding = Diagnostic::new(&codes::EYE_IN_IMAGE_PLANE, "the eye lies in the image plane");
+        let finding = finding.also(check.span(at(Field::Center)), "the plane goes through this point");
+        check.report(
+            at(Field::Eye),
+            "every ray would run inside the image",
+            finding.hint("move the eye off the plane"),
+        );
+        return None;
+    }
+    Some(())
+}
+
+fn image_size(size: [u32; 2], check: &mut Check<'_>) -> Option<(NonZeroU32, NonZeroU32)> {
+    match (NonZeroU32::new(size[0]), NonZeroU32::new(size[1])) {
+        (Some(width), Some(height)) => Some((width, height)),
+        _ => {
+            let message = format!("the image has no pixels: {} × {}", size[0], size[1]);
+            let finding = Diagnostic::new(&codes::EMPTY_IMAGE, message);
+            check.report(at(Field::Size), "both must be at least 1", finding);
+            None
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The tools of the proof: one number in, one number with a range out, or a finding at its place.
+
+use crate::diag::codes::{self, Code};
+use crate::diag::{Diagnostic, Severity, Sink};
+use crate::ir::{Field, Noun, Origins, Place};
+use crate::math::{NonNegative, Positive, Vec3};
+use std::num::NonZeroU32;
+
+/// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay finite.
+pub(super) const LARGEST: f64 = 1e60;
+
+/// The smallest length other than 0: its fourth power is still a normal number.
+pub(super) const SMALLEST: f64 = 1e-60;
+
+/// One run of the proof.
+pub(super) struct Check<'run> {
+    origins: &'run Origins,
+    sink: &'run mut Sink,
+    errors: bool,
+}
+
+impl<'run> Check<'run> {
+    pub(super) fn new(origins: &'run Origins, sink: &'run mut Sink) -> Self {
+        Self { origins, sink, errors: false }
+    }
+
+    pub(super) fn is_clean(&self) -> bool {
+        !self.errors
+    }
+
+    /// Reports a finding at a place.
+    pub(super) fn report(&mut self, place: Place, label: &str, finding: Diagnostic) {
+        self.errors |= finding.severity == Severity::Error;
+        self.sink.push(finding.at(self.origins.span(place), label).pointer(place.to_string()));
+    }
+
+    /// Where the value was written, for secondary labels and replacements.
+    pub(super) fn span(&self, place: Place) -> Option<crate::source::Span> {
+        self.origins.span(place)
+    }
+
+    /// Proves each entity; `None` if any failed, after all were looked at.
+    pub(super) fn all<T, V>(
+        &mut self,
+        entities: &[T],
+        mut one: impl FnMut(&T, usize, &mut Self) -> Option<V>,
+    ) -> Option<Vec<V>> {
+        let mut proven = Vec::with_capacity(entities.len());
+        for (index, entity) in entities.iter().enumerate() {
+            proven.extend(one(entity, index, self));
+        }
+        (proven.len() == entities.len()).then_some(proven)
+    }
+
+    /// A finite number of at most 1e60 in size.
+    pub(super) fn number(&mut self, value: f64, place: Place) -> Option<f64> {
+        if value.abs() <= LARGEST {
+            return Some(value);
+        }
+        let what = if value.is_finite() { "is too large to compute with" } else { "is not a finite number" };
+        let finding = Diagnostic::new(&codes::NOT_FINITE, format!("`{value}` {what}"));
+        self.report(place, "", finding.hint("numbers of a scene are finite and at most 1e60 in size"));
+        None
+    }
+
+    /// A point or vector of such numbers; one finding for the triple.
+    pub(super) fn vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+        let too_large = |component: &f64| component.is_nan() || component.abs() > LARGEST;
+        match value.into_iter().find(too_large) {
+            Some(culprit) => self.number(culprit, place).map(|_| Vec3::ZERO),
+            None => Some(Vec3::from_array(value)),
+        }
+    }
+
+    /// A vector of finite numbers of any size: only its direction counts.
+    pub(super) fn finite_vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+        match value.into_iter().find(|component| !component.is_finite()) {
+            Some(culprit) => self.number(culprit, place).map(|_| Vec3::ZERO),
+            None => Some(Vec3::from_array(value)),
+        }
+    }
+
+    /// An exponent: finite, of any size, at least 0.
+    pub(super) fn exponent(&mut self, value: f64, place: Place) -> Option<NonNegative> {
+        if !value.is_finite() {
+            return self.number(value, place).and_then(NonNegative::new);
+        }
+        let proven = NonNegative::new(value);
+        if proven.is_none() {
+            let finding =
+                Diagnostic::new(&codes::NEGATIVE_EXPONENT, format!("the exponent `n` is negative: `{value}`"));
+            self.report(place, "must be at least 0", finding.hint("1 is a dull highlight, 64 a sharp one"));
+        }
+        proven
+    }
+
+    /// A number of at least 0.
+    pub(super) fn non_negative(&mut self, value: f64, name: &str, place: Place) -> Option<NonNegative> {
+        let number = self.number(value, place)?;
+        let proven = NonNegative::new(number);
+        if proven.is_none() {
+            let finding = Diagnostic::new(&codes::NEGATIVE, format!("`{name}` is negative: `{value}`"));
+            self.report(place, "must be at least 0", finding.replace(format!("use `{name}: 0`"), None, "0"));
+        }
+        proven
+    }
+
+    /// A length above 0, of at least 1e-60.
+    pub(super) fn length(&mut self, value: f64, place: Place, code: &'static Code, name: &str) -> Option<Positive> {
+        let number = self.number(value, place)?;
+        if number >= SMALLEST {
+            return Positive::new(number);
+        }
+        let what = if number > 0.0 { "is too small to compute with" } else { "is not above 0" };
+        self.report(place, "must be above 0", Diagnostic::new(code, format!("the {name} `{value}` {what}")));
+        None
+    }
+
+    /// A colour: each channel at least 0.
+    pub(super) fn color(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
+        let color = self.vector(value, place)?;
+        if color.min_element() < 0.0 {
+            let message = format!("a colour has a negative channel: `{}`", color.min_element());
+            self.report(place, "each channel must be at least 0", Diagnostic::new(&codes::NEGATIVE, message));
+            return None;
+        }
+        Some(color.abs())
+    }
+
+    /// A count of at least 1.
+    pub(super) fn count(&mut self, value: u32, name: &str, place: Place) -> Option<NonZeroU32> {
+        let proven = NonZeroU32::new(value);
+        if proven.is_none() {
+            let finding = Diagnostic::new(&codes::ZERO_COUNT, format!("`{name}` is 0"));
+            self.report(place, "must be at least 1", finding.replace("one sample is the least", self.span(place), "1"));
+        }
+        proven
+    }
+}
+
+/// The place of a field of a light, material or surface.
+pub(super) fn place(noun: Noun, index: usize, field: Field) -> Place {
+    Place::new(noun, index, field)
+}

@@ -1,0 +1,138 @@
+//! The proof of the settings, and of the work they ask for.
+
+use super::check::Check;
+use crate::diag::Diagnostic;
+use crate::diag::codes;
+use crate::ir::{self, Field, Noun, Place};
+use std::num::NonZeroU32;
+
+/// The largest image without `--allow-huge`, in pixels.
+const MAX_PIXELS: u128 = 16_384 * 16_384;
+
+/// The largest number of rays without `--allow-huge`.
+const MAX_RAYS: u128 = 1 << 32;
+
+/// The largest number of bounces: a path keeps a few bytes for each.
+const MAX_DEPTH: u32 = 1_000_000;
+
+/// By which rules the picture is made.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// What a pixel shows.
+    pub mode: Mode,
+    /// Whether surfaces hide lights from each other.
+    pub shadows: bool,
+    /// Mirror or refraction bounces after the first hit.
+    pub max_depth: u32,
+    /// Sub-samples along each side of a pixel.
+    pub supersampling: NonZeroU32,
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug)]
+pub enum Mode {
+    /// Phong's model.
+    Phong,
+    /// The distance of the first hit.
+    Zbuffer,
+    /// The normal of the first hit.
+    Normal,
+    /// Gooch's cool-to-warm shading.
+    Gooch(Gooch),
+}
+
+/// The parameters of Gooch shading, finite.
+#[derive(Clone, Copy, Debug)]
+pub struct Gooch {
+    /// The blue of the cool colour.
+    pub b: f64,
+    /// The yellow of the warm colour.
+    pub y: f64,
+    /// The share of the surface's colour in the cool tone.
+    pub alpha: f64,
+    /// The share of the surface's colour in the warm tone.
+    pub beta: f64,
+}
+
+pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option<Settings> {
+    let ir::Settings { mode, shadows, max_depth, supersampling } = settings;
+    let mode = match mode {
+        ir::Mode::Phong => Some(Mode::Phong),
+        ir::Mode::Zbuffer => Some(Mode::Zbuffer),
+        ir::Mode::Normal => Some(Mode::Normal),
+        ir::Mode::Gooch(parameters) => gooch(parameters, check),
+    };
+    let supersampling = check.count(*supersampling, "supersampling factor", at(Field::Supersampling));
+    if *max_depth > MAX_DEPTH {
+        let finding = Diagnostic::new(&codes::TOO_DEEP, format!("{max_depth} bounces are too many"));
+        check.report(
+            at(Field::MaxDepth),
+            "",
+            finding.hint(format!("at most {MAX_DEPTH}; 5 is enough for most scenes")),
+        );
+        return None;
+    }
+    Some(Settings { mode: mode?, shadows: *shadows, max_depth: *max_depth, supersampling: supersampling? })
+}
+
+fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
+    let ir::Gooch { b, y, alpha, beta } = gooch;
+    let b = check.number(*b, at(Field::GoochB));
+    let y = check.number(*y, at(Field::GoochY));
+    let alpha = check.number(*alpha, at(Field::GoochAlpha));
+    let beta = check.number(*beta, at(Field::GoochBeta));
+    Some(Mode::Gooch(Gooch { b: b?, y: y?, alpha: alpha?, beta: beta? }))
+}
+
+fn at(field: Field) -> Place {
+    Place::new(Noun::Settings, 0, field)
+}
+
+/// Refuses pictures that take more memory or time than anyone meant.
+pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Check<'_>) {
+    let [width, height] = scene.camera.size;
+    let pixels = u128::from(width) * u128::from(height);
+    if options.allow_huge {
+        return;
+    }
+    if pixels > MAX_PIXELS {
+        let message = format!("the image is too large: {width} × {height} = {pixels} pixels");
+        let finding = Diagnostic::new(&codes::HUGE_IMAGE, message);
+        let finding = finding.hint(format!("at most {MAX_PIXELS} pixels; `--allow-huge` lifts the limit"));
+        check.report(Place::new(Noun::Camera, 0, Field::Size), "", finding);
+        return;
+    }
+    too_many_rays(scene, pixels, check);
+}
+
+fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
+    let ir::Settings { supersampling, max_depth, .. } = scene.settings;
+    let ir::Lens { radius, samples } = scene.camera.lens;
+    let lens = if radius == 0.0 { 1 } else { u128::from(samples) };
+    let glossy = u128::from(scene.materials.iter().map(glossy_rays).max().unwrap_or(1));
+    let bounces = if glossy > 1 { max_depth } else { 0 };
+    let square = u128::from(supersampling) * u128::from(supersampling);
+    let rays = pixels.saturating_mul(square).saturating_mul(lens).saturating_mul(glossy.saturating_pow(bounces));
+    if rays <= MAX_RAYS {
+        return;
+    }
+    let [width, height] = scene.camera.size;
+    let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
+    if lens > 1 {
+        product += &format!(" × {lens} aperture samples");
+    }
+    if bounces > 0 {
+        product += &format!(" × up to {glossy}^{bounces} glossy rays");
+    }
+    let total = if rays == u128::MAX { "more than 2¹²⁸".to_owned() } else { rays.to_string() };
+    let finding =
+        Diagnostic::new(&codes::TOO_MANY_RAYS, format!("the picture takes too many rays: {product} = {total}"));
+    let finding = finding.hint("at most 2³² = 4294967296 rays from the eye; `--allow-huge` lifts the limit");
+    check.report(at(Field::Supersampling), "", finding);
+}
+
+/// How many rays one bounce off the material makes.
+fn glossy_rays(material: &ir::Material) -> u32 {
+    let ir::Material::Phong(phong) = material;
+    if phong.ks > 0.0 { phong.glossy_samples } else { 1 }
+}
