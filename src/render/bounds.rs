@@ -34,6 +34,14 @@ impl Bounds {
         }
     }
 
+    /// The box around a disc with a unit normal, rounded outward.
+    #[must_use]
+    pub(super) fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
+        let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
+        let reach = Vec3::new(reach(normal.x), reach(normal.y), reach(normal.z));
+        Self::around(center - reach, 0.0).union(Self::around(center + reach, 0.0))
+    }
+
     /// The smallest box that holds both.
     #[must_use]
     pub(super) fn union(self, other: Self) -> Self {

@@ -20,6 +20,12 @@ impl Plane {
         Self { anchor, raw, normal: raw / dot(raw, raw).sqrt() }
     }
 
+    /// The unit normal.
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
     /// The plane of a triangle, or `None` if its corners are in line.
     #[must_use]
     pub fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {

@@ -1,0 +1,147 @@
+//! The capped cone: the stretch inside one nappe and the stretch between base and apex, intersected.
+//!
+//! The ray is first moved to the point nearest to the cone's middle, so that the terms of the quadratic have the size of
+//! the cone; each root is then refined by one Newton step on the distance ρ − g from the side.
+
+use super::bounds::Bounds;
+use super::interval::{Interval, roots};
+use super::ray::{Interaction, Ray};
+use crate::math::{Vec3, cross, difference_of_products, dot};
+
+/// A cone with a cap at its base, ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    base: Vec3,
+    /// A unit vector from the base to the apex.
+    axis: Vec3,
+    height: f64,
+    radius: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Side,
+    Base,
+    Apex,
+}
+
+/// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ − τ·t.
+struct Profile {
+    w: Vec3,
+    x: Vec3,
+    sigma: f64,
+    tau: f64,
+}
+
+impl Profile {
+    /// The Newton step of a root of ρ − g; none at the axis, where ρ has no slope.
+    fn refined(&self, t: f64) -> f64 {
+        let foot = self.w + self.x * t;
+        let rho = foot.length();
+        let slope = foot.dot(self.x) / rho + self.tau;
+        let step = (rho - (self.sigma - self.tau * t)) / slope;
+        if step.is_finite() { t - step } else { t }
+    }
+
+    /// The stretch inside the nappe below the apex.
+    fn inside(&self) -> Option<Interval<Part>> {
+        let Self { w, x, sigma, tau } = *self;
+        let a = difference_of_products(x.length(), x.length(), tau, tau);
+        let b = -(w.dot(x) + sigma * tau);
+        let c = (w.length() - sigma) * (w.length() + sigma);
+        let side = |t: f64| (t, Part::Side);
+        if a == 0.0 {
+            let t = self.refined(c / (2.0 * b));
+            let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
+            let below = if tau > 0.0 {
+                Interval { enter: before, leave: side(t) }
+            } else {
+                Interval { enter: side(t), leave: after }
+            };
+            return (t.is_finite() && (b < 0.0) == (tau > 0.0)).then_some(below);
+        }
+        let discriminant = difference_of_products(b, b, a, c);
+        if a > 0.0 && (discriminant < 0.0 || sigma - tau * (b / a) < 0.0) {
+            return None;
+        }
+        let (first, second) = roots(a, b, c, discriminant);
+        let (first, second) = (self.refined(first), self.refined(second));
+        Some(if a > 0.0 {
+            Interval { enter: side(first), leave: side(second) }
+        } else if tau > 0.0 {
+            Interval { enter: side(f64::NEG_INFINITY), leave: side(first) }
+        } else {
+            Interval { enter: side(second), leave: side(f64::INFINITY) }
+        })
+    }
+}
+
+impl Cone {
+    /// The cone over the disc around `base`, with its apex at `base + up`; `up` must not be zero.
+    #[must_use]
+    pub fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
+        let height = dot(up, up).sqrt();
+        Self { base, axis: up / height, height, radius }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        self.crossing(ray).map(|(t, _)| t)
+    }
+
+    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+        let d = ray.direction;
+        let start = ray.origin - self.base;
+        let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
+        let f = start + d * nearest;
+        let slope = self.radius / self.height;
+        let (above, rise) = (dot(self.axis, f), dot(self.axis, d));
+        let profile = Profile {
+            w: cross(f, self.axis),
+            x: cross(d, self.axis),
+            sigma: slope * (self.height - above),
+            tau: slope * rise,
+        };
+        let inside = profile.inside()?.map(|t| t + nearest);
+        inside.and(self.between_ends(start, d)?)?.first_in_front()
+    }
+
+    /// The stretch between the planes of base and apex.
+    fn between_ends(&self, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
+        let (above, rise) = (dot(self.axis, f), dot(self.axis, d));
+        if rise == 0.0 {
+            let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Base), leave: (f64::INFINITY, Part::Apex) };
+            return (0.0..=self.height).contains(&above).then_some(everywhere);
+        }
+        let (base, apex) = ((-above / rise, Part::Base), ((self.height - above) / rise, Part::Apex));
+        Some(if rise > 0.0 { Interval { enter: base, leave: apex } } else { Interval { enter: apex, leave: base } })
+    }
+
+    /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let local = (ray.origin - self.base) + ray.direction * t;
+        let along = dot(local, self.axis);
+        let radial = (local - self.axis * along).normalize_or_zero();
+        let (local, normal) = match part {
+            Part::Base => (local - self.axis * along, -self.axis),
+            Part::Apex => (self.axis * self.height, self.axis),
+            Part::Side if radial == Vec3::ZERO => (local, self.axis),
+            Part::Side => {
+                let normal = (radial * self.height + self.axis * self.radius).normalize();
+                let off = normal.dot(local - self.axis * self.height);
+                (local - normal * off, normal)
+            }
+        };
+        Interaction::new(ray, self.base + local, normal, self.base, self.height + self.radius)
+    }
+
+    /// A box around the cone.
+    #[must_use]
+    pub(super) fn bounds(&self) -> Bounds {
+        let apex = Bounds::around(self.base + self.axis * self.height, 0.0);
+        Bounds::around_disc(self.base, self.axis, self.radius).union(apex)
+    }
+}

@@ -1,0 +1,101 @@
+//! The capped cylinder: the stretch inside the infinite cylinder and the stretch between its caps, intersected.
+//!
+//! The quadratic is that of the cross products with the axis, so its terms have the size of the distance from the axis
+//! and not of the distance from the origin; the discriminant comes from the point nearest to the axis, as the sphere's.
+
+use super::bounds::Bounds;
+use super::interval::{Interval, roots};
+use super::ray::{Interaction, Ray};
+use crate::math::{Vec3, cross, dot};
+
+/// A cylinder with two caps, ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Cylinder {
+    base: Vec3,
+    /// A unit vector from the base to the top.
+    axis: Vec3,
+    height: f64,
+    radius: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Side,
+    Base,
+    Top,
+}
+
+impl Cylinder {
+    /// The cylinder over the disc around `base`, `height` along `direction`, which must not be zero.
+    #[must_use]
+    pub fn new(base: Vec3, direction: Vec3, height: f64, radius: f64) -> Self {
+        Self { base, axis: direction.normalize(), height, radius }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        self.crossing(ray).map(|(t, _)| t)
+    }
+
+    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+        let f = ray.origin - self.base;
+        self.inside_side(f, ray.direction)?.and(caps(self.axis, self.height, f, ray.direction)?)?.first_in_front()
+    }
+
+    /// The stretch inside the infinite cylinder.
+    fn inside_side(&self, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
+        let r2 = self.radius * self.radius;
+        let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
+        let a = across.dot(across);
+        if a == 0.0 {
+            let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Side), leave: (f64::INFINITY, Part::Side) };
+            return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
+        }
+        let b = -from_axis.dot(across);
+        let foot = from_axis + across * (b / a);
+        let inside = r2 - foot.dot(foot);
+        if inside < 0.0 || inside.is_nan() {
+            return None;
+        }
+        let length = from_axis.length();
+        let c = (length - self.radius) * (length + self.radius);
+        let (enter, leave) = roots(a, b, c, a * inside);
+        Some(Interval { enter: (enter, Part::Side), leave: (leave, Part::Side) })
+    }
+
+    /// The point at `t`, moved onto the part that was hit.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let local = (ray.origin - self.base) + ray.direction * t;
+        let along = dot(local, self.axis);
+        let (local, normal) = match part {
+            Part::Base => (local - self.axis * along, -self.axis),
+            Part::Top => (local + self.axis * (self.height - along), self.axis),
+            Part::Side => {
+                let normal = (local - self.axis * along).normalize();
+                (self.axis * along + normal * self.radius, normal)
+            }
+        };
+        Interaction::new(ray, self.base + local, normal, self.base, self.height + self.radius)
+    }
+
+    /// A box around the cylinder.
+    #[must_use]
+    pub(super) fn bounds(&self) -> Bounds {
+        let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
+        disc(self.base).union(disc(self.base + self.axis * self.height))
+    }
+}
+
+/// The stretch between the planes through 0 and `height` along the axis.
+fn caps(axis: Vec3, height: f64, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
+    let (low, slope) = (dot(axis, f), dot(axis, d));
+    if slope == 0.0 {
+        let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Base), leave: (f64::INFINITY, Part::Top) };
+        return (0.0..=height).contains(&low).then_some(everywhere);
+    }
+    let (base, top) = ((-low / slope, Part::Base), ((height - low) / slope, Part::Top));
+    Some(if slope > 0.0 { Interval { enter: base, leave: top } } else { Interval { enter: top, leave: base } })
+}

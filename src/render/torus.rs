@@ -1,0 +1,183 @@
+//! The torus: critical points of its quartic bracket the roots, and the signed distance decides and refines them.
+//!
+//! The ray is moved to the point nearest to the centre and measured in units of the torus, so the quartic never sees
+//! the distance of the eye. Between two critical points the quartic is monotone and has one root or none. Its value
+//! near a root is a difference of large terms; the signed distance √((ρ − R)² + z²) − r has the same sign and keeps its
+//! digits, so every decision is taken on it.
+
+use super::bounds::Bounds;
+use super::ray::{Interaction, Ray};
+use crate::math::{Vec3, cross, dot};
+
+/// Steps of a bracketed search: bisection alone would need 60.
+const MAX_STEPS: usize = 100;
+
+/// A torus ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Torus {
+    center: Vec3,
+    /// A unit vector along the axis.
+    axis: Vec3,
+    /// From the centre to the middle of the tube.
+    major: f64,
+    /// Of the tube.
+    minor: f64,
+}
+
+/// A ray near the torus, in units of its outer radius.
+struct Line {
+    from: Vec3,
+    step: Vec3,
+    axis: Vec3,
+    major: f64,
+    minor: f64,
+}
+
+impl Line {
+    /// The signed distance of the point at `s` from the surface.
+    fn distance(&self, s: f64) -> f64 {
+        let p = self.from + self.step * s;
+        let z = p.dot(self.axis);
+        let off = cross(p, self.axis).length() - self.major;
+        (off * off + z * z).sqrt() - self.minor
+    }
+
+    /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no square term, as
+    /// `step` has length 1 and is at a right angle to `from`.
+    fn derivative(&self) -> (f64, f64) {
+        // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
+        let (w, x) = (cross(self.from, self.axis), cross(self.step, self.axis));
+        let k = self.from.dot(self.from) + (self.major - self.minor) * (self.major + self.minor);
+        let square = 2.0 * self.major * self.major;
+        (k - square * x.dot(x), -square * w.dot(x))
+    }
+
+    /// The first `s` in `(low, high)` at which the distance changes sign from that at `low`, in brackets of the
+    /// quartic's critical points.
+    fn first_root(&self, low: f64, high: f64) -> Option<f64> {
+        let (linear, constant) = self.derivative();
+        let mut borders = [high; 4];
+        borders[..3].copy_from_slice(&cubic_roots(linear, constant, low, high));
+        let (mut before, mut inside) = (low, self.distance(low) < 0.0);
+        for border in borders {
+            let there = self.distance(border);
+            if there == 0.0 && border > low {
+                return Some(border);
+            }
+            if (there < 0.0) != inside {
+                return Some(self.bisect(before, border));
+            }
+            (before, inside) = (border, there < 0.0);
+        }
+        None
+    }
+
+    /// The root between two points where the distance has opposite signs: secant steps, kept inside the bracket by
+    /// bisection (Dekker's method with Illinois' weights).
+    fn bisect(&self, low: f64, high: f64) -> f64 {
+        let (mut a, mut b) = ((low, self.distance(low)), (high, self.distance(high)));
+        for step in 0..MAX_STEPS {
+            let middle = 0.5 * (a.0 + b.0);
+            let secant = b.0 - b.1 * ((b.0 - a.0) / (b.1 - a.1));
+            let inside = secant > a.0.min(b.0) && secant < a.0.max(b.0);
+            let next = if inside && step % 4 != 3 { secant } else { middle };
+            let value = self.distance(next);
+            if value == 0.0 || next == a.0 || next == b.0 {
+                return next;
+            }
+            if (value < 0.0) == (b.1 < 0.0) {
+                a.1 *= 0.5;
+            } else {
+                a = b;
+            }
+            b = (next, value);
+        }
+        b.0
+    }
+}
+
+/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order; places without a root hold `high`.
+fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> [f64; 3] {
+    let value = |s: f64| (s * s + linear) * s + constant;
+    // Bracket by the extremes of the cubic.
+    let spread = (-linear / 3.0).max(0.0).sqrt();
+    let borders = [low, (-spread).clamp(low, high), spread.clamp(low, high), high];
+    let mut roots = [high; 3];
+    let mut count = 0;
+    for pair in borders.windows(2) {
+        let (mut a, mut b) = (pair[0], pair[1]);
+        let rises = value(b) > value(a);
+        if a >= b || (value(a) < 0.0) == (value(b) < 0.0) {
+            continue;
+        }
+        for _ in 0..MAX_STEPS {
+            let middle = 0.5 * (a + b);
+            if middle <= a || middle >= b {
+                break;
+            }
+            if (value(middle) > 0.0) == rises { b = middle } else { a = middle }
+        }
+        roots[count] = b;
+        count += 1;
+    }
+    roots
+}
+
+impl Torus {
+    /// The torus around the line through `center` along `axis`, which must not be zero.
+    #[must_use]
+    pub fn new(center: Vec3, axis: Vec3, major: f64, minor: f64) -> Self {
+        Self { center, axis: axis / dot(axis, axis).sqrt(), major, minor }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        let f = ray.origin - self.center;
+        let d = ray.direction;
+        let length2 = d.dot(d);
+        let nearest = -f.dot(d) / length2;
+        let foot = f + d * nearest;
+        let outer = self.major + self.minor;
+        let half2 = outer * outer * (1.0 + 1e-12) - foot.dot(foot);
+        if half2 < 0.0 || half2.is_nan() {
+            return None;
+        }
+        // Measure in units of the outer radius.
+        let length = length2.sqrt();
+        let line = Line {
+            from: foot / outer,
+            step: d / length,
+            axis: self.axis,
+            major: self.major / outer,
+            minor: self.minor / outer,
+        };
+        let half = half2.sqrt() / outer;
+        let start = -nearest * length / outer;
+        let low = if start > -half { start } else { -half };
+        if low >= half {
+            return None;
+        }
+        let t = nearest + line.first_root(low, half)? * (outer / length);
+        (t > 0.0).then_some(t)
+    }
+
+    /// The point at `t`, moved onto the tube in its own frame.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let local = (ray.origin - self.center) + ray.direction * t;
+        let z = local.dot(self.axis);
+        let ring = (local - self.axis * z).normalize_or_zero() * self.major;
+        let normal = (local - ring).normalize();
+        let point = self.center + ring + normal * self.minor;
+        Interaction::new(ray, point, normal, self.center, self.major + self.minor)
+    }
+
+    /// A box around the torus.
+    #[must_use]
+    pub(super) fn bounds(&self) -> Bounds {
+        let disc = Bounds::around_disc(self.center, self.axis, self.major);
+        let tube = Vec3::splat(self.minor);
+        Bounds::around(disc.min - tube, 0.0).union(Bounds::around(disc.max + tube, 0.0))
+    }
+}
