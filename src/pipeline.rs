@@ -1,5 +1,7 @@
 //! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here prints or exits.
 
+pub mod trial;
+
 use crate::diag::Sink;
 use crate::front::course;
 use crate::ir::{Lowered, Origins, Scene};

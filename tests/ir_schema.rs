@@ -90,7 +90,9 @@ fn mutate(tree: &mut Value, dice: &mut Dice) {
             Some(item) if dice.roll(2) == 0 => items.extend([item.clone(), item]),
             _ => {}
         },
-        other => *other = replacement(dice),
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => {
+            *tree = replacement(dice)
+        }
     }
 }
 
