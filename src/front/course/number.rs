@@ -7,6 +7,7 @@ use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use super::spelling::clip;
 use super::tree::{NodeId, Shape};
+use super::value::unsupported;
 use crate::diag::codes;
 use serde_json::{Value as Json, json};
 
@@ -57,6 +58,17 @@ fn is_decimal(word: &str) -> bool {
             let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
             !exponent.is_empty() && digits(exponent) == exponent.len()
         }
+    }
+}
+
+/// The number a word without quotes says, if it says one; nothing is reported.
+pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
+    match context.tree.shape(node) {
+        Shape::Word(word) => match read(word) {
+            Reading::Number(value) => Some(value),
+            Reading::NotFinite | Reading::NoNumber => None,
+        },
+        Shape::Text(_) | Shape::List | Shape::Map => None,
     }
 }
 
@@ -150,9 +162,23 @@ number! {
     NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
 }
 
-number! {
-    /// A length above 0.
-    Length(f64), |node, context| number(node, "a number", context), { "type": "number", "exclusiveMinimum": 0 }
+/// The radius of a sphere, above 0; with the axis of its texture, which this version can't show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Radius(pub(super) f64);
+
+impl Value for Radius {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let tree = context.tree;
+        if tree.shape(node) != Shape::List {
+            return number(node, "a number", context).map(Self);
+        }
+        unsupported("the axis of a texture", tree.span(node), "the texture", context);
+        number(tree.items(node).next().unwrap_or(node), "a number", context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": "number", "exclusiveMinimum": 0 })
+    }
 }
 
 number! {
