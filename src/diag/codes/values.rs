@@ -1,4 +1,6 @@
 //! `VA`: values that mean nothing, or surely not what was meant.
+//!
+//! Numbers below 100 are those the proof finds, on any scene; from 100 on they are found in texts.
 
 super::codes! { VA:
     NOT_FINITE = "VA001", Error, "a number is not finite or too large to compute with",
@@ -46,4 +48,20 @@ super::codes! { VA:
     TOO_DEEP = "VA016", Error, "more than 1000000 bounces",
         "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
          10, a box of mirrors a few hundred.";
+    OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
+        "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
+         most 65535 pixels.";
+    NO_CAMERA = "VA102", Error, "the scene has no camera",
+        "A scene needs a `Camera` with `eye`, `center`, `up` and `viewSize`. Old files have `Eye: [x, y, z]`, which \
+         looks at the square from (0, 0, 0) to (400, 400, 0).";
+    TWO_CAMERAS = "VA103", Warning, "the scene has both `Camera` and `Eye`",
+        "`Camera` is used and `Eye` is ignored. With `--strict` it is an error.";
+    EYE_IS_CENTER = "VA104", Error, "the camera looks at the point where it stands",
+        "`eye` and `center` are the same point, so there is no direction to look in.";
+    ZERO_UP = "VA105", Error, "the `up` of the camera has no length",
+        "The direction of `up` says which way is up in the picture, its length is the size of a pixel in the plane \
+         through `center`. A length of 0 says neither.";
+    UP_PARALLEL = "VA106", Error, "the `up` of the camera points along the view",
+        "When `up` is parallel to the way from `eye` to `center`, no side of the picture is its upper side. The hint \
+         proposes the axis that lies least along the view; with `--lenient` that axis is taken, with a warning.";
 }

@@ -1,0 +1,133 @@
+//! The camera, as new files (`Camera`) and old ones (`Eye`) say it.
+
+use super::decode::{Context, Spanned};
+use super::lower::Lowering;
+use super::number::{Count, NonNegative};
+use super::record::{keys, record};
+use super::value::{Point, Size, Vector};
+use crate::diag::{Severity, codes};
+use crate::ir::{self, Field};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up};
+use crate::source::Span;
+
+record! {
+    /// The camera: where it stands, what it looks at, and the image it makes.
+    struct Camera, "camera" {
+        /// Where the camera stands.
+        eye: Spanned<Point>, required, keys!["eye"];
+        /// The point in the middle of the image; the plane through it is in focus.
+        center: Spanned<Point>, required, keys!["center"];
+        /// The upward direction; its length is the size of a pixel in the plane through `center`.
+        up: Spanned<Vector>, required, keys!["up"];
+        /// Width and height of the image in pixels.
+        view_size: Spanned<Size>, required, keys!["viewSize"];
+        /// The radius of the lens in scene units; 0 keeps everything in focus.
+        aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
+        /// How many points of the lens each sub-sample looks through.
+        aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
+    }
+}
+
+/// The side of the image that an `Eye` looks at, in pixels and in scene units.
+const OLD_SIDE: u32 = 400;
+
+/// A sound camera for a scene whose own can't be read.
+pub(super) fn placeholder() -> ir::Camera {
+    ir::Camera {
+        eye: [0.0, 0.0, 1.0],
+        center: [0.0; 3],
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        size: [1, 1],
+        lens: ir::Lens { radius: 0.0, samples: 1 },
+    }
+}
+
+impl Lowering {
+    /// Lowers a `Camera`.
+    pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
+        let Camera { eye, center, up, view_size, aperture_radius, aperture_samples } = &camera.value;
+        let basis = basis(&camera.value, context);
+        for (field, span) in [
+            (Field::Whole, camera.span),
+            (Field::Eye, eye.span),
+            (Field::Center, center.span),
+            (Field::Right, up.span),
+            (Field::Up, up.span),
+            (Field::Size, view_size.span),
+            (Field::LensRadius, aperture_radius.span),
+            (Field::LensSamples, aperture_samples.span),
+        ] {
+            self.origin(ir::Noun::Camera, 0, field, span);
+        }
+        let Some((right, up)) = basis else { return };
+        self.scene.camera = ir::Camera {
+            eye: eye.value.0,
+            center: center.value.0,
+            right: right.to_array(),
+            up: up.to_array(),
+            size: view_size.value.0,
+            lens: ir::Lens { radius: aperture_radius.value.0, samples: aperture_samples.value.0 },
+        };
+    }
+
+    /// Lowers an `Eye`: it looks at the square of 400 units in the plane z = 0, one unit a pixel.
+    pub(super) fn eye(&mut self, eye: Spanned<Point>) {
+        let middle = f64::from(OLD_SIDE) / 2.0;
+        self.scene.camera =
+            ir::Camera { eye: eye.value.0, center: [middle, middle, 0.0], size: [OLD_SIDE, OLD_SIDE], ..placeholder() };
+        self.origin(ir::Noun::Camera, 0, Field::Whole, eye.span);
+        self.origin(ir::Noun::Camera, 0, Field::Eye, eye.span);
+    }
+}
+
+/// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
+fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
+    let Camera { eye, center, up, .. } = camera;
+    let [from, to, upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
+    match camera_basis(from, to, upward) {
+        Ok(basis) => Some(basis),
+        Err(BasisFault::ZeroGaze) => {
+            if let Some(span) = center.span {
+                let message = || "the camera looks at the point where it stands".to_owned();
+                context.report(&codes::EYE_IS_CENTER, span, message, |d| {
+                    d.at(span, "the same point as `eye`").also(eye.span, "the eye").hint("move one of them")
+                });
+            }
+            None
+        }
+        Err(BasisFault::ZeroUp) => {
+            if let Some(span) = up.span {
+                context.report(
+                    &codes::ZERO_UP,
+                    span,
+                    || "`up` has no length".to_owned(),
+                    |d| d.at(span, "no direction, and no size of a pixel").replace("for instance", span, "[0, 1, 0]"),
+                );
+            }
+            None
+        }
+        Err(BasisFault::Parallel) => {
+            parallel(to - from, upward, up.span?, context).and_then(|up| camera_basis(from, to, up).ok())
+        }
+    }
+}
+
+/// Reports an `up` along the view, with a better one; that one if repairs are wanted.
+fn parallel(gaze: Vec3, up: Vec3, span: Span, context: &mut Context<'_>) -> Option<Vec3> {
+    let better = fallback_up(gaze, up);
+    let text = super::emit::triple(better.to_array());
+    let lenient = context.options.lenient;
+    context.report(
+        &codes::UP_PARALLEL,
+        span,
+        || "`up` points along the view".to_owned(),
+        |d| match lenient {
+            false => {
+                d.at(span, "parallel to the way from `eye` to `center`").replace("turn it, for instance", span, text)
+            }
+            true => d.at(span, format!("parallel to the view; taken as {text}")).severity(Severity::Warning),
+        },
+    );
+    lenient.then_some(better)
+}

@@ -1,0 +1,245 @@
+//! What decoding stands on: values with their spans, and the context that collects every finding.
+
+use super::schema::Definitions;
+use super::spelling::clip;
+use super::tree::{NodeId, Shape, Tree};
+use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
+use crate::front::Options;
+use crate::source::Span;
+use serde_json::Value as Json;
+use std::collections::BTreeSet;
+use std::marker::PhantomData;
+
+/// A type of the format: read from the tree, described in the schema.
+pub(super) trait Value: Sized {
+    /// Reads the value; `None` if it can't be read, and then the sink has an error.
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self>;
+
+    /// The JSON Schema of exactly what [`Value::decode`] takes without an error.
+    fn schema(definitions: &mut Definitions) -> Json;
+
+    /// The value as the schema shows a default.
+    fn json(&self) -> Json {
+        Json::Null
+    }
+}
+
+/// A value and where it was written; a default was written nowhere.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spanned<T> {
+    pub(super) value: T,
+    pub(super) span: Option<Span>,
+}
+
+impl<T> Spanned<T> {
+    /// A default.
+    pub(super) fn unwritten(value: T) -> Self {
+        Self { value, span: None }
+    }
+}
+
+/// A value that may be shared: the node it was read from, if that has an anchor.
+pub(super) struct Shared<T> {
+    pub(super) value: T,
+    pub(super) anchor: Option<NodeId>,
+}
+
+impl<T: Value> Value for Shared<T> {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let target = context.tree.target(node);
+        let anchor = context.tree.anchored(target).then_some(target);
+        Some(Self { value: T::decode(node, context)?, anchor })
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        T::schema(definitions)
+    }
+}
+
+/// A list whose items are decoded one by one, as they are lowered.
+pub(super) struct Each<T> {
+    list: Option<NodeId>,
+    items: PhantomData<T>,
+}
+
+impl<T> Each<T> {
+    /// No items.
+    pub(super) fn none() -> Self {
+        Self { list: None, items: PhantomData }
+    }
+}
+
+impl<T: Value> Each<T> {
+    /// Decodes every item and hands it on with its span; those that fail are left out.
+    pub(super) fn decode_each(
+        &self,
+        context: &mut Context<'_>,
+        name: &'static str,
+        mut take: impl FnMut(&mut Context<'_>, Spanned<T>),
+    ) {
+        let tree = context.tree;
+        for item in self.list.iter().flat_map(|list| tree.items(*list)) {
+            context.key = Key { text: name, span: None };
+            if let Some(value) = T::decode(item, context) {
+                let span = Some(context.head(item));
+                take(context, Spanned { value, span });
+            }
+        }
+    }
+}
+
+impl<T: Value> Value for Each<T> {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        match context.tree.shape(node) {
+            Shape::List => Some(Self { list: Some(node), items: PhantomData }),
+            Shape::Word(_) | Shape::Text(_) | Shape::Map => context.expected(node, "a list"),
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        serde_json::json!({ "type": "array", "items": T::schema(definitions) })
+    }
+
+    fn json(&self) -> Json {
+        Json::Array(Vec::new())
+    }
+}
+
+/// The key a value belongs to.
+#[derive(Clone, Copy)]
+pub(super) struct Key<'a> {
+    pub(super) text: &'a str,
+    /// Where the key stands; an item of a list has none of its own.
+    pub(super) span: Option<Span>,
+}
+
+/// A key of a map, its own or merged, with its value.
+#[derive(Clone, Copy)]
+pub(super) struct Entry<'a> {
+    pub(super) key: &'a str,
+    pub(super) key_node: NodeId,
+    pub(super) value: NodeId,
+    pub(super) claimed: bool,
+}
+
+/// More findings than this are no longer looked through for repetition.
+const REMEMBERED: usize = 10_000;
+
+/// Aliases and merge keys may make a reader look at this many entries more than the text has nodes.
+const MAX_REPEATED: usize = 4_000_000;
+
+/// One pass over a tree: the findings, and what the pass remembers.
+pub(super) struct Context<'a> {
+    pub(super) tree: &'a Tree<'a>,
+    pub(super) options: &'a Options,
+    pub(super) key: Key<'a>,
+    /// The entries of the maps being read, innermost last.
+    pub(super) entries: Vec<Entry<'a>>,
+    /// Other spellings met, once each, with the first place.
+    pub(super) spellings: Vec<(&'static str, &'static str, Span)>,
+    sink: &'a mut Sink,
+    /// What has been said about which bytes: an alias brings a reader to the same place again.
+    said: BTreeSet<(Span, &'static str)>,
+    steps: usize,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(tree: &'a Tree<'a>, options: &'a Options, sink: &'a mut Sink) -> Self {
+        Self {
+            tree,
+            options,
+            key: Key { text: "", span: None },
+            entries: Vec::new(),
+            spellings: Vec::new(),
+            sink,
+            said: BTreeSet::new(),
+            steps: 0,
+        }
+    }
+
+    /// Pushes what `make` adds to a finding at `span`, unless the same was said there before.
+    pub(super) fn report(
+        &mut self,
+        code: &'static Code,
+        span: Span,
+        message: impl FnOnce() -> String,
+        make: impl FnOnce(Diagnostic) -> Diagnostic,
+    ) {
+        let known = self.said.contains(&(span, code.id));
+        if known || self.exhausted() {
+            return;
+        }
+        if self.said.len() < REMEMBERED {
+            self.said.insert((span, code.id));
+        }
+        self.sink.push(make(Diagnostic::new(code, message()).at(span, "")));
+    }
+
+    /// Reports a value of the wrong type. Always `None`.
+    pub(super) fn expected<T>(&mut self, node: NodeId, what: &str) -> Option<T> {
+        let (tree, key) = (self.tree, self.key);
+        let found = describe(tree.shape(node));
+        let name = match key.span {
+            Some(_) => format!("`{}`", clip(key.text)),
+            None => format!("each of `{}`", clip(key.text)),
+        };
+        let span = tree.span(node);
+        let place = if span.start == span.end { key.span.unwrap_or(span) } else { self.first_line(node) };
+        let message = || format!("{name} must be {what}, not {found}");
+        self.report(&codes::WRONG_TYPE, place, message, |d| d.at(place, found.clone()));
+        None
+    }
+
+    /// The severity of what is left unread: an error if the user asked for strictness.
+    pub(super) fn unread(&self) -> Severity {
+        if self.options.strict { Severity::Error } else { Severity::Warning }
+    }
+
+    /// A span that stands for a node as a whole: its first pair if it is a map, else its first line.
+    pub(super) fn head(&self, node: NodeId) -> Span {
+        match self.tree.pairs(node).next() {
+            Some((key, value)) if self.tree.shape(node) == Shape::Map => match self.tree.shape(value) {
+                Shape::Word(_) | Shape::Text(_) => self.tree.span(key).to(self.tree.span(value)),
+                Shape::List | Shape::Map => self.tree.span(key),
+            },
+            Some(_) | None => self.tree.span(node),
+        }
+    }
+
+    /// The node, or only its head if it is a map or list in block form.
+    fn first_line(&self, node: NodeId) -> Span {
+        if self.tree.shape(node) == Shape::Map { self.head(node) } else { self.tree.span(node) }
+    }
+
+    /// Counts work that aliases can repeat. False once there was too much of it, which is reported once.
+    pub(super) fn step(&mut self, node: NodeId) -> bool {
+        if self.exhausted() {
+            return false;
+        }
+        self.steps += 1;
+        if self.exhausted() {
+            let finding = Diagnostic::new(&codes::REPETITION, "aliases and merge keys make this scene too large");
+            self.sink.push(
+                finding
+                    .at(self.first_line(node), "the limit was passed while reading this")
+                    .hint("a scene of this size has to be written out"),
+            );
+        }
+        !self.exhausted()
+    }
+
+    fn exhausted(&self) -> bool {
+        self.steps > self.tree.len() + MAX_REPEATED
+    }
+}
+
+/// What a node is, in the user's words.
+pub(super) fn describe(shape: Shape<'_>) -> String {
+    match shape {
+        Shape::Word("" | "~" | "null" | "Null" | "NULL") => "nothing".to_owned(),
+        Shape::Word(word) => format!("`{}`", clip(word)),
+        Shape::Text(text) => format!("the text `{}`", clip(text)),
+        Shape::List => "a list".to_owned(),
+        Shape::Map => "a map".to_owned(),
+    }
+}

@@ -1,0 +1,225 @@
+//! Numbers: the core schema of YAML 1.2, and finite.
+//!
+//! Their types name ranges for the schema. What the IR can hold is lowered, in range or not: the proof refuses it there,
+//! as it must for scenes that were never text.
+
+use super::decode::{Context, Value, describe};
+use super::schema::Definitions;
+use super::spelling::clip;
+use super::tree::{NodeId, Shape};
+use super::value::unsupported;
+use crate::diag::codes;
+use serde_json::{Value as Json, json};
+
+/// What a word says about a number.
+enum Reading {
+    Number(f64),
+    /// `.inf`, `.nan`, or more than a 64-bit float holds.
+    NotFinite,
+    NoNumber,
+}
+
+/// Reads a word by the core schema.
+fn read(word: &str) -> Reading {
+    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
+    if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(word, ".nan" | ".NaN" | ".NAN") {
+        return Reading::NotFinite;
+    }
+    let value = match word.strip_prefix("0x").map(|digits| (digits, 16)).or(word.strip_prefix("0o").map(|d| (d, 8))) {
+        Some((digits, radix)) => in_base(digits, radix),
+        None if is_decimal(unsigned) => word.parse().ok(),
+        None => None,
+    };
+    match value {
+        Some(value) if value.is_finite() => Reading::Number(value),
+        Some(_) => Reading::NotFinite,
+        None => Reading::NoNumber,
+    }
+}
+
+fn in_base(digits: &str, radix: u32) -> Option<f64> {
+    let add = |sum: f64, digit: char| Some(sum * f64::from(radix) + f64::from(digit.to_digit(radix)?));
+    if digits.is_empty() { None } else { digits.chars().try_fold(0.0, add) }
+}
+
+/// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
+fn is_decimal(word: &str) -> bool {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let whole = digits(word);
+    let rest = &word[whole..];
+    let fraction = rest.strip_prefix('.').map(digits);
+    let rest = &rest[fraction.map_or(0, |digits| digits + 1)..];
+    if whole + fraction.unwrap_or(0) == 0 {
+        return false;
+    }
+    match rest.strip_prefix(['e', 'E']) {
+        None => rest.is_empty(),
+        Some(exponent) => {
+            let exponent = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+            !exponent.is_empty() && digits(exponent) == exponent.len()
+        }
+    }
+}
+
+/// The number a word without quotes says, if it says one; nothing is reported.
+pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
+    match context.tree.shape(node) {
+        Shape::Word(word) => match read(word) {
+            Reading::Number(value) => Some(value),
+            Reading::NotFinite | Reading::NoNumber => None,
+        },
+        Shape::Text(_) | Shape::List | Shape::Map => None,
+    }
+}
+
+/// A finite number; else the sink has an error.
+pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
+    let tree = context.tree;
+    let (word, quoted) = match tree.shape(node) {
+        Shape::Word(word) => (word, false),
+        Shape::Text(text) => (text, true),
+        Shape::List | Shape::Map => return context.expected(node, what),
+    };
+    let (key, span) = (context.key, tree.span(node));
+    match read(word) {
+        Reading::Number(_) | Reading::NotFinite if quoted => {
+            let message = || format!("`{}` must be {what}, not {}", clip(key.text), describe(tree.shape(node)));
+            context.report(&codes::WRONG_TYPE, span, message, |d| {
+                d.at(span, "text, because of the quotes").replace("remove the quotes", span, word)
+            });
+            None
+        }
+        Reading::Number(value) => Some(value),
+        Reading::NotFinite => {
+            let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(word));
+            context.report(&codes::NOT_FINITE, span, message, |d| d.at(span, "no number to compute with"));
+            None
+        }
+        Reading::NoNumber => context.expected(node, what),
+    }
+}
+
+/// A whole number up to `most`; one outside is reported and becomes the nearest inside.
+pub(super) fn whole(most: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
+    let value = number(node, "a whole number", context)?;
+    #[expect(clippy::float_cmp, reason = "a whole number equals its truncation exactly")]
+    if value != value.trunc() {
+        return context.expected(node, "a whole number");
+    }
+    if value < 0.0 {
+        out_of_range("at least 0", node, context);
+    } else if value > f64::from(most) {
+        out_of_range(&format!("at most {most}"), node, context);
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was brought into the range of u32")]
+    Some(value.clamp(0.0, f64::from(most)) as u32)
+}
+
+fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
+    let (tree, key) = (context.tree, context.key);
+    let (span, word) = (tree.span(node), tree.text(node).unwrap_or_default());
+    let message = || format!("`{}` must be {range}, not `{}`", clip(key.text), clip(word));
+    context.report(&codes::OUT_OF_RANGE, span, message, |d| d.at(span, "out of range"));
+}
+
+/// The shortest JSON of a number: whole ones without a point.
+pub(super) fn json_number(value: f64) -> Json {
+    #[expect(clippy::cast_possible_truncation, reason = "only whole numbers below 2^53 pass")]
+    if value.fract() == 0.0 && value.abs() < 9e15 { json!(value as i64) } else { json!(value) }
+}
+
+/// Declares a number in a range as a type of the format.
+macro_rules! number {
+    ($(#[doc = $doc:literal])+ $name:ident($inner:ty), $decode:expr, $schema:tt) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub(super) $inner);
+
+        impl Value for $name {
+            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+                let decode: fn(NodeId, &mut Context<'_>) -> Option<$inner> = $decode;
+                decode(node, context).map(Self)
+            }
+
+            fn schema(_: &mut Definitions) -> Json {
+                json!($schema)
+            }
+
+            fn json(&self) -> Json {
+                json_number(f64::from(self.0))
+            }
+        }
+    };
+}
+
+number! {
+    /// Any finite number.
+    Real(f64), |node, context| number(node, "a number", context), { "type": "number" }
+}
+
+number! {
+    /// A number of at least 0.
+    NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
+}
+
+/// The radius of a sphere, above 0; with the axis of its texture, which this version can't show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Radius(pub(super) f64);
+
+impl Value for Radius {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let tree = context.tree;
+        if tree.shape(node) != Shape::List {
+            return number(node, "a number", context).map(Self);
+        }
+        unsupported("the axis of a texture", tree.span(node), "the texture", context);
+        number(tree.items(node).next().unwrap_or(node), "a number", context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": "number", "exclusiveMinimum": 0 })
+    }
+}
+
+number! {
+    /// A whole number of at least 0.
+    Natural(u32), |node, context| whole(u32::MAX, node, context),
+    { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
+}
+
+number! {
+    /// A whole number of at least 1.
+    Count(u32), |node, context| whole(u32::MAX, node, context),
+    { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(word: &str) -> Option<f64> {
+        match read(word) {
+            Reading::Number(value) => Some(value),
+            Reading::NotFinite => Some(f64::INFINITY),
+            Reading::NoNumber => None,
+        }
+    }
+
+    #[test]
+    fn the_core_schema_and_nothing_else_is_a_number() {
+        for (word, expected) in
+            [("12", 12.0), ("-0.5", -0.5), (".5", 0.5), ("5.", 5.0), ("1e3", 1000.0), ("0x1F", 31.0)]
+        {
+            assert_eq!(value(word), Some(expected), "{word}");
+        }
+        for word in ["+1.5E-3", "0o17"] {
+            assert!(value(word).is_some_and(f64::is_finite), "{word}");
+        }
+        for word in ["1e400", ".inf", "-.INF", ".nan"] {
+            assert_eq!(value(word), Some(f64::INFINITY), "{word}");
+        }
+        for word in ["", ".", "-", "1_000", "1.2.3", "1e", "inf", "nan", "0x", "1f", "+.nan", "e5", "1 2"] {
+            assert_eq!(value(word), None, "{word}");
+        }
+    }
+}

@@ -1,0 +1,355 @@
+//! Records: each is declared once with [`record!`], and the declaration is its type, its decoder and its schema.
+//!
+//! A field is one value or a group of values that stand under a row of keys; it may have several rows, the canonical
+//! one first. Every key of a map is either used by one field or reported.
+
+use super::decode::{Context, Entry, Key, Spanned, Value};
+use super::schema::Definitions;
+use super::spelling::{clip, list, nearest};
+use super::tree::{NodeId, Shape};
+use crate::diag::codes;
+use crate::source::Span;
+use serde_json::Value as Json;
+
+/// Rows of keys, the canonical one first; all rows of a field have the same length.
+pub(super) type Rows = &'static [&'static [&'static str]];
+
+/// Whether a key must be there.
+pub(super) enum Need {
+    Required,
+    Optional,
+    /// The value that stands in, as the schema shows it.
+    Default(fn() -> Json),
+}
+
+/// What a declaration says about one field.
+pub(super) struct Field {
+    pub(super) name: &'static str,
+    pub(super) doc: &'static str,
+    pub(super) rows: Rows,
+    pub(super) need: Need,
+    /// The schema of each value of the group.
+    pub(super) schema: fn(&mut Definitions) -> Json,
+}
+
+/// What a declaration says about a record.
+pub(super) struct Record {
+    pub(super) word: &'static str,
+    pub(super) doc: &'static str,
+    pub(super) fields: &'static [Field],
+    /// Sets of fields of which exactly one must be there; empty if any will do.
+    pub(super) forms: &'static [&'static [&'static str]],
+}
+
+/// Rows of one key each: spellings of the same key, the canonical one first.
+macro_rules! keys {
+    ($($key:literal)+) => { &[$(&[$key]),+] };
+}
+
+/// Declares a record: the struct, its decoder and its schema.
+macro_rules! record {
+    (
+        $(#[doc = $doc:literal])+
+        struct $name:ident, $word:literal {
+            $(
+                $(#[doc = $field_doc:literal])+
+                $field:ident: $type:ty, $need:ident $(($default:expr))?, $rows:expr;
+            )+
+        }
+        $(forms { $([$($member:ident)+])+ })?
+    ) => {
+        $(#[doc = $doc])+
+        pub(super) struct $name {
+            $($(#[doc = $field_doc])+ pub(super) $field: record!(@type $need $type),)+
+        }
+
+        impl $name {
+            /// The declaration.
+            pub(super) const RECORD: $crate::front::course::record::Record = $crate::front::course::record::Record {
+                word: $word,
+                doc: concat!($($doc),+),
+                fields: &[$($crate::front::course::record::Field {
+                    name: stringify!($field),
+                    doc: concat!($($field_doc),+),
+                    rows: $rows,
+                    need: record!(@need $need $type $(, $default)?),
+                    schema: <$type as $crate::front::course::record::Slot>::schema,
+                }),+],
+                forms: &[$($(&[$(stringify!($member)),+]),+)?],
+            };
+        }
+
+        impl $crate::front::course::decode::Value for $name {
+            fn decode(
+                node: $crate::front::course::tree::NodeId,
+                context: &mut $crate::front::course::decode::Context<'_>,
+            ) -> Option<Self> {
+                let mut reader = $crate::front::course::record::Reader::open(&Self::RECORD, node, context)?;
+                $(let $field = reader.next::<$type>(context);)+
+                reader.close(context);
+                Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
+            }
+
+            fn schema(definitions: &mut $crate::front::course::schema::Definitions) -> serde_json::Value {
+                $crate::front::course::schema::record(&Self::RECORD, definitions)
+            }
+        }
+    };
+    (@type optional $type:ty) => { $crate::front::course::record::Found<$type> };
+    (@type $need:ident $type:ty) => { $type };
+    (@need required $type:ty) => { $crate::front::course::record::Need::Required };
+    (@need optional $type:ty) => { $crate::front::course::record::Need::Optional };
+    (@need default $type:ty, $default:expr) => {
+        $crate::front::course::record::Need::Default(|| $crate::front::course::decode::Value::json(&$default))
+    };
+    (@value required $found:ident) => { $found.ok()? };
+    (@value optional $found:ident) => { $found };
+    (@value default $found:ident, $default:expr) => {
+        $found.ok().unwrap_or_else(|| $crate::front::course::decode::Spanned::unwritten($default))
+    };
+}
+
+pub(super) use {keys, record};
+
+/// What became of a field.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Found<T> {
+    /// It is not there.
+    Absent,
+    /// It is there but can't be read; the sink has an error.
+    Broken,
+    /// It was read.
+    Read(T),
+}
+
+impl<T> Found<T> {
+    pub(super) fn ok(self) -> Option<T> {
+        match self {
+            Self::Read(value) => Some(value),
+            Self::Absent | Self::Broken => None,
+        }
+    }
+
+    pub(super) fn is_absent(&self) -> bool {
+        matches!(self, Self::Absent)
+    }
+}
+
+/// What a field holds: one value, or a group of them.
+pub(super) trait Slot: Sized {
+    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self>;
+    fn schema(definitions: &mut Definitions) -> Json;
+}
+
+impl<T: Value> Slot for Spanned<T> {
+    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+        let entry = entries.first()?;
+        let tree = context.tree;
+        let key = tree.span(entry.key_node);
+        context.key = Key { text: tree.text(entry.key_node)?, span: Some(key) };
+        let value = T::decode(entry.value, context)?;
+        let span = if tree.shape(entry.value) == Shape::Map { key } else { tree.span(entry.value) };
+        Some(Self { value, span: Some(span) })
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        T::schema(definitions)
+    }
+}
+
+impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
+    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+        // Collected first, so that a mistake in one value does not hide those in the others.
+        let read: Vec<_> = entries.chunks(1).map(|entry| Spanned::take(entry, context)).collect();
+        let read: Option<Vec<_>> = read.into_iter().collect();
+        read?.try_into().ok()
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        T::schema(definitions)
+    }
+}
+
+/// The longest row of any field.
+const MAX_ROW: usize = 4;
+
+/// Reads one map, field by field in the order of the declaration.
+pub(super) struct Reader {
+    record: &'static Record,
+    next: usize,
+    /// The fields that were there, one bit each.
+    present: u32,
+    /// Where the map's entries start among those of the context.
+    from: usize,
+    /// Stands for the map in findings.
+    head: Span,
+}
+
+impl Reader {
+    /// Opens a map; anything else is reported.
+    pub(super) fn open(record: &'static Record, node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.shape(node) != Shape::Map {
+            return context.expected(node, "a map");
+        }
+        let head = context.key.span.unwrap_or_else(|| context.head(node));
+        let from = context.entries.len();
+        gather(node, context);
+        Some(Self { record, next: 0, present: 0, from, head })
+    }
+
+    /// The next field of the declaration.
+    pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> Found<S> {
+        let field = &self.record.fields[self.next];
+        let bit = 1 << self.next;
+        self.next += 1;
+        let Some((row, entries)) = self.row(field, context) else { return Found::Absent };
+        self.present |= bit;
+        for (key, canonical) in row.iter().zip(field.rows[0]) {
+            for entry in context.entries[self.from..].iter_mut().filter(|entry| entry.key == *key) {
+                entry.claimed = true;
+            }
+            if key != canonical {
+                note_spelling(key, canonical, &entries, context);
+            }
+        }
+        S::take(&entries[..row.len()], context).map_or(Found::Broken, Found::Read)
+    }
+
+    /// The first row of the field whose keys are all there and not yet used.
+    fn row<'a>(&self, field: &Field, context: &Context<'a>) -> Option<(&'static [&'static str], [Entry<'a>; MAX_ROW])> {
+        let entries = &context.entries[self.from..];
+        let find = |key: &str| entries.iter().find(|entry| entry.key == key && !entry.claimed).copied();
+        field.rows.iter().find_map(|row| {
+            let mut found = [find(row[0])?; MAX_ROW];
+            for (slot, key) in found.iter_mut().zip(*row).skip(1) {
+                *slot = find(key)?;
+            }
+            Some((*row, found))
+        })
+    }
+
+    /// Reports what was left unread and what is missing.
+    pub(super) fn close(self, context: &mut Context<'_>) {
+        let mut partial = 0;
+        for at in self.from..context.entries.len() {
+            let entry = context.entries[at];
+            if !entry.claimed {
+                partial |= self.unread(entry, context);
+            }
+        }
+        context.entries.truncate(self.from);
+        let required = |field: &Field| matches!(field.need, Need::Required);
+        let absent = |at: &usize| (self.present | partial) & (1 << at) == 0;
+        let fields = self.record.fields.iter().enumerate();
+        let missing = fields.filter(|(at, field)| absent(at) && required(field));
+        let missing: Vec<_> = missing.flat_map(|(_, field)| field.rows[0].iter().copied()).collect();
+        if !missing.is_empty() {
+            missing_keys(self.record.word, self.head, &missing, context);
+        }
+    }
+
+    /// Reports a key nobody used. The bit of the field it is a part of, if that field is incomplete.
+    fn unread(&self, entry: Entry<'_>, context: &mut Context<'_>) -> u32 {
+        let Record { word, fields, .. } = self.record;
+        let span = context.tree.span(entry.key_node);
+        let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
+        let has = |at: usize| self.present & (1 << at) != 0;
+        let used = fields.iter().enumerate().find(|(at, field)| has(*at) && part_of(field));
+        if let Some((_, field)) = used {
+            let message = || format!("`{}` says again what another key of the {word} says", entry.key);
+            context.report(&codes::CONFLICTING_KEYS, span, message, |d| {
+                d.at(span, "one too many")
+                    .hint(format!("the {word} takes {} once", list(field.rows[0].iter().copied())))
+            });
+            return 0;
+        }
+        if let Some((at, field)) = fields.iter().enumerate().find(|(_, field)| part_of(field)) {
+            let row = field.rows.iter().find(|row| row.contains(&entry.key)).copied().unwrap_or_default();
+            let others = list(row.iter().copied().filter(|key| *key != entry.key));
+            let message = || format!("the {word} has `{}` without {others}", entry.key);
+            context
+                .report(&codes::MISSING_KEY, span, message, |d| d.at(span, "one of a group").hint("give all of them"));
+            return 1 << at;
+        }
+        unknown_key(word, fields, entry, context);
+        0
+    }
+}
+
+/// Reports keys that have to be there.
+pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &mut Context<'_>) {
+    let message = || format!("the {word} has no {}", list(missing.iter().copied()));
+    context.report(&codes::MISSING_KEY, head, message, |d| d.at(head, format!("this {word}")));
+}
+
+fn unknown_key(word: &str, fields: &'static [Field], entry: Entry<'_>, context: &mut Context<'_>) {
+    let span = context.tree.span(entry.key_node);
+    let severity = context.unread();
+    let known = fields.iter().flat_map(|field| field.rows.iter().copied().flatten().copied());
+    context.report(
+        &codes::UNKNOWN_KEY,
+        span,
+        || format!("the {word} has no key `{}`", clip(entry.key)),
+        |d| {
+            let d = d.at(span, "ignored").severity(severity);
+            match nearest(entry.key, known) {
+                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+                None => d,
+            }
+        },
+    );
+}
+
+fn note_spelling(key: &'static str, canonical: &'static str, entries: &[Entry<'_>], context: &mut Context<'_>) {
+    if !context.spellings.iter().any(|(written, meant, _)| (*written, *meant) == (key, canonical)) {
+        let entry = entries.iter().find(|entry| entry.key == key);
+        context.spellings.extend(entry.map(|entry| (key, canonical, context.tree.span(entry.key_node))));
+    }
+}
+
+/// Adds the entries of a map to those of the context, its own first, then those it merges.
+fn gather(map: NodeId, context: &mut Context<'_>) {
+    let tree = context.tree;
+    let mut open = vec![map];
+    while let Some(map) = open.pop() {
+        if !context.step(map) {
+            return;
+        }
+        let mut merged = Vec::new();
+        for (key_node, value) in tree.pairs(map) {
+            if !context.step(key_node) {
+                return;
+            }
+            match tree.text(key_node) {
+                Some("<<") if tree.shape(value) == Shape::List => merged.extend(tree.items(value)),
+                Some("<<") => merged.push(value),
+                Some(key) => context.entries.push(Entry { key, key_node, value, claimed: false }),
+                None => {
+                    context.key = Key { text: "a key", span: Some(tree.span(key_node)) };
+                    context.expected::<()>(key_node, "a word");
+                }
+            }
+        }
+        for map in merged.into_iter().rev() {
+            if tree.shape(map) == Shape::Map {
+                open.push(map);
+            } else {
+                context.key = Key { text: "<<", span: Some(tree.span(map)) };
+                context.expected::<()>(map, "a map or a list of maps");
+            }
+        }
+    }
+}
+
+/// The value of a key of a map, the map's own or a merged one.
+pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Option<NodeId> {
+    let own = context.tree.pairs(map).find(|(node, _)| context.tree.text(*node) == Some(key));
+    if let Some((_, value)) = own {
+        return Some(value);
+    }
+    let from = context.entries.len();
+    gather(map, context);
+    let found = context.entries[from..].iter().find(|entry| entry.key == key).map(|entry| entry.value);
+    context.entries.truncate(from);
+    found
+}

@@ -1,0 +1,144 @@
+//! The JSON Schema of the format, made from the declarations.
+//!
+//! It takes exactly what the decoder takes under `--strict`: unknown keys, and `Eye` beside `Camera`, are refused.
+
+use super::decode::Value;
+use super::record::{Field, Need, Record};
+use super::settings::Scene;
+use serde_json::{Map, Value as Json, json};
+
+/// The schemas of the records met so far, by their words.
+#[derive(Default)]
+pub(super) struct Definitions {
+    made: Map<String, Json>,
+}
+
+/// The JSON Schema (2020-12) of the format.
+#[must_use]
+pub fn schema() -> Json {
+    let mut definitions = Definitions::default();
+    let root = Scene::schema(&mut definitions);
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "rtc scene",
+        "$ref": root["$ref"],
+        "$defs": definitions.made,
+    })
+}
+
+/// A reference to the schema of a record, which is made when first met.
+pub(super) fn record(record: &Record, definitions: &mut Definitions) -> Json {
+    let name = record.word.replace('`', "").replace(' ', "-");
+    if !definitions.made.contains_key(&name) {
+        definitions.made.insert(name.clone(), Json::Null);
+        let body = body(record, definitions);
+        definitions.made.insert(name.clone(), body);
+    }
+    json!({ "$ref": format!("#/$defs/{name}") })
+}
+
+/// The schema of a value whose key `tag` says which of `kinds` it is.
+pub(super) fn tagged(tag: &str, doc: &str, kinds: &[(&str, Json)]) -> Json {
+    let words: Vec<_> = kinds.iter().map(|(word, _)| *word).collect();
+    let choose = |(word, schema): &(&str, Json)| json!({ "if": { "properties": { tag: { "const": word } }, "required": [tag] }, "then": schema });
+    json!({
+        "type": "object",
+        "properties": { tag: { "description": doc, "enum": words } },
+        "required": [tag],
+        "allOf": kinds.iter().map(choose).collect::<Vec<_>>(),
+    })
+}
+
+fn body(record: &Record, definitions: &mut Definitions) -> Json {
+    let mut properties = Map::new();
+    for field in record.fields {
+        field_properties(field, definitions, &mut properties);
+    }
+    let in_form = |field: &Field| record.forms.iter().any(|form| form.contains(&field.name));
+    let mut required = Vec::new();
+    let mut rules = Vec::new();
+    for field in record.fields.iter().filter(|field| !in_form(field)) {
+        match (&field.need, field.rows) {
+            (Need::Required, [[key]]) => required.push(*key),
+            (Need::Required, _) => rules.push(one_row(field)),
+            (Need::Optional | Need::Default(_), [[_]]) => {}
+            (Need::Optional | Need::Default(_), _) => rules.push(json!({ "anyOf": [one_row(field), absent(field)] })),
+        }
+    }
+    if !record.forms.is_empty() {
+        let forms: Vec<_> = record.forms.iter().map(|form| one_form(record, form)).collect();
+        rules.push(json!({ "oneOf": forms }));
+    }
+    let mut body = json!({
+        "description": record.doc.trim(),
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": false,
+    });
+    for (key, list) in [("required", json!(required)), ("allOf", json!(rules))] {
+        if list.as_array().is_some_and(|list| !list.is_empty()) {
+            body[key] = list;
+        }
+    }
+    body
+}
+
+/// One property for each key; the keys that are not canonical say which is.
+fn field_properties(field: &Field, definitions: &mut Definitions, properties: &mut Map<String, Json>) {
+    let value = (field.schema)(definitions);
+    let canonical = field.rows.first().copied().unwrap_or_default();
+    for row in field.rows {
+        for (key, meant) in row.iter().zip(canonical) {
+            if properties.contains_key(*key) {
+                continue;
+            }
+            let Json::Object(mut property) = value.clone() else {
+                properties.insert((*key).to_owned(), value.clone());
+                continue;
+            };
+            let doc = field.doc.trim();
+            let is_canonical = canonical.contains(key);
+            let doc = if is_canonical { doc.to_owned() } else { format!("{doc} Better written `{meant}`.") };
+            property.insert("description".to_owned(), json!(doc));
+            if let Need::Default(default) = field.need {
+                property.insert("default".to_owned(), default());
+            }
+            if !is_canonical {
+                property.insert("deprecated".to_owned(), json!(true));
+            }
+            properties.insert((*key).to_owned(), Json::Object(property));
+        }
+    }
+}
+
+fn keys(field: &Field) -> impl Iterator<Item = &'static str> {
+    field.rows.iter().copied().flatten().copied()
+}
+
+fn forbid(keys: impl Iterator<Item = &'static str>) -> Json {
+    keys.map(|key| (key.to_owned(), Json::Bool(false))).collect::<Map<_, _>>().into()
+}
+
+fn absent(field: &Field) -> Json {
+    json!({ "properties": forbid(keys(field)) })
+}
+
+/// Exactly one row of the field, and no key of its other rows.
+fn one_row(field: &Field) -> Json {
+    let rows = field.rows.iter().map(|row| {
+        let others = keys(field).filter(|key| !row.contains(key));
+        json!({ "required": row, "properties": forbid(others) })
+    });
+    let mut rows: Vec<_> = rows.collect();
+    if rows.len() == 1 { rows.remove(0) } else { json!({ "oneOf": rows }) }
+}
+
+/// The fields of the form, and no key of the fields of the other forms.
+fn one_form(record: &Record, form: &[&str]) -> Json {
+    let members = || record.fields.iter().filter(|field| form.contains(&field.name));
+    let own: Vec<_> = members().flat_map(keys).collect();
+    let others = record.fields.iter().filter(|field| record.forms.iter().any(|form| form.contains(&field.name)));
+    let others = others.flat_map(keys).filter(|key| !own.contains(key));
+    let rules: Vec<_> = members().map(one_row).collect();
+    json!({ "allOf": rules, "properties": forbid(others) })
+}

@@ -1,0 +1,73 @@
+//! Words as people misspell them: the nearest known word, and words cut short for messages.
+
+use std::borrow::Cow;
+
+/// Longer words are not compared: nobody misspells a key of this length.
+const LONGEST: usize = 32;
+
+/// The known word that was probably meant, if any is near enough.
+pub(super) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
+    if word.is_empty() || word.len() > LONGEST {
+        return None;
+    }
+    let lower = word.to_lowercase();
+    let far = |candidate: &str| distance(&lower, &candidate.to_lowercase());
+    let (cost, best) = known.map(|candidate| (far(candidate), candidate)).min_by_key(|(cost, _)| *cost)?;
+    let tolerated = (word.chars().count().max(best.chars().count()) / 3).max(1);
+    (cost <= tolerated && cost < best.chars().count()).then_some(best)
+}
+
+/// How many letters were changed, left out, put in or swapped with their neighbour.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = Vec::new();
+    let mut last: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1];
+        for j in 0..b.len() {
+            let change = last[j] + usize::from(a[i] != b[j]);
+            let mut cost = change.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                cost = cost.min(before[j - 1] + 1);
+            }
+            row.push(cost);
+        }
+        before = std::mem::replace(&mut last, row);
+    }
+    last[b.len()]
+}
+
+/// The word, or its beginning if it would fill the message.
+pub(super) fn clip(word: &str) -> Cow<'_, str> {
+    const SHOWN: usize = 40;
+    match word.char_indices().nth(SHOWN) {
+        Some((end, _)) => Cow::Owned(format!("{}…", word[..end].escape_debug())),
+        None if word.contains(char::is_control) => Cow::Owned(word.escape_debug().to_string()),
+        None => Cow::Borrowed(word),
+    }
+}
+
+/// Words in backticks, with commas and `and`.
+pub(super) fn list<'w>(words: impl IntoIterator<Item = &'w str>) -> String {
+    let quoted: Vec<_> = words.into_iter().map(|word| format!("`{word}`")).collect();
+    match quoted.as_slice() {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slips_of_the_finger_are_seen_and_other_words_are_not() {
+        let known = || ["position", "radius", "material", "n", "ka"].into_iter();
+        assert_eq!(nearest("postion", known()), Some("position"));
+        assert_eq!(nearest("raduis", known()), Some("radius"));
+        assert_eq!(nearest("Material", known()), Some("material"));
+        assert_eq!(nearest("colour", known()), None);
+        assert_eq!(nearest("x", known()), None);
+    }
+}

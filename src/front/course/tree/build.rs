@@ -1,0 +1,217 @@
+//! Parser events to nodes, bounded in depth; duplicate keys are found as each map closes.
+
+use super::text::{MAX_WORD, text, to_u32, too_long};
+use super::{Kind, Node, NodeId, Tree, fault};
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::source::{FileId, Span};
+use granit_parser::{Event, Parser, StructureStyle};
+use std::borrow::Cow;
+
+/// How deep lists and maps may lie in each other.
+pub(super) const MAX_DEPTH: usize = 128;
+
+/// Maps up to this size are searched for duplicate keys pair by pair; larger ones are sorted.
+const FEW_KEYS: usize = 12;
+
+/// Parses a file into a tree. `None` if it is no YAML document; the sink says why.
+pub(in super::super) fn parse<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink) -> Option<Tree<'s>> {
+    let (source, base) = text(file, bytes, sink)?;
+    let tree = Tree { source, base, file, nodes: Vec::new(), cooked: Vec::new() };
+    let mut build = Build { tree, open: Vec::new(), anchors: Vec::new(), ended: false, last_end: 0, sink };
+    let options = granit_parser::options! {
+        emit_comments: false,
+        flow_nesting_limit: MAX_DEPTH,
+        block_nesting_limit: MAX_DEPTH,
+    };
+    for event in Parser::new_from_str_with_options(source, options) {
+        let step = match event {
+            Ok((event, span)) => {
+                let range = span.byte_range().unwrap_or_default();
+                build.event(event, to_u32(range.start), to_u32(range.end))
+            }
+            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
+        };
+        if let Err(fault) = step {
+            build.sink.push(*fault);
+            return None;
+        }
+    }
+    build.finish()
+}
+
+/// A list or map whose end is still to come.
+struct Open {
+    node: NodeId,
+    flow: bool,
+}
+
+struct Build<'s, 'k> {
+    tree: Tree<'s>,
+    open: Vec<Open>,
+    /// Anchor numbers, rising, and their nodes.
+    anchors: Vec<(usize, NodeId)>,
+    ended: bool,
+    /// Where the last word or bracket ended: block lists and maps end there too.
+    last_end: u32,
+    sink: &'k mut Sink,
+}
+
+type Step = Result<(), Box<Diagnostic>>;
+
+impl<'s> Build<'s, '_> {
+    fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
+        if let Event::Scalar(value, _, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.scalar(value, anchor, start, end)
+        } else if let Event::Alias(anchor) = event {
+            self.alias(anchor, start, end)
+        } else if let Event::SequenceStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Kind::List, style, anchor, start, end)
+        } else if let Event::MappingStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Kind::Map, style, anchor, start, end)
+        } else if matches!(event, Event::SequenceEnd | Event::MappingEnd) {
+            self.end(end);
+            Ok(())
+        } else if matches!(event, Event::DocumentStart(..)) && self.ended {
+            Err(Box::new(
+                Diagnostic::new(&codes::TWO_DOCUMENTS, "a second document starts in this file")
+                    .at(self.span(start, end), "the second document")
+                    .hint("keep one scene a file, or remove the `---`"),
+            ))
+        } else {
+            self.ended |= matches!(event, Event::DocumentEnd);
+            Ok(())
+        }
+    }
+
+    fn span(&self, start: u32, end: u32) -> Span {
+        Span::new(self.tree.file, start + self.tree.base, end + self.tree.base)
+    }
+
+    fn tag(&mut self, tagged: bool, start: u32, end: u32) {
+        if tagged {
+            let finding = Diagnostic::new(&codes::TAG, "a tag has no meaning in a scene");
+            self.sink.push(finding.at(self.span(start, end.max(start + 1)), "read as if it had no tag"));
+        }
+    }
+
+    fn scalar(&mut self, value: Cow<'s, str>, anchor: usize, start: u32, end: u32) -> Step {
+        if value.len() > MAX_WORD {
+            return Err(Box::new(too_long(self.tree.file, (start + self.tree.base) as usize)));
+        }
+        let written = &self.tree.source[start as usize..end as usize];
+        let quoted = written.len() >= 2 && written.starts_with(['"', '\'']);
+        let (kind, link) = if written.is_empty() || written == value {
+            (Kind::Plain, 0)
+        } else if quoted && written[1..written.len() - 1] == value {
+            (Kind::Quoted, 0)
+        } else {
+            self.tree.cooked.push(value.into_owned());
+            (Kind::Cooked, to_u32(self.tree.cooked.len() - 1))
+        };
+        self.last_end = end;
+        self.push(Node { start, end, link, kind, anchored: anchor != 0 }, anchor);
+        Ok(())
+    }
+
+    fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {
+        let at = self.anchors.binary_search_by_key(&anchor, |(anchor, _)| *anchor);
+        let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
+        if self.open.iter().any(|open| open.node == target) {
+            return Err(Box::new(
+                Diagnostic::new(&codes::SELF_ALIAS, "an alias refers to what it stands in")
+                    .at(self.span(start, end), "this would never end")
+                    .also(self.span(self.tree.node(target).start, start), "the anchor stands before this"),
+            ));
+        }
+        self.last_end = end;
+        self.push(Node { start, end, link: target.0, kind: Kind::Alias, anchored: false }, 0);
+        Ok(())
+    }
+
+    fn start(&mut self, kind: Kind, style: StructureStyle, anchor: usize, start: u32, end: u32) -> Step {
+        if self.open.len() >= MAX_DEPTH {
+            return Err(Box::new(fault::too_deep(self.span(start, end.max(start + 1)))));
+        }
+        self.last_end = end;
+        let node = self.push(Node { start, end, link: 0, kind, anchored: anchor != 0 }, anchor);
+        self.open.push(Open { node, flow: style == StructureStyle::Flow });
+        Ok(())
+    }
+
+    fn end(&mut self, end: u32) {
+        let Open { node: id, flow } = self.open.pop().expect("the parser closes only what it opened");
+        self.last_end = if flow { end } else { self.last_end };
+        let link = to_u32(self.tree.nodes.len());
+        let node = &mut self.tree.nodes[id.0 as usize];
+        (node.end, node.link) = (self.last_end, link);
+        if node.kind == Kind::Map {
+            self.duplicates(id);
+        }
+    }
+
+    fn push(&mut self, node: Node, anchor: usize) -> NodeId {
+        let nodes = &mut self.tree.nodes;
+        if nodes.len() == nodes.capacity() {
+            // Doubling would hold as much again as the tree of a large scene.
+            nodes.reserve_exact(nodes.len() / 4 + 64);
+        }
+        let id = NodeId(to_u32(nodes.len()));
+        nodes.push(node);
+        if anchor != 0 {
+            self.anchors.push((anchor, id));
+        }
+        id
+    }
+
+    fn duplicates(&mut self, map: NodeId) {
+        let tree = &self.tree;
+        let texts = || tree.pairs(map).filter_map(|(key, _)| Some((tree.text(key)?, key)));
+        let mut few = [("", map); FEW_KEYS];
+        let count = texts().zip(&mut few).map(|(entry, slot)| *slot = entry).count();
+        let mut found = Vec::new();
+        if count < FEW_KEYS {
+            for (at, (text, key)) in few[..count].iter().enumerate() {
+                let first = few[..at].iter().find(|(earlier, _)| earlier == text);
+                found.extend(first.map(|(_, first)| (*first, *key)));
+            }
+        } else {
+            let mut keys: Vec<_> = texts().collect();
+            keys.sort_unstable();
+            for same in keys.chunk_by(|(a, _), (b, _)| a == b) {
+                found.extend(same[1..].iter().map(|(_, key)| (same[0].1, *key)));
+            }
+        }
+        for (first, second) in found {
+            self.sink.push(duplicate(&self.tree, first, second));
+        }
+    }
+
+    /// The innermost bracket that is still open.
+    fn open_bracket(&self) -> Option<NodeId> {
+        self.open.iter().rev().find(|open| open.flow).map(|open| open.node)
+    }
+
+    fn finish(self) -> Option<Tree<'s>> {
+        if self.tree.nodes.is_empty() {
+            let end = to_u32(self.tree.source.len()) + self.tree.base;
+            self.sink.push(
+                Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene")
+                    .at(Span::new(self.tree.file, end, end), "the end of the file")
+                    .hint("a scene has at least a `Camera`, `Lights` and `Objects`"),
+            );
+            return None;
+        }
+        Some(self.tree)
+    }
+}
+
+fn duplicate(tree: &Tree<'_>, first: NodeId, second: NodeId) -> Diagnostic {
+    let key = super::super::spelling::clip(tree.text(second).unwrap_or_default());
+    Diagnostic::new(&codes::DUPLICATE_KEY, format!("the key `{key}` stands here twice"))
+        .at(tree.span(second), "again")
+        .also(tree.span(first), "first")
+        .hint("remove one of them")
+}

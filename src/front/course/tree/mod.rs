@@ -1,0 +1,184 @@
+//! The spanned tree: YAML text as one flat vector of nodes, each with the bytes it was written in.
+//!
+//! A node is 16 bytes, in the order of the text; a list or map knows where its descendants end. Aliases are links and
+//! are never expanded, so a small text can't become a large tree. Only this folder names the YAML parser.
+
+mod build;
+mod fault;
+mod text;
+
+pub(super) use build::parse;
+
+use crate::source::{FileId, Span};
+
+/// Names a node of a [`Tree`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct NodeId(u32);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// A word as written; `link` is unused.
+    Plain,
+    /// A word in quotes without escapes, quotes included in the range; `link` is unused.
+    Quoted,
+    /// A word that differs from its text; `link` is its index among the cooked ones.
+    Cooked,
+    /// A list; `link` is one past its last descendant.
+    List,
+    /// A map, keys and values in turn; `link` is one past its last descendant.
+    Map,
+    /// A link to the node at `link`.
+    Alias,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    start: u32,
+    end: u32,
+    link: u32,
+    kind: Kind,
+    anchored: bool,
+}
+
+/// What a node is, aliases followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shape<'s> {
+    /// A plain word: a number, a truth value, nothing, or text.
+    Word(&'s str),
+    /// Text in quotes or a block.
+    Text(&'s str),
+    /// A list.
+    List,
+    /// A map.
+    Map,
+}
+
+/// A parsed text. Offsets are those of the file.
+#[derive(Debug)]
+pub(super) struct Tree<'s> {
+    source: &'s str,
+    base: u32,
+    file: FileId,
+    nodes: Vec<Node>,
+    cooked: Vec<String>,
+}
+
+impl Tree<'_> {
+    /// The node of the whole document.
+    pub(super) fn root(&self) -> NodeId {
+        NodeId(0)
+    }
+
+    /// How many nodes there are.
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn node(&self, id: NodeId) -> Node {
+        self.nodes[id.0 as usize]
+    }
+
+    /// The node an alias stands for, or the node itself. An alias never points at another.
+    pub(super) fn target(&self, id: NodeId) -> NodeId {
+        let node = self.node(id);
+        if node.kind == Kind::Alias { NodeId(node.link) } else { id }
+    }
+
+    /// Whether the node carries an anchor, so that aliases may share it.
+    pub(super) fn anchored(&self, id: NodeId) -> bool {
+        self.node(id).anchored
+    }
+
+    /// Where the node was written; for an alias, where the alias stands.
+    pub(super) fn span(&self, id: NodeId) -> Span {
+        let node = self.node(id);
+        Span::new(self.file, node.start + self.base, node.end + self.base)
+    }
+
+    /// What the node is, aliases followed.
+    pub(super) fn shape(&self, id: NodeId) -> Shape<'_> {
+        let node = self.node(self.target(id));
+        let range = node.start as usize..node.end as usize;
+        match node.kind {
+            Kind::Plain => Shape::Word(&self.source[range]),
+            Kind::Quoted => Shape::Text(&self.source[range.start + 1..range.end - 1]),
+            Kind::Cooked => Shape::Text(&self.cooked[node.link as usize]),
+            Kind::List => Shape::List,
+            Kind::Map => Shape::Map,
+            Kind::Alias => unreachable!("`target` follows aliases, and an alias can't carry an anchor"),
+        }
+    }
+
+    /// The text of a word, quoted or not.
+    pub(super) fn text(&self, id: NodeId) -> Option<&str> {
+        match self.shape(id) {
+            Shape::Word(text) | Shape::Text(text) => Some(text),
+            Shape::List | Shape::Map => None,
+        }
+    }
+
+    /// The items of a list; of a map, its keys and values in turn; of a word, nothing.
+    pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+        let id = self.target(id);
+        let node = self.node(id);
+        let end = if matches!(node.kind, Kind::List | Kind::Map) { node.link } else { 0 };
+        let inside = move |id: u32| (id < end).then_some(NodeId(id));
+        std::iter::successors(inside(id.0 + 1), move |id| inside(self.after(*id)))
+    }
+
+    /// The keys and values of a map as written, merge keys included.
+    pub(super) fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
+        let mut items = self.items(id);
+        std::iter::from_fn(move || Some((items.next()?, items.next()?)))
+    }
+
+    /// The index after the node and its descendants.
+    fn after(&self, id: NodeId) -> u32 {
+        let node = self.node(id);
+        if matches!(node.kind, Kind::List | Kind::Map) { node.link } else { id.0 + 1 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Sink;
+    use crate::source::SourceMap;
+
+    fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
+        let mut map = SourceMap::default();
+        let file = map.add("t", text.as_bytes().to_vec());
+        let mut sink = Sink::default();
+        let tree = parse(file, map.bytes(file), &mut sink).unwrap();
+        assert!(sink.kept().is_empty(), "{:?}", sink.kept());
+        look(&tree)
+    }
+
+    #[test]
+    fn a_node_is_sixteen_bytes() {
+        assert_eq!(size_of::<Node>(), 16);
+    }
+
+    #[test]
+    fn aliases_are_links_and_spans_are_bytes_of_the_file() {
+        with("\u{feff}a: &x [1, 'q', \"\\u0041\"]\nb: *x\n", |tree| {
+            let pairs: Vec<_> = tree.pairs(tree.root()).collect();
+            assert_eq!(pairs.len(), 2);
+            let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
+            assert_eq!(words, [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]);
+            assert_eq!(tree.target(pairs[1].1), pairs[0].1);
+            assert!(tree.anchored(pairs[0].1));
+            let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
+            assert_eq!((list.start, list.end, alias.start, alias.end), (9, 27, 31, 33));
+        });
+    }
+
+    #[test]
+    fn nothing_written_is_the_empty_word_after_its_key() {
+        with("Objects:\nLights: []\n", |tree| {
+            let (_, nothing) = tree.pairs(tree.root()).next().unwrap();
+            assert_eq!(tree.shape(nothing), Shape::Word(""));
+            assert_eq!((tree.span(nothing).start, tree.span(nothing).end), (7, 7));
+        });
+    }
+}

@@ -1,0 +1,119 @@
+//! From bytes to text that is fit to parse: UTF-8, no control characters, no absurd word.
+
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::source::{FileId, Span};
+
+/// The longest run of bytes without a separator, and the longest word at all.
+pub(super) const MAX_WORD: usize = 1 << 20;
+
+/// The text of a file and the offset its first byte has there; the byte order mark is skipped.
+pub(super) fn text<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink) -> Option<(&'s str, u32)> {
+    let fault = match decode(file, bytes) {
+        Ok(text) => {
+            let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+            let base = text.len() - body.len();
+            match unfit(file, body, base) {
+                None => return Some((body, to_u32(base))),
+                Some(fault) => fault,
+            }
+        }
+        Err(fault) => *fault,
+    };
+    sink.push(fault);
+    None
+}
+
+fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Box<Diagnostic>> {
+    if looks_like_utf16(bytes) {
+        let span = Span::new(file, 0, to_u32(bytes.len().min(2)));
+        let finding = Diagnostic::new(&codes::NOT_UTF8, "this file is UTF-16, not UTF-8");
+        let hint = "save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`";
+        return Err(Box::new(finding.at(span, "two bytes a character from here on").hint(hint)));
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let at = error.valid_up_to();
+        let byte = bytes.get(at).copied().unwrap_or_default();
+        let message = format!("this file is not UTF-8: byte 0x{byte:02x} at offset {at}");
+        let finding = Diagnostic::new(&codes::NOT_UTF8, message);
+        let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
+        Box::new(finding.at(Span::new(file, to_u32(at), to_u32(at + 1)), "not UTF-8").hint(hint))
+    })
+}
+
+/// A byte order mark of UTF-16, or a zero byte in exactly one of the first two places.
+fn looks_like_utf16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [first, second, ..] => (first == 0) != (second == 0),
+        [_] | [] => false,
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Class {
+    Ordinary,
+    Separator,
+    Control,
+    /// The first byte of U+0080 to U+00BF.
+    MaybeControl,
+}
+
+const CLASSES: [Class; 256] = classes();
+
+const fn classes() -> [Class; 256] {
+    let mut classes = [Class::Ordinary; 256];
+    let mut control = 0;
+    while control < 0x20 {
+        classes[control] = Class::Control;
+        control += 1;
+    }
+    classes[0x7f] = Class::Control;
+    classes[0xc2] = Class::MaybeControl;
+    let separators = b"\t\n\r,:[]{}";
+    let mut at = 0;
+    while at < separators.len() {
+        classes[separators[at] as usize] = Class::Separator;
+        at += 1;
+    }
+    classes
+}
+
+/// The first character that no YAML text may hold, or the start of a word too long to be one.
+fn unfit(file: FileId, text: &str, base: usize) -> Option<Diagnostic> {
+    let bytes = text.as_bytes();
+    let mut word_start = 0;
+    for (at, byte) in bytes.iter().enumerate() {
+        match CLASSES[usize::from(*byte)] {
+            Class::Ordinary if at - word_start > MAX_WORD => return Some(too_long(file, base + word_start)),
+            Class::Ordinary => {}
+            Class::Separator => word_start = at + 1,
+            Class::Control => return Some(control(file, base + at, 1, u32::from(*byte))),
+            Class::MaybeControl => match bytes.get(at + 1).copied() {
+                Some(0x85) | None => {}
+                Some(second) if second >= 0xa0 => {}
+                Some(second) => return Some(control(file, base + at, 2, u32::from(second))),
+            },
+        }
+    }
+    None
+}
+
+fn control(file: FileId, at: usize, length: usize, character: u32) -> Diagnostic {
+    let span = Span::new(file, to_u32(at), to_u32(at + length));
+    Diagnostic::new(&codes::CONTROL_CHARACTER, format!("control character U+{character:04X}"))
+        .at(span, "not allowed in YAML")
+        .replace("remove it", span, "")
+}
+
+/// A finding about a word of more than a MiB that starts at `at`.
+pub(super) fn too_long(file: FileId, at: usize) -> Diagnostic {
+    let at = to_u32(at);
+    Diagnostic::new(&codes::TOO_LONG, "a word of more than a MiB")
+        .at(Span::new(file, at, at + 1), "it starts here")
+        .hint("is this a scene file?")
+}
+
+/// An offset as spans hold it; the loader refuses files of 4 GiB and more.
+pub(super) fn to_u32(offset: usize) -> u32 {
+    u32::try_from(offset).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,201 @@
+//! The other types of the format: vectors and colours, sizes, truth values, words.
+
+use super::decode::{Context, Value};
+use super::number::{json_number, number, whole};
+use super::schema::Definitions;
+use super::spelling::{clip, list, nearest};
+use super::tree::{NodeId, Shape};
+use crate::diag::{Severity, codes};
+use crate::source::Span;
+use serde_json::{Value as Json, json};
+
+/// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the others.
+fn tuple<T, const N: usize>(
+    node: NodeId,
+    what: &str,
+    context: &mut Context<'_>,
+    mut item: impl FnMut(NodeId, &mut Context<'_>) -> Option<T>,
+) -> Option<[T; N]> {
+    let tree = context.tree;
+    if tree.shape(node) != Shape::List {
+        return context.expected(node, what);
+    }
+    // An alias may bring us to a very long list very often: look no further than needed.
+    let count = tree.items(node).take(N + 1).count();
+    if count != N {
+        let (key, span) = (context.key, tree.span(node));
+        let found = if count > N { format!("more than {N}") } else { format!("{count}") };
+        let message = || format!("`{}` must have {N} numbers, not {found}", clip(key.text));
+        context.report(&codes::WRONG_LENGTH, span, message, |d| d.at(span, format!("{found} here")));
+        return None;
+    }
+    let mut read: [Option<T>; N] = std::array::from_fn(|_| None);
+    for (slot, node) in read.iter_mut().zip(tree.items(node)) {
+        *slot = item(node, context);
+    }
+    read.iter().all(Option::is_some).then(|| read.map(|value| value.expect("all were looked at")))
+}
+
+/// Declares three numbers as a type of the format.
+macro_rules! triple {
+    ($(#[doc = $doc:literal])+ $name:ident, $decode:expr, $item:tt) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub(super) [f64; 3]);
+
+        impl Value for $name {
+            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+                tuple(node, "a list of three numbers", context, $decode).map(Self)
+            }
+
+            fn schema(_: &mut Definitions) -> Json {
+                json!({ "type": "array", "items": $item, "minItems": 3, "maxItems": 3 })
+            }
+
+            fn json(&self) -> Json {
+                self.0.map(json_number).to_vec().into()
+            }
+        }
+    };
+}
+
+triple! {
+    /// A point.
+    Point, |node, context| number(node, "a list of three numbers", context),
+    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+}
+
+triple! {
+    /// A direction, with or without a length that matters.
+    Vector, |node, context| number(node, "a list of three numbers", context),
+    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+}
+
+triple! {
+    /// Red, green and blue, each at least 0; more than 1 is allowed.
+    Color, |node, context| number(node, "a list of three numbers", context), { "type": "number", "minimum": 0 }
+}
+
+/// The largest side of an image.
+pub(super) const MAX_SIDE: u32 = 65_535;
+
+/// The width and height of an image in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Size(pub(super) [u32; 2]);
+
+impl Value for Size {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        tuple(node, "a list of two whole numbers", context, |node, context| whole(MAX_SIDE, node, context)).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        let side = json!({ "type": "integer", "minimum": 1, "maximum": MAX_SIDE });
+        json!({ "type": "array", "items": side, "minItems": 2, "maxItems": 2 })
+    }
+}
+
+impl Value for bool {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let Some(text) = context.tree.text(node) else { return context.expected(node, "`true` or `false`") };
+        match (context.tree.shape(node), text) {
+            (Shape::Word(_), "true" | "True" | "TRUE") => return Some(true),
+            (Shape::Word(_), "false" | "False" | "FALSE") => return Some(false),
+            _ => {}
+        }
+        let meant = match text.to_ascii_lowercase().as_str() {
+            "true" | "yes" | "y" | "on" | "1" => "true",
+            "false" | "no" | "n" | "off" | "0" => "false",
+            _ => return context.expected(node, "`true` or `false`"),
+        };
+        let (key, span) = (context.key, context.tree.span(node));
+        let message = || format!("`{}` must be `true` or `false`, not `{text}`", clip(key.text));
+        context.report(&codes::WRONG_TYPE, span, message, |d| {
+            d.at(span, "no truth value in YAML 1.2").replace(format!("write `{meant}`"), span, meant)
+        });
+        None
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": "boolean" })
+    }
+
+    fn json(&self) -> Json {
+        json!(self)
+    }
+}
+
+/// Text of any kind.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Text;
+
+impl Value for Text {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        match context.tree.shape(node) {
+            Shape::Word(_) | Shape::Text(_) => Some(Self),
+            Shape::List | Shape::Map => context.expected(node, "text"),
+        }
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": ["string", "number", "boolean", "null"] })
+    }
+}
+
+/// What the format has and this version can't show: an error, or with `--lenient` left out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unsupported;
+
+impl Value for Unsupported {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let what = format!("`{}`", context.key.text);
+        unsupported(&what, context.tree.span(node), &what, context);
+        Some(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        Json::Bool(false)
+    }
+}
+
+/// Reports what this version can't show; with `lenient` it is a warning that says what was left out.
+pub(super) fn unsupported(what: &str, span: Span, left_out: &str, context: &mut Context<'_>) {
+    let lenient = context.options.lenient;
+    let message = || format!("{what} is not supported by this version");
+    context.report(&codes::UNSUPPORTED, span, message, |d| match lenient {
+        true => d.at(span, format!("{left_out} is left out of the picture")).severity(Severity::Warning),
+        false => d.at(span, "this would be missing from the picture").hint("`--lenient` leaves it out"),
+    });
+}
+
+/// A word of a table, in any case of letters: the table's words, and what each means.
+pub(super) fn word<T: Copy>(node: NodeId, table: &[(&'static str, T)], context: &mut Context<'_>) -> Option<T> {
+    let words = || table.iter().map(|(word, _)| *word);
+    let tree = context.tree;
+    let Some(text) = tree.text(node).filter(|text| !text.is_empty()) else {
+        return context.expected(node, &format!("one of {}", list(words())));
+    };
+    let meaning = table.iter().find(|(word, _)| word.eq_ignore_ascii_case(text));
+    if meaning.is_none() {
+        let (key, span) = (context.key, tree.span(node));
+        let message = || format!("`{}` can't be `{}`", clip(key.text), clip(text));
+        context.report(&codes::UNKNOWN_WORD, span, message, |d| {
+            let d = d.at(span, "unknown").hint(format!("it is one of {}", list(words())));
+            match nearest(text, words()) {
+                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+                None => d,
+            }
+        });
+    }
+    meaning.map(|(_, meaning)| *meaning)
+}
+
+/// The schema of [`word`]: an editor offers the words, and any case of letters is taken.
+pub(super) fn word_schema<T>(table: &[(&'static str, T)]) -> Json {
+    let any_case = |letter: char| match letter.is_ascii_alphabetic() {
+        true => format!("[{}{}]", letter.to_ascii_uppercase(), letter),
+        false => letter.to_string(),
+    };
+    let words: Vec<_> = table.iter().map(|(word, _)| *word).collect();
+    let pattern: Vec<String> = words.iter().map(|word| word.chars().map(any_case).collect()).collect();
+    json!({ "anyOf": [{ "enum": words }, { "type": "string", "pattern": format!("^({})$", pattern.join("|")) }] })
+}
