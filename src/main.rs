@@ -1,2 +1,7 @@
-//! The `rtc` binary.
-fn main() {}
+//! The `rtc` binary: arguments in, exit code out.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(rtc::cli::run(std::env::args_os()))
+}

@@ -64,7 +64,7 @@ pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Va
 
 /// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
 ///
-/// `proceed` is called from all threads with the number of rays traced since its last call.
+/// `proceed` is called from all threads after each pixel with the number of rays it took.
 ///
 /// # Errors
 /// If the system gives no threads.
