@@ -61,6 +61,15 @@ fn every_scene_is_the_same_after_both_forms() {
 }
 
 #[test]
+fn every_scene_meets_the_schema() {
+    let schema = jsonschema::validator_for(&codec::schema()).unwrap();
+    for (name, path) in scenes() {
+        let text = codec::encode(Form::Text, &scene_of(&path)).unwrap();
+        assert!(schema.is_valid(&serde_json::from_slice(&text).unwrap()), "{name}");
+    }
+}
+
+#[test]
 fn eye_and_camera_of_the_same_view_give_the_same_ir() {
     let scenes = scenes();
     let find = |wanted: &str| scene_of(&scenes.iter().find(|(name, _)| name == wanted).unwrap().1);
