@@ -54,10 +54,10 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// Encodes the tree of a scene.
-pub(super) fn encode(tree: Value) -> Vec<u8> {
+pub(super) fn encode(tree: Map<String, Value>) -> Vec<u8> {
     let mut body = Body::default();
     let mut header = Header { ir_version: VERSION, scene: Map::new(), tables: Vec::new(), sections: Vec::new() };
-    for (key, member) in tree.as_object().cloned().unwrap_or_default() {
+    for (key, member) in tree {
         if let Value::Array(entities) = member {
             header.tables.push(columns::pack(key, entities, &mut body));
         } else {

@@ -59,7 +59,8 @@ pub struct NotFinite;
 /// If a number is not finite: JSON has no word for it.
 pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
     let tree = serde_json::to_value(scene).expect("a scene is structs, lists and numbers, which JSON holds");
-    if has_null(&tree) {
+    let Value::Object(tree) = tree else { unreachable!("a scene is a struct, and so a map") };
+    if tree.values().any(has_null) {
         return Err(NotFinite);
     }
     Ok(match form {
