@@ -244,6 +244,18 @@ fn parts_that_do_not_fit_together_are_refused() {
     }
 }
 
+/// A short file can't ask for much memory: here each of 2 000 records would repeat 30 KB of text.
+#[test]
+fn a_table_that_would_grow_beyond_its_file_is_refused() {
+    let mut scene = small();
+    scene.surfaces = vec![scene.surfaces[0].clone(); 2_000];
+    let file = codec::encode(Form::Binary, &scene).unwrap();
+    let (old, long) = ("\"radius\":null", "x".repeat(30_000));
+    let bomb = with_header(&file, |header| header.replacen(old, &format!("\"name\":\"{long}\",{old}"), 1));
+    let (finding, _) = decode(Form::Binary, &bomb).map_err(|fault| *fault).unwrap_err();
+    assert!(finding.code.id == "IR007" && finding.message.contains("repeats more text"), "{finding:?}");
+}
+
 #[test]
 fn newer_files_say_so_where_the_version_stands() {
     let text = "{\"irVersion\": 7, \"spectra\": []}";

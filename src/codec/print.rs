@@ -3,18 +3,16 @@
 //! So an entity is a line, a setting is a line, and a change to one is a change of one line.
 
 use crate::ir::VERSION;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// Levels that are broken into lines.
 const BROKEN: usize = 2;
 
 /// The document of a scene's tree, with `irVersion` first and a line end at the end.
-pub(super) fn document(tree: Value) -> String {
-    let mut members = serde_json::Map::new();
+pub(super) fn document(tree: Map<String, Value>) -> String {
+    let mut members = Map::new();
     members.insert("irVersion".to_owned(), VERSION.into());
-    if let Value::Object(scene) = tree {
-        members.extend(scene);
-    }
+    members.extend(tree);
     let mut out = String::new();
     value(&mut out, &Value::Object(members), 0);
     out.push('\n');

@@ -1,23 +1,24 @@
 //! The materials.
 
-use super::decode::{Context, Shared, Spanned, Value};
+use super::decode::{Context, Shared, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::record::{Found, keys, missing_keys, record};
-use super::schema::Definitions;
 use super::tree::NodeId;
-use super::value::Color;
-use crate::diag::{Severity, codes};
+use super::value::{Color, Unsupported};
 use crate::ir::{self, Field, MaterialId, Noun};
-use serde_json::Value as Json;
 
 record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
     struct Material, "material" {
         /// The colour: red, green, blue.
         color: Spanned<Color>, optional, keys!["color"];
-        /// A picture laid over the surface; this version can't show it.
-        texture: Spanned<Picture>, optional, keys!["texture"];
+        /// A picture laid over the surface; this version can't show it. Without `color` the surface is white.
+        texture: Spanned<Unsupported>, optional, keys!["texture"];
+        /// A picture of bumps; this version can't show it.
+        _bump: Spanned<Unsupported>, optional, keys!["bump" "normalMap"];
+        /// A picture of highlights; this version can't show it.
+        _specular: Spanned<Unsupported>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
         ka: Spanned<NonNegative>, required, keys!["ka"];
         /// The weight of the diffuse light.
@@ -36,29 +37,6 @@ record! {
     forms { [color] }
 }
 
-/// A picture file, which this version does not support.
-#[derive(Clone, Copy)]
-pub(super) struct Picture;
-
-impl Value for Picture {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let (key, span) = (context.key, context.tree.span(node));
-        let lenient = context.options.lenient;
-        let message = || format!("`{}` is not supported by this version", key.text);
-        context.report(&codes::UNSUPPORTED, span, message, |d| match lenient {
-            true => d.at(span, "left out: the surface shows its `color`, or white").severity(Severity::Warning),
-            false => d
-                .at(span, "this picture would be missing")
-                .hint("with `--lenient` the surface shows its `color`, or white"),
-        });
-        Some(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        Json::Bool(false)
-    }
-}
-
 impl Lowering {
     /// Lowers a material, once if aliases share it. `None` if it has neither colour nor texture, which is reported.
     pub(super) fn material(
@@ -71,7 +49,7 @@ impl Lowering {
         if let Some((_, id)) = self.shared.iter().find(known) {
             return Some(*id);
         }
-        let Material { color, texture, ka, kd, ks, n, kt, eta, glossy_samples } = value;
+        let Material { color, texture, _bump: _, _specular: _, ka, kd, ks, n, kt, eta, glossy_samples } = value;
         let color = match (color, texture) {
             (Found::Read(color), _) => *color,
             (Found::Absent, Found::Read(_) | Found::Broken) => Spanned::unwritten(Color([1.0; 3])),

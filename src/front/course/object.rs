@@ -3,12 +3,12 @@
 use super::decode::{Context, Key, Shared, Spanned, Value};
 use super::lower::Lowering;
 use super::material::Material;
-use super::number::{Length, Real};
+use super::number::{Radius, Real};
 use super::record::{Found, Rows, keys, look_up, missing_keys, record};
 use super::schema::{self, Definitions};
 use super::spelling::{clip, list, nearest};
 use super::tree::{NodeId, Shape};
-use super::value::{Point, Text, Vector};
+use super::value::{Point, Text, Unsupported, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
 use crate::math::Vec3;
@@ -35,7 +35,11 @@ record! {
         /// The centre.
         position: Spanned<Point>, required, keys!["position" "center"];
         /// The radius, above 0.
-        radius: Spanned<Length>, required, keys!["radius" "r"];
+        radius: Spanned<Radius>, required, keys!["radius" "r"];
+        /// How a texture is turned; this version can't show it.
+        _turn: Spanned<Unsupported>, optional, keys!["angle"];
+        /// The axis a texture is turned about; this version can't show it.
+        _axis: Spanned<Unsupported>, optional, keys!["axis" "rotation"];
         /// What it is made of.
         material: Spanned<Shared<Material>>, required, keys!["material"];
     }
@@ -181,7 +185,7 @@ impl Lowering {
     /// Lowers an object; one without a sound material or form is left out, and the sink has an error.
     pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
         match object {
-            Object::Sphere(Sphere { kind, position, radius, material }) => {
+            Object::Sphere(Sphere { kind, position, radius, _turn: _, _axis: _, material }) => {
                 let shape = ir::Shape::Sphere(ir::Sphere { center: position.value.0, radius: radius.value.0 });
                 let places = [(Field::SphereCenter, position.span), (Field::SphereRadius, radius.span)];
                 self.surface(kind.span, shape, &places, material, context);

@@ -4,7 +4,7 @@ use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
 use super::light::Light;
 use super::lower::Lowering;
-use super::number::{Count, Natural, Real};
+use super::number::{Count, Natural, Real, plain_number};
 use super::object::Object;
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
@@ -76,13 +76,22 @@ const MODES: &[(&str, Mode)] = &[
     ("gooch", Mode::Gooch),
 ];
 
+/// The modes as some files number them.
+const NUMBERED: &[(u8, Mode)] = &[(0, Mode::Phong), (1, Mode::Normal), (2, Mode::Zbuffer), (4, Mode::Gooch)];
+
 impl Value for Mode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, MODES, context)
+        let given = plain_number(node, context);
+        let numbered = NUMBERED.iter().find(|(number, _)| given == Some(f64::from(*number)));
+        numbered.map(|(_, mode)| *mode).or_else(|| word(node, MODES, context))
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        word_schema(MODES)
+        let numbers: Vec<_> =
+            NUMBERED.iter().map(|(number, _)| json!({ "const": number, "deprecated": true })).collect();
+        let mut schema = word_schema(MODES);
+        schema["anyOf"].as_array_mut().into_iter().for_each(|forms| forms.extend(numbers.clone()));
+        schema
     }
 
     fn json(&self) -> Json {

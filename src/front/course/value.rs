@@ -5,7 +5,8 @@ use super::number::{json_number, number, whole};
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
 use super::tree::{NodeId, Shape};
-use crate::diag::codes;
+use crate::diag::{Severity, codes};
+use crate::source::Span;
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the others.
@@ -84,7 +85,7 @@ pub(super) struct Size(pub(super) [u32; 2]);
 
 impl Value for Size {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        tuple(node, "a list of two whole numbers", context, |node, context| whole(MAX_SIDE, node, context)).map(Self)
+        tuple(node, "a list of two whole numbers", context, |node, context| whole(1, MAX_SIDE, node, context)).map(Self)
     }
 
     fn schema(_: &mut Definitions) -> Json {
@@ -138,6 +139,32 @@ impl Value for Text {
     fn schema(_: &mut Definitions) -> Json {
         json!({ "type": ["string", "number", "boolean", "null"] })
     }
+}
+
+/// What the format has and this version can't show: an error, or with `--lenient` left out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unsupported;
+
+impl Value for Unsupported {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let what = format!("`{}`", context.key.text);
+        unsupported(&what, context.tree.span(node), &what, context);
+        Some(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        Json::Bool(false)
+    }
+}
+
+/// Reports what this version can't show; with `lenient` it is a warning that says what was left out.
+pub(super) fn unsupported(what: &str, span: Span, left_out: &str, context: &mut Context<'_>) {
+    let lenient = context.options.lenient;
+    let message = || format!("{what} is not supported by this version");
+    context.report(&codes::UNSUPPORTED, span, message, |d| match lenient {
+        true => d.at(span, format!("{left_out} is left out of the picture")).severity(Severity::Warning),
+        false => d.at(span, "this would be missing from the picture").hint("`--lenient` leaves it out"),
+    });
 }
 
 /// A word of a table, in any case of letters: the table's words, and what each means.
