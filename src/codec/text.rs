@@ -4,7 +4,7 @@
 
 use super::{Decoded, locate, newer, span, typed, wrong_shape};
 use crate::diag::{Diagnostic, codes};
-use crate::ir::{Camera, Light, Material, Scene, Settings, Surface, VERSION};
+use crate::ir::{Camera, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION};
 use crate::source::FileId;
 use serde::Deserialize;
 use serde_json::Value;
@@ -28,6 +28,12 @@ struct Document {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
+    #[serde(default)]
+    images: Vec<Image>,
+    #[serde(default)]
+    textures: Vec<Texture>,
+    #[serde(default)]
+    meshes: Vec<Mesh>,
     materials: Vec<Material>,
     surfaces: Vec<Surface>,
 }
@@ -49,8 +55,9 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
         let (start, end) = source.version_place();
         Err(newer(ir_version, "IR", VERSION, span(file, start, end)))
     } else if ir_version == VERSION {
-        let Document { _version, camera, settings, lights, materials, surfaces } = source.parse()?;
-        Ok(Scene { camera, settings, lights, materials, surfaces })
+        let Document { _version, camera, settings, lights, images, textures, meshes, materials, surfaces } =
+            source.parse()?;
+        Ok(Scene { camera, settings, lights, images, textures, meshes, materials, surfaces })
     } else {
         let mut tree: Value = source.parse()?;
         tree.as_object_mut().map(|members| members.shift_remove("irVersion"));

@@ -1,5 +1,6 @@
 //! The materials.
 
+use super::TextureId;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,4 +46,26 @@ pub struct Phong {
     /// How many rays sample the glossy lobe, at least 1; 1 is the mirror.
     #[schemars(range(min = 1))]
     pub glossy_samples: u32,
+    /// The texture that gives C in place of `color`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub color_map: Option<TextureId>,
+    /// The texture whose red channel multiplies ks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specular_map: Option<TextureId>,
+    /// The texture that gives the shading normal in the frame of the surface: (2·rgb − 1), blue along the normal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub normal_map: Option<TextureId>,
+    /// The texture whose brightness is the height of the surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bump: Option<Bump>,
+}
+
+/// A height field (Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Bump {
+    /// The texture; the mean of its channels is the height.
+    pub texture: TextureId,
+    /// The height of white above black, as a share of the width of a texel.
+    pub height: f64,
 }

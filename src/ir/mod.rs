@@ -6,25 +6,31 @@
 //! [`Origins`], and is not part of it.
 
 mod camera;
+mod image;
 mod light;
 mod material;
+mod mesh;
 mod origin;
 mod settings;
 mod shape;
+mod texture;
 
 pub use camera::{Camera, Lens};
+pub use image::{Image, ImageId};
 pub use light::{Light, PointLight};
-pub use material::{Material, MaterialId, Phong};
+pub use material::{Bump, Material, MaterialId, Phong};
+pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
-pub use settings::{Gooch, Mode, Settings};
-pub use shape::{Plane, Shape, Sphere, Surface, Triangle};
+pub use settings::{Gooch, Mode, Pattern, Settings};
+pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+pub use texture::{Texture, TextureId};
 
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The version of the representation that this build writes. It reads this one and every older one.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// One scene: what the camera sees, by which rules, and all there is to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -36,6 +42,15 @@ pub struct Scene {
     pub settings: Settings,
     /// The lights, in the order in which their terms are summed.
     pub lights: Vec<Light>,
+    /// The images, referred to by index.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<Image>,
+    /// The textures, referred to by index.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub textures: Vec<Texture>,
+    /// The meshes, referred to by index.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub meshes: Vec<Mesh>,
     /// The materials, referred to by index.
     pub materials: Vec<Material>,
     /// The surfaces; at equal distance the earlier one is seen.

@@ -17,6 +17,42 @@ pub struct Settings {
     /// Sub-samples along each side of a pixel, at least 1.
     #[schemars(range(min = 1))]
     pub supersampling: u32,
+    /// Where in its cell each sub-sample lies.
+    #[serde(default, skip_serializing_if = "Pattern::is_grid")]
+    pub pattern: Pattern,
+    /// How many points of each soft light are asked, at least 1; 1 asks its centre.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    #[schemars(range(min = 1))]
+    pub light_samples: u32,
+}
+
+fn one() -> u32 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn is_one(count: &u32) -> bool {
+    *count == 1
+}
+
+/// Where in its cell of the pixel each sub-sample lies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase")]
+pub enum Pattern {
+    /// In the middle.
+    #[default]
+    Grid,
+    /// Anywhere in its cell, seeded by pixel and sample.
+    Jitter,
+    /// Anywhere in the pixel, seeded by pixel and sample.
+    Random,
+}
+
+impl Pattern {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+    fn is_grid(&self) -> bool {
+        *self == Self::Grid
+    }
 }
 
 /// What a pixel shows.

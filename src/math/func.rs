@@ -12,6 +12,18 @@ pub fn cos(x: f64) -> f64 {
     libm::cos(x)
 }
 
+/// The arc cosine in radians, in [0, π].
+#[must_use]
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// The angle of the point (x, y) in radians, in (−π, π].
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
 /// `x` to the power `y`.
 #[must_use]
 pub fn pow(x: f64, y: f64) -> f64 {

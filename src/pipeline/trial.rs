@@ -101,11 +101,12 @@ fn round_trips(scene: &Scene) {
 
 /// Bounds the work of a picture, and keeps the view.
 fn make_tiny(scene: &mut Scene) {
-    let Scene { camera, settings, lights, materials, surfaces } = scene;
+    let Scene { camera, settings, lights, images: _, textures: _, meshes: _, materials, surfaces } = scene;
     camera.size = camera.size.map(|pixels| pixels.min(2 * TINY));
     camera.lens.samples = camera.lens.samples.min(TINY);
     settings.max_depth = settings.max_depth.min(TINY);
     settings.supersampling = settings.supersampling.min(2);
+    settings.light_samples = settings.light_samples.min(TINY);
     lights.truncate(TINY as usize);
     surfaces.truncate(8 * TINY as usize);
     for crate::ir::Material::Phong(material) in materials {

@@ -19,6 +19,7 @@ const HEURISTIC_DEPTH: usize = 28;
 
 const MAX_DEPTH: usize = 64;
 
+#[derive(Debug)]
 struct Node {
     bounds: Bounds,
     /// The first entry of `order` for a leaf, the second child for an inner node; the first child follows the node.
@@ -29,6 +30,7 @@ struct Node {
 }
 
 /// The hierarchy.
+#[derive(Debug)]
 pub(super) struct Bvh {
     nodes: Vec<Node>,
     order: Vec<u32>,

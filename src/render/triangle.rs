@@ -6,7 +6,7 @@
 
 use super::plane::Plane;
 use super::ray::{Interaction, Ray};
-use crate::math::{Vec3, difference_of_products};
+use crate::math::{Vec3, cross, difference_of_products};
 
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a shear.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +77,28 @@ impl Triangle {
             return None;
         }
         self.plane.intersect(ray)
+    }
+
+    /// The weights of the corners at a point of the triangle; they sum to 1.
+    #[must_use]
+    pub fn weights(&self, point: Vec3) -> [f64; 3] {
+        let [a, b, c] = self.vertices;
+        let normal = self.plane.normal();
+        let area = |p: Vec3, q: Vec3, r: Vec3| normal.dot(cross(q - p, r - p));
+        let whole = area(a, b, c);
+        let (first, second) = (area(point, b, c) / whole, area(a, point, c) / whole);
+        [first, second, 1.0 - first - second]
+    }
+
+    /// The direction in which u grows and v stays, if the texture coordinates of the corners have one.
+    #[must_use]
+    pub fn tangent(&self, uvs: [[f64; 2]; 3]) -> Option<Vec3> {
+        let [a, b, c] = self.vertices;
+        let (first, second) = (b - a, c - a);
+        let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
+        let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+        let area = du1 * dv2 - du2 * dv1;
+        ((first * dv2 - second * dv1) / area).try_normalize()
     }
 
     /// The point at `t`, moved onto the plane of the triangle.

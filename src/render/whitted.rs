@@ -92,7 +92,7 @@ impl<'world> Tracer<'world> {
     fn view(&self, ray: &Ray) -> Option<View<'world>> {
         let hit = self.world.nearest(ray)?;
         let surface = &self.world.surfaces[hit.surface];
-        let interaction = surface.shape.interaction(ray, hit.t);
+        let interaction = surface.shape.interaction(ray, hit.t, hit.part);
         let faces_away = ray.direction.dot(interaction.normal) > 0.0;
         Some(View {
             interaction,

@@ -1,64 +1,13 @@
 //! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of it.
 
-use super::bounds::Bounds;
 use super::bvh::Bvh;
-use super::plane::Plane;
-use super::ray::{Interaction, Ray};
-use super::sphere::Sphere;
-use super::triangle::{Shear, Triangle};
+use super::instance::PreparedMesh;
+use super::ray::Ray;
+use super::shape::Shape;
+use super::triangle::Shear;
 use crate::math::Vec3;
 use crate::valid::{self, ValidScene};
-
-/// A shape ready to be hit.
-#[derive(Clone, Copy, Debug)]
-pub enum Shape {
-    /// A sphere.
-    Sphere(Sphere),
-    /// An infinite plane.
-    Plane(Plane),
-    /// A triangle.
-    Triangle(Triangle),
-}
-
-impl Shape {
-    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
-    fn prepare(shape: &valid::Shape) -> Option<Self> {
-        Some(match shape {
-            valid::Shape::Sphere(sphere) => Self::Sphere(Sphere { center: sphere.center, radius: sphere.radius.get() }),
-            valid::Shape::Plane(plane) => Self::Plane(Plane::new(plane.center, plane.normal)),
-            valid::Shape::Triangle(triangle) => Self::Triangle(Triangle::new(triangle.vertices)?),
-        })
-    }
-
-    /// The smallest root above 0; `shear` is that of the ray.
-    #[must_use]
-    #[inline]
-    pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
-        match self {
-            Self::Sphere(sphere) => sphere.intersect(ray),
-            Self::Plane(plane) => plane.intersect(ray),
-            Self::Triangle(triangle) => triangle.intersect(ray, shear),
-        }
-    }
-
-    /// What is known of the point at `t`, a root of this shape.
-    #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        match self {
-            Self::Sphere(sphere) => sphere.interaction(ray, t),
-            Self::Plane(plane) => plane.interaction(ray, t),
-            Self::Triangle(triangle) => triangle.interaction(ray, t),
-        }
-    }
-
-    fn bounds(&self) -> Option<Bounds> {
-        match self {
-            Self::Sphere(sphere) => Some(Bounds::around(sphere.center, sphere.radius)),
-            Self::Plane(_) => None,
-            Self::Triangle(triangle) => Some(Bounds::of(triangle.vertices())),
-        }
-    }
-}
+use std::sync::Arc;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,10 +16,12 @@ pub struct Hit {
     pub t: f64,
     /// The surface: an index into [`World::surfaces`].
     pub surface: usize,
+    /// Which part of the surface, for shapes of several.
+    pub part: u32,
 }
 
 /// A surface of the world.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Surface {
     /// Its shape.
     pub shape: Shape,
@@ -93,8 +44,9 @@ impl World {
     /// Prepares a scene: planes of shapes, the BVH.
     #[must_use]
     pub fn prepare(scene: &ValidScene) -> Self {
+        let meshes = scene.meshes().iter().map(|mesh| Arc::new(PreparedMesh::new(mesh))).collect::<Vec<_>>();
         let surface = |surface: &valid::Surface| {
-            Some(Surface { shape: Shape::prepare(&surface.shape)?, material: surface.material })
+            Some(Surface { shape: Shape::prepare(&surface.shape, &meshes)?, material: surface.material })
         };
         let surfaces = scene.surfaces().iter().filter_map(surface).collect::<Vec<_>>();
         let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
@@ -116,13 +68,13 @@ impl World {
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         let (ray, unit) = ray.tamed();
         let shear = Shear::new(&ray);
-        let mut best = Hit { t: f64::INFINITY, surface: usize::MAX };
+        let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };
         let mut visit = |surface: u32| {
             let surface = surface as usize;
-            if let Some(t) = self.surfaces[surface].shape.intersect(&ray, &shear)
+            if let Some((t, part)) = self.surfaces[surface].shape.intersect(&ray, &shear, best.t)
                 && (t < best.t || (t == best.t && surface < best.surface))
             {
-                best = Hit { t, surface };
+                best = Hit { t, surface, part };
             }
             best.t
         };
@@ -155,8 +107,10 @@ impl World {
     fn any(&self, ray: &Ray, t_max: f64) -> bool {
         const FOUND: f64 = -1.0;
         let shear = Shear::new(ray);
-        let hits =
-            |surface: u32| self.surfaces[surface as usize].shape.intersect(ray, &shear).is_some_and(|t| t < t_max);
+        let hits = |surface: u32| {
+            let hit = self.surfaces[surface as usize].shape.intersect(ray, &shear, t_max);
+            hit.is_some_and(|(t, _)| t < t_max)
+        };
         if self.unbounded.iter().any(|surface| hits(*surface)) {
             return true;
         }

@@ -12,6 +12,13 @@ pub(super) const LARGEST: f64 = 1e60;
 /// The smallest length other than 0: its fourth power is still a normal number.
 pub(super) const SMALLEST: f64 = 1e-60;
 
+/// How many entities handles may refer to.
+pub(super) struct Counts {
+    pub(super) textures: usize,
+    pub(super) meshes: usize,
+    pub(super) materials: usize,
+}
+
 /// One run of the proof.
 pub(super) struct Check<'run> {
     origins: &'run Origins,
@@ -50,6 +57,27 @@ impl<'run> Check<'run> {
             proven.extend(one(entity, index, self));
         }
         (proven.len() == entities.len()).then_some(proven)
+    }
+
+    /// A handle to one of `count` entities.
+    pub(super) fn handle(&mut self, id: u32, count: usize, noun: &str, place: Place) -> Option<usize> {
+        let found = usize::try_from(id).ok().filter(|id| *id < count);
+        if found.is_none() {
+            let message = format!("{noun} {id} does not exist: the scene has {count}");
+            self.report(place, "", Diagnostic::new(&codes::BAD_HANDLE, message));
+        }
+        found
+    }
+
+    /// A direction: a vector of finite numbers other than zero.
+    pub(super) fn direction(&mut self, value: [f64; 3], name: &str, place: Place) -> Option<Vec3> {
+        let direction = self.finite_vector(value, place)?;
+        if direction == Vec3::ZERO {
+            let finding = Diagnostic::new(&codes::ZERO_NORMAL, format!("the {name} is the zero vector"));
+            self.report(place, "it has no direction", finding);
+            return None;
+        }
+        Some(direction)
     }
 
     /// A finite number of at most 1e60 in size.

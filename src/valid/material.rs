@@ -1,8 +1,8 @@
 //! The proof of the materials.
 
-use super::check::{Check, place};
+use super::check::{Check, Counts, place};
 use crate::diag::codes;
-use crate::ir::{self, Field, Noun};
+use crate::ir::{self, Field, Noun, Place, TextureId};
 use crate::math::{NonNegative, Positive, Vec3};
 use std::num::NonZeroU32;
 
@@ -25,10 +25,28 @@ pub struct Phong {
     pub eta: Positive,
     /// Rays of the glossy lobe.
     pub glossy_samples: NonZeroU32,
+    /// The texture that gives the colour: an index into [`super::ValidScene::textures`].
+    pub color_map: Option<usize>,
+    /// The texture whose red channel multiplies ks.
+    pub specular_map: Option<usize>,
+    /// The texture of the shading normal.
+    pub normal_map: Option<usize>,
+    /// The height field.
+    pub bump: Option<Bump>,
 }
 
-pub(super) fn material(material: &ir::Material, index: usize, check: &mut Check<'_>) -> Option<Phong> {
-    let ir::Material::Phong(ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples }) = material;
+/// A height field over a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Bump {
+    /// The texture: an index into [`super::ValidScene::textures`].
+    pub texture: usize,
+    /// The height of white above black, as a share of the width of a texel.
+    pub height: f64,
+}
+
+pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, check: &mut Check<'_>) -> Option<Phong> {
+    let ir::Material::Phong(phong) = material;
+    let ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, color_map, specular_map, normal_map, bump } = phong;
     let at = |field| place(Noun::Material, index, field);
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
@@ -38,5 +56,38 @@ pub(super) fn material(material: &ir::Material, index: usize, check: &mut Check<
     let kt = check.non_negative(*kt, "refract", at(Field::Kt));
     let eta = check.length(*eta, at(Field::Eta), &codes::ETA, "index of refraction");
     let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
-    Some(Phong { color: color?, ka: ka?, kd: kd?, ks: ks?, n: n?, kt: kt?, eta: eta?, glossy_samples: glossy_samples? })
+    let mut map = |id: &Option<TextureId>, field| texture(id.as_ref(), counts, at(field), check);
+    let color_map = map(color_map, Field::ColorMap);
+    let specular_map = map(specular_map, Field::SpecularMap);
+    let normal_map = map(normal_map, Field::NormalMap);
+    let bump = height_field(bump.as_ref(), counts, at(Field::Bump), check);
+    Some(Phong {
+        color: color?,
+        ka: ka?,
+        kd: kd?,
+        ks: ks?,
+        n: n?,
+        kt: kt?,
+        eta: eta?,
+        glossy_samples: glossy_samples?,
+        color_map: color_map?,
+        specular_map: specular_map?,
+        normal_map: normal_map?,
+        bump: bump?,
+    })
+}
+
+/// A texture that may be absent: the outer `None` is an error, the inner one absence.
+fn texture(id: Option<&TextureId>, counts: &Counts, place: Place, check: &mut Check<'_>) -> Option<Option<usize>> {
+    match id {
+        Some(id) => check.handle(id.0, counts.textures, "texture", place).map(Some),
+        None => Some(None),
+    }
+}
+
+fn height_field(bump: Option<&ir::Bump>, counts: &Counts, place: Place, check: &mut Check<'_>) -> Option<Option<Bump>> {
+    let Some(ir::Bump { texture: id, height }) = bump else { return Some(None) };
+    let texture = texture(Some(id), counts, place, check);
+    let height = check.number(*height, place);
+    texture?.zip(height).map(|(texture, height)| Some(Bump { texture, height }))
 }

@@ -5,20 +5,25 @@
 
 mod camera;
 mod check;
+mod image;
 mod light;
 mod material;
+mod mesh;
 mod settings;
 mod shape;
 
 pub use camera::{Camera, Lens};
+pub use image::{Image, Texture};
 pub use light::Light;
-pub use material::Phong;
-pub use settings::{Gooch, Mode, Settings};
-pub use shape::{Plane, Shape, Sphere, Surface, Triangle};
+pub use material::{Bump, Phong};
+pub use mesh::Mesh;
+pub use settings::{Gooch, Mode, Pattern, Settings};
+pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
 
 use crate::diag::Sink;
 use crate::ir::{self, Origins};
-use check::Check;
+use check::{Check, Counts};
+use std::sync::Arc;
 
 /// What the proof lets pass.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,6 +38,9 @@ pub struct ValidScene {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
+    images: Vec<Arc<Image>>,
+    textures: Vec<Texture>,
+    meshes: Vec<Arc<Mesh>>,
     materials: Vec<Phong>,
     surfaces: Vec<Surface>,
 }
@@ -56,6 +64,24 @@ impl ValidScene {
         &self.lights
     }
 
+    /// The images.
+    #[must_use]
+    pub fn images(&self) -> &[Arc<Image>] {
+        &self.images
+    }
+
+    /// The textures.
+    #[must_use]
+    pub fn textures(&self) -> &[Texture] {
+        &self.textures
+    }
+
+    /// The meshes.
+    #[must_use]
+    pub fn meshes(&self) -> &[Arc<Mesh>] {
+        &self.meshes
+    }
+
     /// The materials.
     #[must_use]
     pub fn materials(&self) -> &[Phong] {
@@ -73,19 +99,27 @@ impl ValidScene {
 ///
 /// `None` exactly if this call reported an error.
 pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
-    let ir::Scene { camera, settings, lights, materials, surfaces } = scene;
+    let ir::Scene { camera, settings, lights, images, textures, meshes, materials, surfaces } = scene;
     let mut check = Check::new(origins, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     let valid_lights = check.all(lights, light::light);
-    let valid_materials = check.all(materials, material::material);
-    let valid_surfaces =
-        check.all(surfaces, |surface, index, check| shape::surface(surface, index, materials.len(), check));
+    let valid_images = check.all(images, image::image);
+    let valid_textures =
+        check.all(textures, |texture, index, check| image::texture(texture, index, images.len(), check));
+    let valid_meshes = check.all(meshes, mesh::mesh);
+    let counts = Counts { textures: textures.len(), meshes: meshes.len(), materials: materials.len() };
+    let valid_materials =
+        check.all(materials, |material, index, check| material::material(material, index, &counts, check));
+    let valid_surfaces = check.all(surfaces, |surface, index, check| shape::surface(surface, index, &counts, check));
     settings::budget(scene, options, &mut check);
     let valid = ValidScene {
         camera: valid_camera?,
         settings: valid_settings?,
         lights: valid_lights?,
+        images: valid_images?.into_iter().map(Arc::new).collect(),
+        textures: valid_textures?,
+        meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
         materials: valid_materials?,
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };

@@ -6,6 +6,8 @@ use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
 use std::num::NonZeroU32;
 
+pub use crate::ir::Pattern;
+
 /// The largest image without `--allow-huge`, in pixels.
 const MAX_PIXELS: u128 = 16_384 * 16_384;
 
@@ -26,6 +28,10 @@ pub struct Settings {
     pub max_depth: u32,
     /// Sub-samples along each side of a pixel.
     pub supersampling: NonZeroU32,
+    /// Where in its cell each sub-sample lies.
+    pub pattern: Pattern,
+    /// Points of each soft light.
+    pub light_samples: NonZeroU32,
 }
 
 /// What a pixel shows.
@@ -55,7 +61,7 @@ pub struct Gooch {
 }
 
 pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option<Settings> {
-    let ir::Settings { mode, shadows, max_depth, supersampling } = settings;
+    let ir::Settings { mode, shadows, max_depth, supersampling, pattern, light_samples } = settings;
     let mode = match mode {
         ir::Mode::Phong => Some(Mode::Phong),
         ir::Mode::Zbuffer => Some(Mode::Zbuffer),
@@ -63,6 +69,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         ir::Mode::Gooch(parameters) => gooch(parameters, check),
     };
     let supersampling = check.count(*supersampling, "supersampling factor", at(Field::Supersampling));
+    let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
     if *max_depth > MAX_DEPTH {
         let finding = Diagnostic::new(&codes::TOO_DEEP, format!("{max_depth} bounces are too many"));
         check.report(
@@ -72,7 +79,14 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         );
         return None;
     }
-    Some(Settings { mode: mode?, shadows: *shadows, max_depth: *max_depth, supersampling: supersampling? })
+    Some(Settings {
+        mode: mode?,
+        shadows: *shadows,
+        max_depth: *max_depth,
+        supersampling: supersampling?,
+        pattern: *pattern,
+        light_samples: light_samples?,
+    })
 }
 
 fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
@@ -106,7 +120,7 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
 }
 
 fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
-    let ir::Settings { supersampling, max_depth, .. } = scene.settings;
+    let ir::Settings { supersampling, max_depth, mode: _, shadows: _, pattern: _, light_samples: _ } = scene.settings;
     let ir::Lens { radius, samples } = scene.camera.lens;
     let lens = if radius == 0.0 { 1 } else { u128::from(samples) };
     let glossy = u128::from(scene.materials.iter().map(glossy_rays).max().unwrap_or(1));

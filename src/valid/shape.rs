@@ -1,9 +1,9 @@
-//! The proof of the shapes: radii above 0, normals with a direction, triangles with an area.
+//! The proof of the shapes: radii above 0, directions that are some, faces with an area.
 
-use super::check::{Check, SMALLEST, place};
+use super::check::{Check, Counts, SMALLEST, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
-use crate::ir::{self, Field, Noun};
+use crate::ir::{self, Field, Noun, Place};
 use crate::math::{Positive, Vec3, cross, unit_scale};
 
 /// A shape and the index of its material.
@@ -24,6 +24,18 @@ pub enum Shape {
     Plane(Plane),
     /// A triangle with an area.
     Triangle(Triangle),
+    /// A quadrilateral with an area.
+    Quad(Quad),
+    /// A disc.
+    Disc(Disc),
+    /// A cylinder.
+    Cylinder(Cylinder),
+    /// A cone.
+    Cone(Cone),
+    /// A torus.
+    Torus(Torus),
+    /// A mesh, placed.
+    Instance(Instance),
 }
 
 /// A sphere.
@@ -33,6 +45,8 @@ pub struct Sphere {
     pub center: Vec3,
     /// Its radius.
     pub radius: Positive,
+    /// The rows of the rotation from directions of the world to those of the texture.
+    pub texture_from_world: [Vec3; 3],
 }
 
 /// An infinite plane.
@@ -49,76 +63,244 @@ pub struct Plane {
 pub struct Triangle {
     /// The corners; the normal is (v1 − v0) × (v2 − v0).
     pub vertices: [Vec3; 3],
+    /// The texture coordinates of the corners.
+    pub uvs: Option<[[f64; 2]; 3]>,
 }
 
-/// `Some(None)` for a triangle without an area: nothing can hit it, so it is warned about and left out.
+/// A quadrilateral.
+#[derive(Clone, Copy, Debug)]
+pub struct Quad {
+    /// The corners in order around it.
+    pub vertices: [Vec3; 4],
+}
+
+/// A disc.
+#[derive(Clone, Copy, Debug)]
+pub struct Disc {
+    /// Its centre.
+    pub center: Vec3,
+    /// Its normal, of any length but 0.
+    pub normal: Vec3,
+    /// Its radius.
+    pub radius: Positive,
+}
+
+/// A cylinder with two caps.
+#[derive(Clone, Copy, Debug)]
+pub struct Cylinder {
+    /// The centre of its base.
+    pub base: Vec3,
+    /// The direction to the top, of any length but 0.
+    pub axis: Vec3,
+    /// From base to top.
+    pub height: Positive,
+    /// Its radius.
+    pub radius: Positive,
+}
+
+/// A cone with a cap at its base.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    /// The centre of its base.
+    pub base: Vec3,
+    /// From there to the apex; not zero.
+    pub up: Vec3,
+    /// The radius of its base.
+    pub radius: Positive,
+}
+
+/// A torus.
+#[derive(Clone, Copy, Debug)]
+pub struct Torus {
+    /// Its centre.
+    pub center: Vec3,
+    /// The direction of its axis, of any length but 0.
+    pub axis: Vec3,
+    /// From the centre to the middle of the tube.
+    pub major: Positive,
+    /// The radius of the tube.
+    pub minor: Positive,
+}
+
+/// A mesh, placed in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance {
+    /// An index into [`super::ValidScene::meshes`], in range.
+    pub mesh: usize,
+    /// The images of the three axes, which span space, and of the origin.
+    pub world_from_object: [Vec3; 4],
+}
+
+/// `Some(None)` for a face without an area: nothing can hit it, so it is warned about and left out.
 pub(super) fn surface(
     surface: &ir::Surface,
     index: usize,
-    materials: usize,
+    counts: &Counts,
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
-    let material = handle(material.0, index, materials, check);
+    let mut proof = Proof { index, check };
+    let material = proof.check.handle(material.0, counts.materials, "material", proof.at(Field::Material));
     let shape = match shape {
-        ir::Shape::Sphere(shape) => sphere(shape, index, check).map(Some),
-        ir::Shape::Plane(shape) => plane(shape, index, check).map(Some),
-        ir::Shape::Triangle(shape) => triangle(shape, index, check),
+        ir::Shape::Sphere(shape) => proof.sphere(shape).map(Some),
+        ir::Shape::Plane(shape) => proof.plane(shape).map(Some),
+        ir::Shape::Triangle(shape) => proof.triangle(shape),
+        ir::Shape::Quad(shape) => proof.quad(shape),
+        ir::Shape::Disc(shape) => proof.disc(shape).map(Some),
+        ir::Shape::Cylinder(shape) => proof.cylinder(shape).map(Some),
+        ir::Shape::Cone(shape) => proof.cone(shape).map(Some),
+        ir::Shape::Torus(shape) => proof.torus(shape).map(Some),
+        ir::Shape::Instance(shape) => proof.instance(shape, counts).map(Some),
     };
     let material = material?;
     Some(shape?.map(|shape| Surface { shape, material }))
 }
 
-fn handle(material: u32, index: usize, materials: usize, check: &mut Check<'_>) -> Option<usize> {
-    let found = usize::try_from(material).ok().filter(|material| *material < materials);
-    if found.is_none() {
-        let message = format!("material {material} does not exist: the scene has {materials}");
-        let finding = Diagnostic::new(&codes::BAD_HANDLE, message);
-        check.report(place(Noun::Surface, index, Field::Material), "", finding);
+/// The proof of one surface.
+struct Proof<'a, 'run> {
+    index: usize,
+    check: &'a mut Check<'run>,
+}
+
+impl Proof<'_, '_> {
+    fn at(&self, field: Field) -> Place {
+        place(Noun::Surface, self.index, field)
     }
-    found
-}
 
-fn sphere(sphere: &ir::Sphere, index: usize, check: &mut Check<'_>) -> Option<Shape> {
-    let ir::Sphere { center, radius } = sphere;
-    let center = check.vector(*center, place(Noun::Surface, index, Field::SphereCenter));
-    let radius = check.length(*radius, place(Noun::Surface, index, Field::SphereRadius), &codes::RADIUS, "radius");
-    Some(Shape::Sphere(Sphere { center: center?, radius: radius? }))
-}
-
-fn plane(plane: &ir::Plane, index: usize, check: &mut Check<'_>) -> Option<Shape> {
-    let ir::Plane { center, normal } = plane;
-    let center = check.vector(*center, place(Noun::Surface, index, Field::PlaneCenter));
-    let at_normal = place(Noun::Surface, index, Field::PlaneNormal);
-    let normal = check.finite_vector(*normal, at_normal)?;
-    if normal == Vec3::ZERO {
-        let finding = Diagnostic::new(&codes::ZERO_NORMAL, "the normal of a plane is the zero vector");
-        check.report(at_normal, "it has no direction", finding.hint("a floor has the normal `[0, 1, 0]`"));
-        return None;
+    fn point(&mut self, value: [f64; 3], field: Field) -> Option<Vec3> {
+        self.check.vector(value, self.at(field))
     }
-    Some(Shape::Plane(Plane { center: center?, normal }))
-}
 
-fn triangle(triangle: &ir::Triangle, index: usize, check: &mut Check<'_>) -> Option<Option<Shape>> {
-    const FIELDS: [Field; 3] = [Field::TriangleVertex0, Field::TriangleVertex1, Field::TriangleVertex2];
-    let ir::Triangle { vertices } = triangle;
-    let corner = |k: usize, check: &mut Check<'_>| check.vector(vertices[k], place(Noun::Surface, index, FIELDS[k]));
-    let (a, b, c) = (corner(0, check), corner(1, check), corner(2, check));
-    let vertices = [a?, b?, c?];
-    if has_area(vertices) {
-        return Some(Some(Shape::Triangle(Triangle { vertices })));
+    fn direction(&mut self, value: [f64; 3], name: &str, field: Field) -> Option<Vec3> {
+        self.check.direction(value, name, self.at(field))
     }
-    let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, "a triangle has no area, so nothing shows of it");
-    let finding = finding.hint("give it three corners that are not in line, or remove it");
-    check.report(place(Noun::Surface, index, Field::Whole), "its corners are in line", finding);
-    Some(None)
+
+    fn length(&mut self, value: f64, name: &str, field: Field) -> Option<Positive> {
+        self.check.length(value, self.at(field), &codes::RADIUS, name)
+    }
+
+    fn sphere(&mut self, sphere: &ir::Sphere) -> Option<Shape> {
+        let ir::Sphere { center, radius, texture_from_world } = sphere;
+        let center = self.point(*center, Field::SphereCenter);
+        let radius = self.length(*radius, "radius", Field::SphereRadius);
+        let rows = texture_from_world.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        let rows = rows.map(Vec3::from_array);
+        if !is_rotation(rows) {
+            let finding = Diagnostic::new(&codes::BAD_ROTATION, "the texture of a sphere is turned by no rotation");
+            self.check.report(self.at(Field::Whole), "", finding);
+            return None;
+        }
+        Some(Shape::Sphere(Sphere { center: center?, radius: radius?, texture_from_world: rows }))
+    }
+
+    fn plane(&mut self, plane: &ir::Plane) -> Option<Shape> {
+        let ir::Plane { center, normal } = plane;
+        let center = self.point(*center, Field::PlaneCenter);
+        let normal = self.direction(*normal, "normal of a plane", Field::PlaneNormal);
+        Some(Shape::Plane(Plane { center: center?, normal: normal? }))
+    }
+
+    fn triangle(&mut self, triangle: &ir::Triangle) -> Option<Option<Shape>> {
+        const FIELDS: [Field; 3] = [Field::TriangleVertex0, Field::TriangleVertex1, Field::TriangleVertex2];
+        let ir::Triangle { vertices, uvs } = triangle;
+        let corners = [0, 1, 2].map(|k| self.point(vertices[k], FIELDS[k]));
+        for uv in uvs.iter().flatten().flatten() {
+            self.check.number(*uv, self.at(Field::Whole))?;
+        }
+        let vertices = [corners[0]?, corners[1]?, corners[2]?];
+        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle { vertices, uvs: *uvs }));
+        Some(self.face(sound, "triangle"))
+    }
+
+    fn quad(&mut self, quad: &ir::Quad) -> Option<Option<Shape>> {
+        const FIELDS: [Field; 4] = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+        let ir::Quad { vertices } = quad;
+        let corners = [0, 1, 2, 3].map(|k| self.point(vertices[k], FIELDS[k]));
+        let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
+        let area = has_area([a, b, c]) || has_area([a, c, d]);
+        let sound = area.then_some(Shape::Quad(Quad { vertices: [a, b, c, d] }));
+        Some(self.face(sound, "quad"))
+    }
+
+    /// Warns about a face that has no area.
+    fn face(&mut self, sound: Option<Shape>, name: &str) -> Option<Shape> {
+        if sound.is_none() {
+            let message = format!("a {name} has no area, so nothing shows of it");
+            let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
+            let finding = finding.hint("give it corners that are not in line, or remove it");
+            self.check.report(self.at(Field::Whole), "its corners are in line", finding);
+        }
+        sound
+    }
+
+    fn disc(&mut self, disc: &ir::Disc) -> Option<Shape> {
+        let ir::Disc { center, normal, radius } = disc;
+        let center = self.point(*center, Field::DiscCenter);
+        let normal = self.direction(*normal, "normal of a disc", Field::DiscNormal);
+        let radius = self.length(*radius, "radius", Field::DiscRadius);
+        Some(Shape::Disc(Disc { center: center?, normal: normal?, radius: radius? }))
+    }
+
+    fn cylinder(&mut self, cylinder: &ir::Cylinder) -> Option<Shape> {
+        let ir::Cylinder { base, axis, height, radius } = cylinder;
+        let base = self.point(*base, Field::CylinderBase);
+        let axis = self.direction(*axis, "axis of a cylinder", Field::CylinderAxis);
+        let height = self.length(*height, "height", Field::CylinderHeight);
+        let radius = self.length(*radius, "radius", Field::CylinderRadius);
+        Some(Shape::Cylinder(Cylinder { base: base?, axis: axis?, height: height?, radius: radius? }))
+    }
+
+    fn cone(&mut self, cone: &ir::Cone) -> Option<Shape> {
+        let ir::Cone { base, up, radius } = cone;
+        let base = self.point(*base, Field::ConeBase);
+        let up_vector = self.point(*up, Field::ConeUp);
+        let height = up_vector.map(|up| up.abs().max_element());
+        let height = height.and_then(|height| self.length(height, "height of a cone", Field::ConeUp));
+        let radius = self.length(*radius, "radius", Field::ConeRadius);
+        height?;
+        Some(Shape::Cone(Cone { base: base?, up: up_vector?, radius: radius? }))
+    }
+
+    fn torus(&mut self, torus: &ir::Torus) -> Option<Shape> {
+        let ir::Torus { center, axis, major, minor } = torus;
+        let center = self.point(*center, Field::TorusCenter);
+        let axis = self.direction(*axis, "axis of a torus", Field::TorusAxis);
+        let major = self.length(*major, "radius", Field::TorusMajor);
+        let minor = self.length(*minor, "radius of the tube", Field::TorusMinor);
+        Some(Shape::Torus(Torus { center: center?, axis: axis?, major: major?, minor: minor? }))
+    }
+
+    fn instance(&mut self, instance: &ir::Instance, counts: &Counts) -> Option<Shape> {
+        let ir::Instance { mesh, world_from_object } = instance;
+        let mesh = self.check.handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
+        let columns = world_from_object.map(|column| self.point(column, Field::InstanceTransform));
+        let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
+        let axes = [0, 1, 2].map(|k| unit_scale(columns[k]).map(|(axis, _)| axis.normalize()));
+        let volume = axes[0]?.dot(axes[1]?.cross(axes[2]?)).abs();
+        let smallest = columns[..3].iter().map(|axis| axis.abs().max_element()).fold(f64::INFINITY, f64::min);
+        if volume < 1e-9 || smallest < SMALLEST {
+            let finding = Diagnostic::new(&codes::BAD_ROTATION, "a mesh is placed by a map that flattens it");
+            self.check.report(self.at(Field::InstanceTransform), "", finding);
+            return None;
+        }
+        Some(Shape::Instance(Instance { mesh: mesh?, world_from_object: columns }))
+    }
 }
 
-fn has_area([a, b, c]: [Vec3; 3]) -> bool {
-    let (first, second) = (b - a, c - a);
-    let Some((first, p)) = unit_scale(first) else { return false };
-    let Some((second, q)) = unit_scale(second) else { return false };
+/// Whether the rows are those of a rotation, to within 1e-6.
+fn is_rotation(rows: [Vec3; 3]) -> bool {
+    const SLACK: f64 = 1e-6;
+    let close = |value: f64, wanted: f64| (value - wanted).abs() <= SLACK;
+    let [x, y, z] = rows;
+    let units = rows.iter().all(|row| close(row.dot(*row), 1.0));
+    units && close(x.dot(y), 0.0) && close(y.dot(z), 0.0) && close(z.dot(x), 0.0) && close(x.cross(y).dot(z), 1.0)
+}
+
+/// Whether three corners are not in line.
+pub(super) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+    let Some((first, p)) = unit_scale(b - a) else { return false };
+    let Some((second, q)) = unit_scale(c - a) else { return false };
     // Edges so short that their products leave the range of f64 count as none.
-    let shortest = f64::from(p.min(q)) > f64::from(libm::ilogb(SMALLEST));
+    let shortest = p.min(q) > libm::ilogb(SMALLEST);
     shortest && cross(first, second) != Vec3::ZERO
 }

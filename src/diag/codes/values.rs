@@ -45,6 +45,16 @@ super::codes! { VA:
     ETA = "VA015", Error, "an index of refraction is not above 0",
         "The index of refraction is that of the inside over that of the outside: glass in air has about 1.5, water \
          1.33, and 1 does not bend light.";
+    BAD_IMAGE = "VA017", Error, "an image has not the pixels it should have",
+        "An image of the IR is width × height pixels of three bytes, as Base64. Only a damaged or hand-made IR file \
+         gets here.";
+    BAD_MESH = "VA018", Error, "a mesh is not sound",
+        "Every vertex, normal and texture coordinate of a mesh is finite, normals and texture coordinates are as many as \
+         vertices or none, and triangles refer to vertices that exist. The message names the first culprit, counted \
+         from 0. Export the mesh again, or remove the vertex.";
+    BAD_ROTATION = "VA019", Error, "a transformation is none",
+        "The texture of a sphere is turned by a rotation, and a mesh is placed by a map that keeps its volume: three axes \
+         that span space, none of them zero.";
     TOO_DEEP = "VA016", Error, "more than 1000000 bounces",
         "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
          10, a box of mirrors a few hundred.";

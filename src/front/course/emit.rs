@@ -14,12 +14,12 @@ use std::fmt::Write as _;
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.
 pub fn emit(scene: &Scene) -> Result<String, String> {
-    let Scene { camera, settings, lights, materials, surfaces } = scene;
+    let Scene { camera, settings, lights, images: _, textures: _, meshes: _, materials, surfaces } = scene;
     let mut text = Text::default();
     text.camera(camera, camera_up(camera)?);
     text.settings(settings);
     text.line(0, if lights.is_empty() { "Lights: []" } else { "Lights:" });
-    for Light::Point(PointLight { position, color }) in lights {
+    for Light::Point(PointLight { position, color, radius: _ }) in lights {
         text.numbers("- position", position, 2);
         text.numbers("color", color, 4);
     }
@@ -83,7 +83,7 @@ impl Text {
     }
 
     fn settings(&mut self, settings: &Settings) {
-        let Settings { mode, shadows, max_depth, supersampling } = settings;
+        let Settings { mode, shadows, max_depth, supersampling, pattern: _, light_samples: _ } = settings;
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
             Mode::Zbuffer => self.line(0, "RenderMode: zbuffer"),
@@ -104,7 +104,7 @@ impl Text {
 
     fn shape(&mut self, shape: &Shape) {
         match shape {
-            Shape::Sphere(Sphere { center, radius }) => {
+            Shape::Sphere(Sphere { center, radius, texture_from_world: _ }) => {
                 self.line(2, "- type: sphere");
                 self.numbers("position", center, 4);
                 self.number("radius", *radius, 4);
@@ -114,17 +114,23 @@ impl Text {
                 self.numbers("position", center, 4);
                 self.numbers("normal", normal, 4);
             }
-            Shape::Triangle(Triangle { vertices }) => {
+            Shape::Triangle(Triangle { vertices, uvs: _ }) => {
                 self.line(2, "- type: triangle");
                 for (key, vertex) in ["v0", "v1", "v2"].into_iter().zip(vertices) {
                     self.numbers(key, vertex, 4);
                 }
             }
+            Shape::Quad(_)
+            | Shape::Disc(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Torus(_)
+            | Shape::Instance(_) => {}
         }
     }
 
     fn material(&mut self, key: &str, material: &Material) {
-        let Material::Phong(Phong { color, ka, kd, ks, n, kt, eta, glossy_samples }) = material;
+        let Material::Phong(Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, .. }) = material;
         self.line(4, key);
         self.numbers("color", color, 6);
         for (key, value) in [("ka", ka), ("kd", kd), ("ks", ks), ("n", n)] {

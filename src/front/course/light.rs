@@ -21,7 +21,11 @@ impl Lowering {
     pub(super) fn light(&mut self, light: &Spanned<Light>) {
         let Light { position, color } = light.value;
         let index = self.scene.lights.len();
-        self.scene.lights.push(ir::Light::Point(ir::PointLight { position: position.value.0, color: color.value.0 }));
+        self.scene.lights.push(ir::Light::Point(ir::PointLight {
+            position: position.value.0,
+            color: color.value.0,
+            radius: 0.0,
+        }));
         self.origin(Noun::Light, index, Field::Whole, light.span);
         self.origin(Noun::Light, index, Field::Position, position.span);
         self.origin(Noun::Light, index, Field::Color, color.span);

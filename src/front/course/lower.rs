@@ -53,11 +53,21 @@ pub(super) struct Lowering {
 
 impl Lowering {
     fn new() -> Self {
-        let settings = ir::Settings { mode: ir::Mode::Phong, shadows: false, max_depth: 0, supersampling: 1 };
+        let settings = ir::Settings {
+            mode: ir::Mode::Phong,
+            shadows: false,
+            max_depth: 0,
+            supersampling: 1,
+            pattern: ir::Pattern::Grid,
+            light_samples: 1,
+        };
         let scene = ir::Scene {
             camera: camera::placeholder(),
             settings,
             lights: Vec::new(),
+            images: Vec::new(),
+            textures: Vec::new(),
+            meshes: Vec::new(),
             materials: Vec::new(),
             surfaces: Vec::new(),
         };

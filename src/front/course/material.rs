@@ -70,6 +70,10 @@ impl Lowering {
             kt: weight,
             eta: ratio,
             glossy_samples: glossy_samples.value.0,
+            color_map: None,
+            specular_map: None,
+            normal_map: None,
+            bump: None,
         }));
         for (field, span) in [
             (Field::Whole, material.span),

@@ -186,7 +186,11 @@ impl Lowering {
     pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
         match object {
             Object::Sphere(Sphere { kind, position, radius, _turn: _, _axis: _, material }) => {
-                let shape = ir::Shape::Sphere(ir::Sphere { center: position.value.0, radius: radius.value.0 });
+                let shape = ir::Shape::Sphere(ir::Sphere {
+                    center: position.value.0,
+                    radius: radius.value.0,
+                    texture_from_world: None,
+                });
                 let places = [(Field::SphereCenter, position.span), (Field::SphereRadius, radius.span)];
                 self.surface(kind.span, shape, &places, material, context);
             }
@@ -196,7 +200,8 @@ impl Lowering {
                 }
             }
             Object::Triangle(Triangle { kind, corners, material }) => {
-                let shape = ir::Shape::Triangle(ir::Triangle { vertices: corners.map(|corner| corner.value.0) });
+                let shape =
+                    ir::Shape::Triangle(ir::Triangle { vertices: corners.map(|corner| corner.value.0), uvs: None });
                 let fields = [Field::TriangleVertex0, Field::TriangleVertex1, Field::TriangleVertex2];
                 let places: Vec<_> = fields.into_iter().zip(corners.map(|corner| corner.span)).collect();
                 self.surface(kind.span, shape, &places, material, context);

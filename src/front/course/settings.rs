@@ -137,6 +137,8 @@ impl Lowering {
             shadows: shadows.value,
             max_depth: depth.value.0,
             supersampling: sampling.value.0.0,
+            pattern: ir::Pattern::Grid,
+            light_samples: 1,
         };
         self.origin(Noun::Settings, 0, Field::Mode, mode.span);
         self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);

@@ -1,0 +1,29 @@
+//! The meshes: triangles that share corners.
+
+use arbitrary::Arbitrary;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The index of a mesh in [`super::Scene::meshes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(transparent)]
+pub struct MeshId(pub u32);
+
+/// Triangles over one list of corners, in object coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Mesh {
+    /// What its file was called, as the scene names it; empty if it has no name.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Where the corners are.
+    pub positions: Vec<[f64; 3]>,
+    /// The shading normal at each corner, of any length; empty for flat shading.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub normals: Vec<[f64; 3]>,
+    /// The texture coordinates at each corner; empty if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub uvs: Vec<[f64; 2]>,
+    /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).
+    pub triangles: Vec<[u32; 3]>,
+}

@@ -1,0 +1,152 @@
+//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and hierarchy.
+
+use super::bounds::Bounds;
+use super::bvh::Bvh;
+use super::ray::{Interaction, Ray};
+use super::triangle::{Shear, Triangle};
+use crate::math::{Vec3, cross};
+use crate::valid::Mesh;
+use std::sync::Arc;
+
+/// A mesh ready to be hit, in object coordinates.
+#[derive(Debug)]
+pub struct PreparedMesh {
+    /// The mesh as proven.
+    pub mesh: Arc<Mesh>,
+    triangles: Vec<Triangle>,
+    /// The index in the mesh of each triangle.
+    indices: Vec<u32>,
+    bvh: Bvh,
+}
+
+impl PreparedMesh {
+    /// Prepares a mesh.
+    #[must_use]
+    pub fn new(mesh: &Arc<Mesh>) -> Self {
+        let corners = |t: &[usize; 3]| Triangle::new(t.map(|k| mesh.positions[k]));
+        let prepared = (0_u32..).zip(&mesh.triangles).filter_map(|(index, t)| Some((corners(t)?, index)));
+        let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
+        let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
+        Self { mesh: Arc::clone(mesh), bvh: Bvh::build(&boxes), triangles, indices }
+    }
+}
+
+/// A mesh in the world.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    mesh: Arc<PreparedMesh>,
+    /// The images of the axes.
+    axes: [Vec3; 3],
+    origin: Vec3,
+    /// The rows of the inverse of the axes.
+    inverse: [Vec3; 3],
+    bounds: Bounds,
+}
+
+impl Instance {
+    /// The mesh placed by a map whose columns are the images of the axes, which span space, and of the origin.
+    #[must_use]
+    pub fn new(mesh: &Arc<PreparedMesh>, [x, y, z, origin]: [Vec3; 4]) -> Self {
+        let volume = cross(x, y).dot(z);
+        let inverse = [cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume];
+        let mut instance = Self { mesh: Arc::clone(mesh), axes: [x, y, z], origin, inverse, bounds: Bounds::EMPTY };
+        let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices());
+        for corner in corners {
+            let point = instance.to_world(*corner);
+            // The map rounds; the box must hold what the ray in object space may hit.
+            instance.bounds = instance.bounds.union(Bounds::around(point, instance.rounding(*corner)));
+        }
+        instance
+    }
+
+    /// How far rounding may move a point between the two spaces.
+    fn rounding(&self, local: Vec3) -> f64 {
+        let [x, y, z] = self.axes.map(|axis| axis.abs().element_sum());
+        16.0 * crate::math::U * (Vec3::new(x, y, z).dot(local.abs()) + self.origin.abs().element_sum())
+    }
+
+    fn to_world(&self, p: Vec3) -> Vec3 {
+        self.vector_to_world(p) + self.origin
+    }
+
+    fn vector_to_world(&self, v: Vec3) -> Vec3 {
+        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    }
+
+    fn normal_to_world(&self, n: Vec3) -> Vec3 {
+        (self.inverse[0] * n.x + self.inverse[1] * n.y + self.inverse[2] * n.z).normalize_or_zero()
+    }
+
+    /// The ray in object space; its `t` are those of the world.
+    fn to_object(&self, ray: &Ray) -> Ray {
+        let rows = |v: Vec3| Vec3::new(self.inverse[0].dot(v), self.inverse[1].dot(v), self.inverse[2].dot(v));
+        Ray { origin: rows(ray.origin - self.origin), direction: rows(ray.direction) }
+    }
+
+    /// The smallest root above 0 that is not beyond `t_max`, and its triangle.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let ray = self.to_object(ray);
+        let shear = Shear::new(&ray);
+        let mut best = (t_max, u32::MAX);
+        self.mesh.bvh.walk(&ray, t_max, |item, _| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&ray, &shear)
+                && (t < best.0 || (t == best.0 && item < best.1))
+            {
+                best = (t, item);
+            }
+            best.0
+        });
+        (best.1 != u32::MAX).then_some(best)
+    }
+
+    /// The point at `t` on triangle `part`.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        let local_ray = self.to_object(ray);
+        let local = self.mesh.triangles[part as usize].interaction(&local_ray, t);
+        let point = self.to_world(local.point);
+        let [x, y, z] = self.axes.map(|axis| axis.abs().element_sum());
+        let reach = local_ray.origin.abs() + local.point.abs();
+        let extent = 2.0 * Vec3::new(x, y, z).dot(reach);
+        Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
+    }
+
+    /// What the mesh says about a point of triangle `part`: shading normal, uv and the direction of growing u.
+    pub(super) fn details(&self, point: Vec3, part: u32) -> Details {
+        let triangle = &self.mesh.triangles[part as usize];
+        let local = self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin;
+        let weights = triangle.weights(local);
+        let mesh = &self.mesh.mesh;
+        let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
+        let normal = (!mesh.normals.is_empty()).then(|| {
+            let normals = corners.map(|k| mesh.normals[k]);
+            self.normal_to_world(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
+        });
+        let uvs = (!mesh.uvs.is_empty()).then(|| corners.map(|k| mesh.uvs[k]));
+        let uv = uvs.map(|uvs| interpolate(uvs, weights));
+        let tangent = uvs.and_then(|uvs| triangle.tangent(uvs)).map(|tangent| self.vector_to_world(tangent));
+        Details { normal: normal.filter(|normal| *normal != Vec3::ZERO), uv, tangent }
+    }
+
+    /// A box around it.
+    pub(super) fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+}
+
+/// What a surface knows of a point beyond its geometry.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Details {
+    /// The unit shading normal, where it is not the geometric one.
+    pub(super) normal: Option<Vec3>,
+    /// The texture coordinates.
+    pub(super) uv: Option<[f64; 2]>,
+    /// A direction along the surface in which u grows and v stays.
+    pub(super) tangent: Option<Vec3>,
+}
+
+/// The uv at a point with these weights of the corners.
+pub(super) fn interpolate(uvs: [[f64; 2]; 3], weights: [f64; 3]) -> [f64; 2] {
+    [0, 1].map(|axis| (0..3).map(|k| weights[k] * uvs[k][axis]).sum())
+}

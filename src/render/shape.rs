@@ -1,0 +1,151 @@
+//! A shape of any kind, ready to be hit.
+
+use super::bounds::Bounds;
+use super::cone::Cone;
+use super::cylinder::Cylinder;
+use super::disc::Disc;
+use super::instance::{Details, Instance, PreparedMesh, interpolate};
+use super::plane::Plane;
+use super::quad::Quad;
+use super::ray::{Interaction, Ray};
+use super::sphere::Sphere;
+use super::torus::Torus;
+use super::triangle::{Shear, Triangle};
+use crate::math::{Vec3, acos, atan2};
+use crate::valid;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+/// A shape ready to be hit.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// A sphere, and the rows of the rotation to the directions of its texture.
+    Sphere(Sphere, [Vec3; 3]),
+    /// An infinite plane.
+    Plane(Plane),
+    /// A triangle, and the texture coordinates of its corners.
+    Triangle(Triangle, Option<[[f64; 2]; 3]>),
+    /// A quadrilateral.
+    Quad(Quad),
+    /// A disc.
+    Disc(Disc),
+    /// A cylinder.
+    Cylinder(Cylinder),
+    /// A cone.
+    Cone(Cone),
+    /// A torus.
+    Torus(Torus),
+    /// A mesh, placed.
+    Instance(Box<Instance>),
+}
+
+impl Shape {
+    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
+    pub(super) fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
+        Some(match shape {
+            valid::Shape::Sphere(valid::Sphere { center, radius, texture_from_world }) => {
+                Self::Sphere(Sphere { center: *center, radius: radius.get() }, *texture_from_world)
+            }
+            valid::Shape::Plane(valid::Plane { center, normal }) => Self::Plane(Plane::new(*center, *normal)),
+            valid::Shape::Triangle(valid::Triangle { vertices, uvs }) => {
+                Self::Triangle(Triangle::new(*vertices)?, *uvs)
+            }
+            valid::Shape::Quad(valid::Quad { vertices }) => Self::Quad(Quad::new(*vertices)),
+            valid::Shape::Disc(valid::Disc { center, normal, radius }) => {
+                Self::Disc(Disc::new(*center, *normal, radius.get()))
+            }
+            valid::Shape::Cylinder(valid::Cylinder { base, axis, height, radius }) => {
+                Self::Cylinder(Cylinder::new(*base, *axis, height.get(), radius.get()))
+            }
+            valid::Shape::Cone(valid::Cone { base, up, radius }) => Self::Cone(Cone::new(*base, *up, radius.get())),
+            valid::Shape::Torus(valid::Torus { center, axis, major, minor }) => {
+                Self::Torus(Torus::new(*center, *axis, major.get(), minor.get()))
+            }
+            valid::Shape::Instance(valid::Instance { mesh, world_from_object }) => {
+                Self::Instance(Box::new(Instance::new(&meshes[*mesh], *world_from_object)))
+            }
+        })
+    }
+
+    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray. Roots beyond `t_max`
+    /// may be left out.
+    #[must_use]
+    #[inline]
+    pub fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+        let whole = |t: Option<f64>| t.map(|t| (t, 0));
+        match self {
+            Self::Sphere(sphere, _) => whole(sphere.intersect(ray)),
+            Self::Plane(plane) => whole(plane.intersect(ray)),
+            Self::Triangle(triangle, _) => whole(triangle.intersect(ray, shear)),
+            Self::Quad(quad) => quad.intersect(ray, shear),
+            Self::Disc(disc) => whole(disc.intersect(ray)),
+            Self::Cylinder(cylinder) => whole(cylinder.intersect(ray)),
+            Self::Cone(cone) => whole(cone.intersect(ray)),
+            Self::Torus(torus) => whole(torus.intersect(ray)),
+            Self::Instance(instance) => instance.intersect(ray, t_max),
+        }
+    }
+
+    /// What is known of the point at `t`, a root on `part` of this shape.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        match self {
+            Self::Sphere(sphere, _) => sphere.interaction(ray, t),
+            Self::Plane(plane) => plane.interaction(ray, t),
+            Self::Triangle(triangle, _) => triangle.interaction(ray, t),
+            Self::Quad(quad) => quad.interaction(ray, t, part),
+            Self::Disc(disc) => disc.interaction(ray, t),
+            Self::Cylinder(cylinder) => cylinder.interaction(ray, t),
+            Self::Cone(cone) => cone.interaction(ray, t),
+            Self::Torus(torus) => torus.interaction(ray, t),
+            Self::Instance(instance) => instance.interaction(ray, t, part),
+        }
+    }
+
+    /// What the shape knows of the point beyond its geometry.
+    pub(super) fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
+        match self {
+            Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
+            Self::Triangle(triangle, Some(uvs)) => Details {
+                normal: None,
+                uv: Some(interpolate(*uvs, triangle.weights(at.point))),
+                tangent: triangle.tangent(*uvs),
+            },
+            Self::Quad(quad) => {
+                let [u, v] = quad.uv(ray, at.point, part);
+                Details { normal: None, uv: Some([u, v]), tangent: quad.tangent(v) }
+            }
+            Self::Instance(instance) => instance.details(at.point, part),
+            Self::Triangle(_, None)
+            | Self::Plane(_)
+            | Self::Disc(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_)
+            | Self::Torus(_) => Details::default(),
+        }
+    }
+
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        match self {
+            Self::Sphere(sphere, _) => Some(Bounds::around(sphere.center, sphere.radius)),
+            Self::Plane(_) => None,
+            Self::Triangle(triangle, _) => Some(Bounds::of(triangle.vertices())),
+            Self::Quad(quad) => Some(quad.bounds()),
+            Self::Disc(disc) => Some(disc.bounds()),
+            Self::Cylinder(cylinder) => Some(cylinder.bounds()),
+            Self::Cone(cone) => Some(cone.bounds()),
+            Self::Torus(torus) => Some(torus.bounds()),
+            Self::Instance(instance) => Some(instance.bounds()),
+        }
+    }
+}
+
+/// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the texture.
+fn sphere_details([x, y, z]: [Vec3; 3], direction: Vec3) -> Details {
+    let d = Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction));
+    let turns = atan2(d.y, d.x) / TAU;
+    let u = if turns < 0.0 { turns + 1.0 } else { turns };
+    let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
+    let tangent = (y * d.x - x * d.y).try_normalize();
+    Details { normal: None, uv: Some([u, v]), tangent }
+}
