@@ -20,11 +20,32 @@ fn unknown(id: &str) -> Failure {
     Failure::Trouble(format!("there is no code `{}`; `rtc explain --all` lists them", id.escape_debug()))
 }
 
+/// What stands before the codes.
+const HEAD: &str = "\
+# Diagnostics
+
+Every code rtc gives, printed by `rtc explain --all`. A code never changes its
+meaning. `--strict` makes some warnings errors, `--lenient` some errors warnings.
+
+With `--message-format json` each finding is one line, an object with
+
+- `code`, `severity` (`error`, `warning` or `note`) and `message`;
+- `file`: the file that was checked;
+- `primary`: the culprit, or null: `file`, `byteStart`, `byteEnd`, `start` and
+  `end` (each `line` and `column` from 1, columns in characters; absent where
+  the file is not text) and `text`, what is there;
+- `labels`: other places that matter, each like `primary`;
+- `hints`: what to do, each with `text` and `replacement`, which is null or
+  like `primary`, its `text` being what to put there;
+- `pointer`: a JSON pointer to the culprit, or null.
+
+If more was found than `--max-errors`, a last line `{\"omitted\": N}` says how
+much.
+";
+
 /// `schema/diagnostics.md`.
 fn page() -> String {
-    let head =
-        "# Diagnostics\n\nEvery code rtc gives, printed by `rtc explain --all`. A code never changes its meaning.\n";
-    codes::all().fold(head.to_owned(), |page, code| format!("{page}\n{}", entry(code)))
+    codes::all().fold(HEAD.to_owned(), |page, code| format!("{page}\n{}", entry(code)))
 }
 
 fn entry(code: &Code) -> String {

@@ -90,7 +90,7 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;
-    proven.ok_or_else(|| Failure::Trouble(format!("internal error: `{}` was refused without a reason", input.name)))
+    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 
 fn unreadable(name: &str, error: &LoadError) -> Diagnostic {

@@ -51,7 +51,12 @@ impl Failure {
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     panic::set_hook(Box::new(|info| talk::say(&internal_error(info))));
-    panic::catch_unwind(AssertUnwindSafe(|| dispatch(arguments))).unwrap_or(2)
+    guarded(|| dispatch(arguments))
+}
+
+/// The exit code of the work, or of a fault of ours.
+fn guarded(work: impl FnOnce() -> u8) -> u8 {
+    panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(2)
 }
 
 fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
@@ -88,4 +93,15 @@ fn internal_error(info: &PanicHookInfo) -> String {
     let place = info.location().map(|at| format!(" at {}:{}", at.file(), at.line())).unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
     format!("internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with the scene.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_neither_success_nor_the_fault_of_the_input() {
+        assert_eq!(guarded(|| unreachable!("this test asks for it")), 2);
+        assert_eq!(guarded(|| 1), 1);
+    }
 }

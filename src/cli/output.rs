@@ -79,16 +79,13 @@ fn draft(folder: &Path, permissions: Option<Permissions>) -> io::Result<NamedTem
     builder.prefix(".rtc-").suffix(".tmp");
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let draft = builder.tempfile_in(folder).map_err(|error| io::Error::other(reason(&error)))?;
+    // The builder's errors name the draft, which means nothing to the user: the folder and the kind say it.
+    fs::metadata(folder)?;
+    let draft = builder.tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     if let Some(permissions) = permissions {
         draft.as_file().set_permissions(permissions)?;
     }
     Ok(draft)
-}
-
-/// What the system said, without the name of the draft, which means nothing to the user.
-fn reason(error: &io::Error) -> String {
-    error.raw_os_error().map_or_else(|| error.kind().to_string(), |code| io::Error::from_raw_os_error(code).to_string())
 }
 
 /// A closed pipe is a reader that had enough; all else is trouble.

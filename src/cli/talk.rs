@@ -53,9 +53,10 @@ impl Talk {
     }
 }
 
-/// Says a line on standard error. If nobody listens there is nobody to tell.
-pub(super) fn say(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+/// Says something on standard error, without what would command a terminal. If nobody listens there is nobody to tell.
+pub(super) fn say(words: &str) {
+    let harmless = words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
+    let _ = writeln!(io::stderr(), "{harmless}");
 }
 
 fn write(to_stdout: bool, text: &str) -> Result<(), Failure> {

@@ -21,11 +21,12 @@ pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &Option
     format!("{}\n\n", rendered.trim_end_matches('\n'))
 }
 
-/// What stands after the findings of one file: how many there are, and where to read more.
-pub(super) fn summary(name: &str, counts: &str, example: Option<&Diagnostic>, hidden: usize) -> String {
+/// What stands after the findings of one file: how many there are, and where to read more about the worst.
+pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> String {
     let more = if hidden == 0 { String::new() } else { format!("and {hidden} more\n") };
-    let explain = example.map(|example| format!("; `rtc explain {}` tells more", example.code)).unwrap_or_default();
-    format!("{more}{}: {counts}{explain}\n", clean(name))
+    let worst = found.iter().min_by_key(|diagnostic| diagnostic.severity);
+    let explain = worst.map(|worst| format!("; `rtc explain {}` tells more", worst.code)).unwrap_or_default();
+    format!("{more}{}: {}{explain}\n", clean(name), counts(found))
 }
 
 fn report<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Group<'a>> {
@@ -100,7 +101,7 @@ fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
 }
 
 /// `2 errors, 1 warning`.
-pub(super) fn counts(found: &[&Diagnostic]) -> String {
+fn counts(found: &[&Diagnostic]) -> String {
     let names = [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Note, "note")];
     let count = |severity| found.iter().filter(|diagnostic| diagnostic.severity == severity).count();
     let parts = names.map(|(severity, name)| (count(severity), name)).into_iter().filter(|(count, _)| *count > 0);

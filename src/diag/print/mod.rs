@@ -84,7 +84,7 @@ impl Printer {
             Format::Human if found.is_empty() => String::new(),
             Format::Human => {
                 let findings: String = each(&|diagnostic| human::finding(diagnostic, map, &self.options));
-                findings + &human::summary(name, &human::counts(&found), shown.first().copied(), hidden)
+                findings + &human::summary(name, &found, hidden)
             }
             Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
             Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),

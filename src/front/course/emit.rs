@@ -8,7 +8,8 @@ use std::fmt::Write as _;
 /// Writes the scene in the canonical spelling with a `Camera`.
 ///
 /// Lowering the text gives the scene again, without materials that no surface has; a material that several surfaces
-/// share becomes an anchor with aliases.
+/// share becomes an anchor with aliases. The camera comes back to the last bit if an axis was its `up`, else at least
+/// up to rounding.
 ///
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.

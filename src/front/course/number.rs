@@ -99,20 +99,24 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
     }
 }
 
-/// A whole number up to `most`; one outside is reported and becomes the nearest inside.
-pub(super) fn whole(most: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
+/// A whole number up to `most`; one that is larger or negative is reported and becomes `least`.
+///
+/// What lies between 0 and `least` is lowered as it is.
+pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
     let value = number(node, "a whole number", context)?;
     #[expect(clippy::float_cmp, reason = "a whole number equals its truncation exactly")]
     if value != value.trunc() {
         return context.expected(node, "a whole number");
     }
     if value < 0.0 {
-        out_of_range("at least 0", node, context);
+        out_of_range(&format!("at least {least}"), node, context);
+        return Some(least);
     } else if value > f64::from(most) {
         out_of_range(&format!("at most {most}"), node, context);
+        return Some(least);
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was brought into the range of u32")]
-    Some(value.clamp(0.0, f64::from(most)) as u32)
+    Some(value as u32)
 }
 
 fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
@@ -183,13 +187,13 @@ impl Value for Radius {
 
 number! {
     /// A whole number of at least 0.
-    Natural(u32), |node, context| whole(u32::MAX, node, context),
+    Natural(u32), |node, context| whole(0, u32::MAX, node, context),
     { "type": "integer", "minimum": 0, "maximum": 4_294_967_295_u32 }
 }
 
 number! {
     /// A whole number of at least 1.
-    Count(u32), |node, context| whole(u32::MAX, node, context),
+    Count(u32), |node, context| whole(1, u32::MAX, node, context),
     { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
 }
 

@@ -3,7 +3,7 @@
 //! A field is one value or a group of values that stand under a row of keys; it may have several rows, the canonical
 //! one first. Every key of a map is either used by one field or reported.
 
-use super::decode::{Context, Entry, Key, Spanned, Value};
+use super::decode::{Context, Entry, Key, Spanned, Value, describe};
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
 use super::tree::{NodeId, Shape};
@@ -271,7 +271,9 @@ impl Reader {
                 .report(&codes::MISSING_KEY, span, message, |d| d.at(span, "one of a group").hint("give all of them"));
             return 1 << at;
         }
-        unknown_key(word, fields, entry, context);
+        let open = fields.iter().enumerate().filter(|(at, _)| !has(*at)).map(|(_, field)| field);
+        let meant = nearest(entry.key, open.flat_map(|field| field.rows.iter().copied().flatten().copied()));
+        unknown_key(word, meant, entry, context);
         0
     }
 }
@@ -282,17 +284,16 @@ pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &m
     context.report(&codes::MISSING_KEY, head, message, |d| d.at(head, format!("this {word}")));
 }
 
-fn unknown_key(word: &str, fields: &'static [Field], entry: Entry<'_>, context: &mut Context<'_>) {
+fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut Context<'_>) {
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
-    let known = fields.iter().flat_map(|field| field.rows.iter().copied().flatten().copied());
     context.report(
         &codes::UNKNOWN_KEY,
         span,
         || format!("the {word} has no key `{}`", clip(entry.key)),
         |d| {
             let d = d.at(span, "ignored").severity(severity);
-            match nearest(entry.key, known) {
+            match meant {
                 Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
                 None => d,
             }
@@ -325,8 +326,9 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
                 Some("<<") => merged.push(value),
                 Some(key) => context.entries.push(Entry { key, key_node, value, claimed: false }),
                 None => {
-                    context.key = Key { text: "a key", span: Some(tree.span(key_node)) };
-                    context.expected::<()>(key_node, "a word");
+                    let (span, found) = (tree.span(key_node), describe(tree.shape(key_node)));
+                    let message = || format!("a key must be a word, not {found}");
+                    context.report(&codes::WRONG_TYPE, span, message, |d| d.at(span, found.clone()));
                 }
             }
         }

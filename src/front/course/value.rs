@@ -85,7 +85,7 @@ pub(super) struct Size(pub(super) [u32; 2]);
 
 impl Value for Size {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        tuple(node, "a list of two whole numbers", context, |node, context| whole(MAX_SIDE, node, context)).map(Self)
+        tuple(node, "a list of two whole numbers", context, |node, context| whole(1, MAX_SIDE, node, context)).map(Self)
     }
 
     fn schema(_: &mut Definitions) -> Json {

@@ -85,6 +85,8 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
         say("a line that is no `key: value`", "no colon follows this", "write a colon and a space after the key")
     } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
         say("a bracket closes what was never opened", "closed here", "remove it, or open it before")
+    } else if matches!(kind, ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent) {
+        say("a quote is never closed", "still inside quotes here", "close it with the same kind of quote")
     } else if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
         (format!("`{open}` is closed by `{close}`"), "opened here", "close it with its own kind of bracket")
     } else if let ErrorKind::UnexpectedCharacter { character } = kind {

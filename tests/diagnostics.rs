@@ -1,0 +1,125 @@
+//! Every file under `tests/diagnostics/<CODE>/` is a test: its comments say what `rtc` must find in it, and where.
+//!
+//! `# expect: CODE severity LINE:COLUMN message`, one line a finding, in the order of the places; `# options: strict
+//! lenient` sets options. A file that can't hold comments has them beside it, in `<case>.expect`. With `RTC_UPDATE=1`
+//! the expectations are rewritten.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::disallowed_methods,
+    reason = "a test stops at the first surprise and reads what it checks"
+)]
+use rtc::diag::{Severity, Sink, codes};
+use rtc::source::SourceMap;
+use rtc::{front, pipeline};
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Codes that no scene text can raise: files, the container, renders, and faults only a hand-made IR can have. Texts
+/// for SY010 and SY011 are too large to keep; `tests/hostile.rs` makes them.
+const ELSEWHERE: &[&str] = &["IO", "IR", "RD", "SY010", "SY011", "VA012", "VA014"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics")
+}
+
+fn cases() -> Vec<PathBuf> {
+    let list = |folder: &Path| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let folders = list(&root()).into_iter().filter(|path| path.is_dir());
+    let mut cases: Vec<_> = folders.flat_map(|folder| list(&folder)).collect();
+    cases.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    cases.sort();
+    cases
+}
+
+fn options(text: &str) -> pipeline::Options {
+    let line = text.lines().find_map(|line| line.strip_prefix("# options:")).unwrap_or_default();
+    let has = |word| line.split_whitespace().any(|option| option == word);
+    pipeline::Options {
+        front: front::Options { strict: has("strict"), lenient: has("lenient") },
+        ..pipeline::Options::default()
+    }
+}
+
+/// What is found in a file, one line each.
+fn findings(bytes: &[u8]) -> String {
+    let mut map = SourceMap::default();
+    let file = map.add("case", bytes.to_vec());
+    let mut sink = Sink::default();
+    let options = options(&String::from_utf8_lossy(bytes));
+    let lowered = pipeline::load(file, &map, &options, &mut sink);
+    let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
+    assert_eq!(proof.is_some(), !sink.has_errors(), "a scene is proven unless there is an error");
+    sink.sort();
+    let mut text = String::new();
+    for finding in sink.kept() {
+        let severity = match finding.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+            Severity::Note => "note",
+        };
+        let place = finding.primary.as_ref().expect("every finding in a text has a place");
+        let at = map.line_column(file, place.span.start);
+        writeln!(text, "# expect: {} {severity} {}:{} {}", finding.code, at.line, at.column, finding.message).unwrap();
+    }
+    text
+}
+
+/// Where the expectations of a case are: in the file, unless there is one beside it.
+fn expectations(case: &Path) -> PathBuf {
+    let beside = case.with_extension("expect");
+    if beside.exists() { beside } else { case.to_owned() }
+}
+
+fn is_expectation(line: &&[u8]) -> bool {
+    line.starts_with(b"# expect:")
+}
+
+fn expected(path: &Path) -> String {
+    let bytes = fs::read(path).unwrap();
+    let lines = bytes.split_inclusive(|byte| *byte == b'\n').filter(is_expectation);
+    lines.map(String::from_utf8_lossy).collect()
+}
+
+fn update(path: &Path, found: &str) {
+    let bytes = fs::read(path).unwrap();
+    let others = bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| !is_expectation(line));
+    let mut kept: Vec<u8> = others.flatten().copied().collect();
+    kept.extend(found.bytes());
+    fs::write(path, kept).unwrap();
+}
+
+#[test]
+fn every_case_is_found_as_its_comments_say() {
+    let mut faults = String::new();
+    for case in cases() {
+        let found = findings(&fs::read(&case).unwrap());
+        let path = expectations(&case);
+        if std::env::var_os("RTC_UPDATE").is_some() {
+            update(&path, &found);
+        }
+        let expected = expected(&path);
+        if found != expected {
+            writeln!(faults, "{}\n expected\n{expected} found\n{found}", case.display()).unwrap();
+        }
+        let folder = case.parent().and_then(Path::file_name).unwrap().to_string_lossy();
+        if !found.contains(&format!("# expect: {folder} ")) {
+            writeln!(faults, "{} raises no {folder}", case.display()).unwrap();
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
+
+#[test]
+fn every_code_has_a_case() {
+    let folders =
+        cases().into_iter().filter_map(|case| Some(case.parent()?.file_name()?.to_string_lossy().into_owned()));
+    let covered: BTreeSet<String> = folders.collect();
+    let missing: Vec<_> = codes::all()
+        .map(|code| code.id)
+        .filter(|id| !ELSEWHERE.iter().any(|prefix| id.starts_with(prefix)) && !covered.contains(*id))
+        .collect();
+    assert!(missing.is_empty(), "no case under tests/diagnostics for {missing:?}");
+}
