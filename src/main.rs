@@ -1,2 +1,5 @@
 //! The `rtc` binary.
+
+#![forbid(unsafe_code)]
+
 fn main() {}

@@ -175,6 +175,11 @@ impl<'a> Context<'a> {
         self.sink.push(make(Diagnostic::new(code, message()).at(span, "")));
     }
 
+    /// How many different findings there were so far.
+    pub(super) fn findings(&self) -> usize {
+        self.said.len()
+    }
+
     /// Reports a value of the wrong type. Always `None`.
     pub(super) fn expected<T>(&mut self, node: NodeId, what: &str) -> Option<T> {
         let (tree, key) = (self.tree, self.key);

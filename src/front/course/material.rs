@@ -4,7 +4,6 @@ use super::decode::{Context, Shared, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::record::{Found, keys, missing_keys, record};
-use super::tree::NodeId;
 use super::value::{Color, Unsupported};
 use crate::ir::{self, Field, MaterialId, Noun};
 
@@ -45,8 +44,7 @@ impl Lowering {
         context: &mut Context<'_>,
     ) -> Option<MaterialId> {
         let Shared { value, anchor } = &material.value;
-        let known = |(node, _): &&(NodeId, MaterialId)| Some(*node) == *anchor;
-        if let Some((_, id)) = self.shared.iter().find(known) {
+        if let Some(id) = anchor.and_then(|anchor| self.shared.get(&anchor)) {
             return Some(*id);
         }
         let Material { color, texture, _bump: _, _specular: _, ka, kd, ks, n, kt, eta, glossy_samples } = value;

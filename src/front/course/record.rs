@@ -10,6 +10,7 @@ use super::tree::{NodeId, Shape};
 use crate::diag::codes;
 use crate::source::Span;
 use serde_json::Value as Json;
+use std::collections::BTreeSet;
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
 pub(super) type Rows = &'static [&'static [&'static str]];
@@ -170,6 +171,9 @@ impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
     }
 }
 
+/// So many findings get a suggestion.
+const ADVISED: usize = 100;
+
 /// The longest row of any field.
 const MAX_ROW: usize = 4;
 
@@ -271,7 +275,9 @@ impl Reader {
                 .report(&codes::MISSING_KEY, span, message, |d| d.at(span, "one of a group").hint("give all of them"));
             return 1 << at;
         }
-        let open = fields.iter().enumerate().filter(|(at, _)| !has(*at)).map(|(_, field)| field);
+        // Who made so many mistakes does not look for advice on each, and each costs a comparison with every key.
+        let advise = context.findings() < ADVISED;
+        let open = fields.iter().enumerate().filter(|_| advise).filter(|(at, _)| !has(*at)).map(|(_, field)| field);
         let meant = nearest(entry.key, open.flat_map(|field| field.rows.iter().copied().flatten().copied()));
         unknown_key(word, meant, entry, context);
         0
@@ -312,6 +318,8 @@ fn note_spelling(key: &'static str, canonical: &'static str, entries: &[Entry<'_
 fn gather(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
     let mut open = vec![map];
+    // Merging a map again changes nothing; without this, merges of merges would grow without bound.
+    let mut seen = BTreeSet::new();
     while let Some(map) = open.pop() {
         if !context.step(map) {
             return;
@@ -334,7 +342,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
         }
         for map in merged.into_iter().rev() {
             if tree.shape(map) == Shape::Map {
-                open.push(map);
+                open.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
                 context.key = Key { text: "<<", span: Some(tree.span(map)) };
                 context.expected::<()>(map, "a map or a list of maps");
