@@ -38,17 +38,21 @@ impl<T> Spanned<T> {
     }
 }
 
-/// A value that may be shared: the node it was read from, if that has an anchor.
+/// A value that aliases and merge keys may bring us to again: its node, and the value the first time.
 pub(super) struct Shared<T> {
-    pub(super) value: T,
-    pub(super) anchor: Option<NodeId>,
+    pub(super) node: NodeId,
+    pub(super) value: Option<T>,
 }
 
 impl<T: Value> Value for Shared<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let target = context.tree.target(node);
-        let anchor = context.tree.anchored(target).then_some(target);
-        Some(Self { value: T::decode(node, context)?, anchor })
+        if context.decoded.contains(&target) {
+            return Some(Self { node: target, value: None });
+        }
+        let value = T::decode(node, context)?;
+        context.decoded.insert(target);
+        Some(Self { node: target, value: Some(value) })
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
@@ -126,7 +130,7 @@ pub(super) struct Entry<'a> {
 const REMEMBERED: usize = 10_000;
 
 /// Aliases and merge keys may make a reader look at this many entries more than the text has nodes.
-const MAX_REPEATED: usize = 4_000_000;
+const MAX_REPEATED: usize = 1_500_000;
 
 /// One pass over a tree: the findings, and what the pass remembers.
 pub(super) struct Context<'a> {
@@ -138,6 +142,8 @@ pub(super) struct Context<'a> {
     /// Other spellings met, once each, with the first place.
     pub(super) spellings: Vec<(&'static str, &'static str, Span)>,
     sink: &'a mut Sink,
+    /// The shared values decoded so far.
+    decoded: BTreeSet<NodeId>,
     /// What has been said about which bytes: an alias brings a reader to the same place again.
     said: BTreeSet<(Span, &'static str)>,
     steps: usize,
@@ -152,6 +158,7 @@ impl<'a> Context<'a> {
             entries: Vec::new(),
             spellings: Vec::new(),
             sink,
+            decoded: BTreeSet::new(),
             said: BTreeSet::new(),
             steps: 0,
         }

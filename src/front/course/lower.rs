@@ -47,7 +47,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
 /// A scene in the making.
 pub(super) struct Lowering {
     pub(super) scene: ir::Scene,
-    /// Materials that aliases may name again.
+    /// The materials by their nodes: aliases may name them again.
     pub(super) shared: BTreeMap<NodeId, MaterialId>,
     origins: Origins,
 }

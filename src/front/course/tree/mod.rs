@@ -37,7 +37,6 @@ struct Node {
     end: u32,
     link: u32,
     kind: Kind,
-    anchored: bool,
 }
 
 /// What a node is, aliases followed.
@@ -82,11 +81,6 @@ impl Tree<'_> {
     pub(super) fn target(&self, id: NodeId) -> NodeId {
         let node = self.node(id);
         if node.kind == Kind::Alias { NodeId(node.link) } else { id }
-    }
-
-    /// Whether the node carries an anchor, so that aliases may share it.
-    pub(super) fn anchored(&self, id: NodeId) -> bool {
-        self.node(id).anchored
     }
 
     /// Where the node was written; for an alias, where the alias stands.
@@ -167,7 +161,6 @@ mod tests {
             let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
             assert_eq!(words, [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]);
             assert_eq!(tree.target(pairs[1].1), pairs[0].1);
-            assert!(tree.anchored(pairs[0].1));
             let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
             assert_eq!((list.start, list.end, alias.start, alias.end), (9, 27, 31, 33));
         });
