@@ -1,5 +1,9 @@
-//! The `rtc` binary.
+//! The `rtc` binary: arguments in, exit code out.
 
 #![forbid(unsafe_code)]
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(rtc::cli::run(std::env::args_os()))
+}

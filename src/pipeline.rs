@@ -1,5 +1,7 @@
 //! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here prints or exits.
 
+pub mod trial;
+
 use crate::diag::Sink;
 use crate::front::course;
 use crate::ir::{Lowered, Origins, Scene};
@@ -62,7 +64,7 @@ pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Va
 
 /// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
 ///
-/// `proceed` is called from all threads with the number of rays traced since its last call.
+/// `proceed` is called from all threads after each pixel with the number of rays it took.
 ///
 /// # Errors
 /// If the system gives no threads.

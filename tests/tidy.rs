@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[(&str, u32)] = &[
     ("math", 0),
     ("color", 0),
-    ("image", 0),
+    ("image", 1),
     ("source", 1),
     ("diag", 2),
     ("ir", 3),

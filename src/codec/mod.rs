@@ -1,10 +1,23 @@
 //! The IR as bytes: a compact JSON text and a binary container with checksums, both with a version.
 //!
-//! Every older version decodes; newer or corrupt bytes are one clear error with its place.
+//! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both forms hold the same
+//! tree of JSON values, so a step of [`upgrade`] is written once and serves both.
 
-use crate::diag::Sink;
-use crate::ir::Scene;
-use crate::source::{FileId, SourceMap};
+mod binary;
+mod columns;
+mod locate;
+mod print;
+mod schema;
+mod section;
+mod text;
+mod upgrade;
+
+pub use schema::schema;
+
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::ir::{Scene, VERSION};
+use crate::source::{FileId, SourceMap, Span};
+use serde_json::Value;
 
 /// The two forms the IR is stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,31 +28,83 @@ pub enum Form {
     Binary,
 }
 
-/// The form of the bytes, if they look like the IR at all.
+/// The form of the bytes, if they look like the IR at all; a container with a damaged beginning still does.
 #[must_use]
-pub fn recognise(_bytes: &[u8]) -> Option<Form> {
-    None
+pub fn recognise(bytes: &[u8]) -> Option<Form> {
+    if binary::looks_like(bytes) {
+        Some(Form::Binary)
+    } else if text::looks_like(bytes) {
+        Some(Form::Text)
+    } else {
+        None
+    }
 }
 
 /// Decodes a scene; what is wrong goes to the sink. The scene still has to be validated.
-pub fn decode(_form: Form, _file: FileId, _map: &SourceMap, _sink: &mut Sink) -> Option<Scene> {
-    None
+pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
+    let scene = match form {
+        Form::Text => text::decode(file, map.bytes(file)),
+        Form::Binary => binary::decode(file, map.bytes(file)),
+    };
+    scene.map_err(|fault| sink.push(*fault)).ok()
 }
 
 /// A scene that can't be stored: it holds a number that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotFinite;
 
-/// Encodes a scene.
+/// Encodes a scene. The same scene gives the same bytes, always.
 ///
 /// # Errors
 /// If a number is not finite: JSON has no word for it.
-pub fn encode(_form: Form, _scene: &Scene) -> Result<Vec<u8>, NotFinite> {
-    Err(NotFinite)
+pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
+    let tree = serde_json::to_value(scene).expect("a scene is structs, lists and numbers, which JSON holds");
+    let Value::Object(tree) = tree else { unreachable!("a scene is a struct, and so a map") };
+    if tree.values().any(has_null) {
+        return Err(NotFinite);
+    }
+    Ok(match form {
+        Form::Text => print::document(tree).into_bytes(),
+        Form::Binary => binary::encode(tree),
+    })
 }
 
-/// The JSON Schema (2020-12) of the text form.
-#[must_use]
-pub fn schema() -> serde_json::Value {
-    serde_json::Value::Null
+/// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.
+fn has_null(tree: &Value) -> bool {
+    match tree {
+        Value::Null => true,
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => false,
+        Value::Array(items) => items.iter().any(has_null),
+        Value::Object(members) => members.values().any(has_null),
+    }
+}
+
+/// Checksums are looked at, except by a fuzzer: it can't guess one, and would never see what stands behind.
+const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
+
+/// What decoding ends with: the first fault ends it, since nothing after it can be trusted.
+type Decoded<T> = Result<T, Box<Diagnostic>>;
+
+fn newer(version: u32, what: &str, newest: u32, span: Span) -> Box<Diagnostic> {
+    let message = format!("{what} version {version} is newer than {newest}, the newest this rtc reads");
+    let label = format!("version {version}");
+    let hint = "use a newer rtc, or compile the scene again with this one";
+    Box::new(Diagnostic::new(&codes::NEWER_VERSION, message).at(span, label).hint(hint))
+}
+
+/// A span of a file below 4 GiB; larger offsets are cut off.
+fn span(file: FileId, start: usize, end: usize) -> Span {
+    let offset = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
+    Span::new(file, offset(start), offset(end))
+}
+
+/// The scene a tree of version `version` stands for.
+fn typed(version: u32, tree: Value, place: Span) -> Decoded<Scene> {
+    debug_assert!(version <= VERSION, "newer versions are refused before");
+    serde_json::from_value(upgrade::to_current(version, tree)).map_err(|error| wrong_shape(&error.to_string(), place))
+}
+
+fn wrong_shape(what: &str, place: Span) -> Box<Diagnostic> {
+    let message = format!("this is not the shape of a scene: {what}");
+    Box::new(Diagnostic::new(&codes::WRONG_SHAPE, message).at(place, "found here"))
 }

@@ -1,1 +1,33 @@
-//! Colour: display values and how they become integers.
+//! Colour: display values and how they become integers. A display value of 1 is the full integer; there is no gamma.
+
+/// ⌊255·v⌋ with `v` clamped to [0, 1]; NaN is 0.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped; the cast takes NaN to 0")]
+pub fn quantize8(v: f64) -> u8 {
+    (v.clamp(0.0, 1.0) * f64::from(u8::MAX)) as u8
+}
+
+/// ⌊65535·v⌋ with `v` clamped to [0, 1]; NaN is 0.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped; the cast takes NaN to 0")]
+pub fn quantize16(v: f64) -> u16 {
+    (v.clamp(0.0, 1.0) * f64::from(u16::MAX)) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_cut_down_and_clamped() {
+        let eight = [f64::NAN, -1.0, -0.0, 0.5, 0.999, 1.0, 7.0, f64::INFINITY].map(quantize8);
+        assert_eq!(eight, [0, 0, 0, 127, 254, 255, 255, 255]);
+        let sixteen = [f64::NAN, f64::NEG_INFINITY, 0.5, 1.0, 1e300].map(quantize16);
+        assert_eq!(sixteen, [0, 0, 32767, 65535, 65535]);
+    }
+
+    #[test]
+    fn a_byte_goes_there_and_back() {
+        assert!((0..=255u8).all(|byte| quantize8((f64::from(byte) + 0.5) / 255.0) == byte));
+    }
+}

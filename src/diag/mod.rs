@@ -4,9 +4,11 @@
 //! Messages are lower case without a full stop and say what is wrong; hints say what to do; labels say what is here.
 
 pub mod codes;
+mod print;
 mod sink;
 
 pub use codes::{Code, Severity};
+pub use print::{Format, Options, Printer};
 pub use sink::Sink;
 
 use crate::source::Span;

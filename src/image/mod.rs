@@ -1,4 +1,9 @@
-//! Pixels and pixel files.
+//! Pixels and pixel files: a picture as PNG (8 or 16 bit) or EXR, in memory; the same picture gives the same bytes.
+
+mod exr;
+mod png;
+
+use std::fmt;
 
 /// A picture: rows from the top, each from the left; red, green, blue.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,4 +14,66 @@ pub struct Image {
     pub height: u32,
     /// `width * height` values.
     pub pixels: Vec<[f64; 3]>,
+}
+
+/// A form of pixel file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// PNG with ⌊255·v⌋ per channel, no gamma.
+    Png8,
+    /// PNG with ⌊65535·v⌋ per channel, no gamma.
+    Png16,
+    /// EXR with 32-bit floats per channel, unclamped.
+    Exr(Origin),
+}
+
+/// What an EXR says about where it came from, as text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// The program and its version: the standard attribute `software`.
+    pub software: String,
+    /// The hash of the scene: the attribute `rtc:scene`.
+    pub scene: String,
+    /// The settings of the render: the attribute `rtc:settings`.
+    pub settings: String,
+}
+
+/// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a reason.
+#[derive(Debug)]
+pub struct EncodeError(String);
+
+impl fmt::Display for EncodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Image {
+    /// The bytes of the pixel file.
+    ///
+    /// # Errors
+    /// If the picture is empty or larger than the format can hold.
+    pub fn encode(&self, form: &Form) -> Result<Vec<u8>, EncodeError> {
+        if self.width == 0 || self.height == 0 {
+            return Err(EncodeError(format!("a picture of {}×{} pixels has no file", self.width, self.height)));
+        }
+        match form {
+            Form::Png8 => png::eight_bit(self),
+            Form::Png16 => png::sixteen_bit(self),
+            Form::Exr(origin) => exr::encode(self, origin),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_picture_is_refused() {
+        let empty = Image { width: 0, height: 3, pixels: Vec::new() };
+        for form in [Form::Png8, Form::Png16, Form::Exr(Origin::default())] {
+            assert!(empty.encode(&form).is_err());
+        }
+    }
 }

@@ -1,32 +1,33 @@
-//! Angles in turns, which reduce without error.
+//! Angles as 64-bit fractions of a turn: they add and reduce without error.
 
 use super::func::{cos, sin};
 use std::f64::consts::TAU;
 
-/// The cosine and sine of an angle given in turns, for |turns| < 2^50: right to within 2 u absolute.
+/// The cosine and sine of an angle in units of 2⁻⁶⁴ turns, each to within 2 u absolute.
 ///
-/// The quadrant is taken off exactly, so the angle handed to `libm` is at most π/4.
+/// The quadrant is taken off in integers, so the angle handed to `libm` is at most π/4.
 #[must_use]
-pub fn cos_sin_turns(turns: f64) -> (f64, f64) {
-    let quarters = (4.0 * turns).round();
-    let rest = (turns - quarters / 4.0) * TAU;
-    let (c, s) = (cos(rest), sin(rest));
-    match quarters.rem_euclid(4.0) {
-        0.0 => (c, s),
-        1.0 => (-s, c),
-        2.0 => (-c, -s),
+pub fn cos_sin_turns(turns: u64) -> (f64, f64) {
+    /// 2⁻⁶⁴.
+    const UNIT: f64 = 1.0 / 18_446_744_073_709_551_616.0;
+    let quadrant = (turns.wrapping_add(1 << 61)) >> 62;
+    let rest = turns.wrapping_sub(quadrant << 62).cast_signed();
+    let angle = rest as f64 * (UNIT * TAU);
+    let (c, s) = (cos(angle), sin(angle));
+    match quadrant {
+        0 => (c, s),
+        1 => (-s, c),
+        2 => (-c, -s),
         _ => (s, -c),
     }
 }
 
-/// `k` golden angles as turns in [0, 1), k·(3 − √5)/2 modulo 1, in 64-bit integers: no error grows with k.
+/// `k` golden angles, k·π(3 − √5), in units of 2⁻⁶⁴ turns: no error grows with k but that of the constant.
 #[must_use]
-pub fn golden_turns(k: u64) -> f64 {
+pub fn golden_turns(k: u64) -> u64 {
     /// (3 − √5)/2 · 2⁶⁴.
     const GOLDEN: u64 = 0x61C8_8646_80B5_83EB;
-    /// 2⁻⁵³.
-    const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
-    (k.wrapping_mul(GOLDEN) >> 11) as f64 * UNIT
+    k.wrapping_mul(GOLDEN)
 }
 
 #[cfg(test)]
@@ -35,17 +36,17 @@ mod tests {
 
     #[test]
     fn quarters_of_a_turn_are_exact() {
-        let near = |turns, expected| assert_eq!(cos_sin_turns(turns), expected);
-        near(0.0, (1.0, 0.0));
-        near(0.25, (0.0, 1.0));
-        near(0.5, (-1.0, 0.0));
-        near(-0.25, (0.0, -1.0));
-        near(7.75, (0.0, -1.0));
+        let quarter = |k: u64, expected| assert_eq!(cos_sin_turns(k << 62), expected);
+        quarter(0, (1.0, 0.0));
+        quarter(1, (-0.0, 1.0));
+        quarter(2, (-1.0, -0.0));
+        quarter(3, (0.0, -1.0));
     }
 
     #[test]
     fn the_golden_angle_is_that_of_the_formula() {
         let angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-        assert!((golden_turns(1) * TAU - angle).abs() < 1e-15);
+        let (c, s) = cos_sin_turns(golden_turns(1));
+        assert!((c - libm::cos(angle)).abs() < 1e-15 && (s - libm::sin(angle)).abs() < 1e-15);
     }
 }

@@ -32,8 +32,7 @@ pub(super) fn lens_samples(lens: &Lens) -> u32 {
 /// sunflower head", Mathematical Biosciences 44 (1979)).
 #[must_use]
 pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
-    let scale = radius / (pixel * f64::from(n).sqrt());
-    let r = scale * f64::from(k).sqrt();
+    let r = radius * (f64::from(k) / f64::from(n)).sqrt() / pixel;
     let (cosine, sine) = cos_sin_turns(golden_turns(u64::from(k)));
     [r * cosine, r * sine]
 }

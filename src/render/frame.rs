@@ -13,7 +13,7 @@ use rayon::prelude::*;
 impl World {
     /// Renders on the threads of the current pool; `None` if `proceed` said stop.
     ///
-    /// `proceed` is called from all threads with the number of rays traced since that thread's last call.
+    /// `proceed` is called from all threads after each pixel with the number of rays it took.
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
         let camera = self.scene.camera();

@@ -61,6 +61,6 @@ impl Plane {
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let near = ray.origin + ray.direction * t;
         let point = near + self.raw * (self.distance(near) / dot(self.raw, self.raw));
-        Interaction::new(point, self.normal, self.anchor, 0.0)
+        Interaction::new(ray, point, self.normal, self.anchor, 0.0)
     }
 }

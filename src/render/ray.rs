@@ -1,6 +1,6 @@
 //! Rays, and what is known of the point where one meets a surface.
 
-use crate::math::{U, Vec3};
+use crate::math::{U, Vec3, ldexp, unit_scale};
 
 /// How far from a surface rays start, in units of its rounding error: enough for the error of the point, of the
 /// surface's own numbers, and of the sum that moves the point.
@@ -15,6 +15,24 @@ pub struct Ray {
     pub direction: Vec3,
 }
 
+impl Ray {
+    /// The ray with a direction whose square can be computed, and what one `t` of it is worth in `t` of `self`.
+    ///
+    /// Lengths within 1e±100 stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
+    #[must_use]
+    #[inline]
+    pub fn tamed(self) -> (Self, f64) {
+        let size = self.direction.abs().max_element();
+        if (1e-100..=1e100).contains(&size) {
+            return (self, 1.0);
+        }
+        match unit_scale(self.direction) {
+            Some((direction, exponent)) => (Self { direction, ..self }, ldexp(1.0, -exponent)),
+            None => (self, 1.0),
+        }
+    }
+}
+
 /// A point of a surface, with a bound on how far rounding may have moved it.
 #[derive(Clone, Copy, Debug)]
 pub struct Interaction {
@@ -24,22 +42,30 @@ pub struct Interaction {
     pub normal: Vec3,
     /// Rays start this far from the point along the normal.
     pub offset: f64,
+    /// The way back along the ray that hit, of length 1 or a little less.
+    pub back: Vec3,
 }
 
 impl Interaction {
-    /// The interaction at `point` of a surface whose own numbers are about `anchor`, with the extra `extent` that its
-    /// size adds: 8 u·(Σ|nᵢ|(|pᵢ| + |aᵢ|) + extent).
+    /// The interaction at `point`, where `ray` meets a surface whose own numbers are about `anchor`, with the extra
+    /// `extent` that its size adds: the offset is 8 u·(Σ|nᵢ|(|pᵢ| + |aᵢ|) + extent).
     #[must_use]
-    pub fn new(point: Vec3, normal: Vec3, anchor: Vec3, extent: f64) -> Self {
+    pub fn new(ray: &Ray, point: Vec3, normal: Vec3, anchor: Vec3, extent: f64) -> Self {
         let size = normal.abs().dot(point.abs() + anchor.abs()) + extent;
-        Self { point, normal, offset: OFFSET * U * size }
+        let back = -ray.direction / ray.direction.abs().element_sum();
+        Self { point, normal, offset: OFFSET * U * size, back }
     }
 
     /// A start for rays along `direction`, on the side of the surface the direction points to.
+    ///
+    /// On the side the ray came from, the start also goes back along that ray, where it is known that nothing stands: so
+    /// a ray from the very edge of two mirrors starts on the inner side of both.
     #[must_use]
     pub fn start(&self, direction: Vec3) -> Vec3 {
         let side = if direction.dot(self.normal) < 0.0 { -self.offset } else { self.offset };
-        self.point + self.normal * side
+        let returns = (self.back.dot(self.normal) < 0.0) == (side < 0.0);
+        let step = self.normal * side;
+        self.point + if returns { step + self.back * self.offset } else { step }
     }
 
     /// The ray from this point along `direction`.

@@ -19,11 +19,16 @@ impl Key {
         Self(mix(self.0.rotate_left(32) ^ mix(branch)))
     }
 
+    /// 64 bits for one dimension of this point.
+    fn bits(self, dimension: u64) -> u64 {
+        self.child(dimension).0
+    }
+
     /// A number in [0, 1) for one dimension of this point.
     fn uniform(self, dimension: u64) -> f64 {
         /// 2⁻⁵³.
         const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
-        (self.child(dimension).0 >> 11) as f64 * UNIT
+        (self.bits(dimension) >> 11) as f64 * UNIT
     }
 }
 
@@ -44,24 +49,26 @@ pub(super) struct Lobe {
     basis: Basis,
     exponent: f64,
     count: u32,
-    shift: [f64; 2],
+    shift: f64,
+    /// In units of 2⁻⁶⁴ turns.
+    rotation: u64,
 }
 
 impl Lobe {
     /// The lobe of `count` directions around the unit vector `axis`.
     #[must_use]
     pub(super) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
-        let shift = [key.uniform(0), key.uniform(1)];
-        Self { basis: Basis::around(axis), exponent: 1.0 / (n.get() + 1.0), count, shift }
+        let (shift, rotation) = (key.uniform(0), key.bits(1));
+        Self { basis: Basis::around(axis), exponent: 1.0 / (n.get() + 1.0), count, shift, rotation }
     }
 
     /// Direction k, a unit vector.
     #[must_use]
     pub(super) fn direction(&self, k: u32) -> Vec3 {
-        let share = (f64::from(k) + self.shift[0]) / f64::from(self.count);
+        let share = (f64::from(k) + self.shift) / f64::from(self.count);
         let cosine = pow(share, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
-        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)) + self.shift[1]);
+        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
         self.basis.to_world(Vec3::new(sine * x, sine * y, cosine)).normalize()
     }
 

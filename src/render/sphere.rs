@@ -92,11 +92,15 @@ impl Sphere {
         (t > 0.0).then_some(t)
     }
 
-    /// The point at `t`, moved onto the sphere in its own frame.
+    /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds less.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        let local = (ray.origin - self.center) + ray.direction * t;
+        let step = ray.direction * t;
+        let local = (ray.origin - self.center) + step;
         let normal = local / local.length();
-        Interaction::new(self.center + normal * self.radius, normal, self.center, self.radius)
+        let along_ray = (ray.origin.abs() + step.abs()).element_sum();
+        let along_radius = self.center.abs().element_sum() + self.radius;
+        let point = if along_ray < along_radius { ray.origin + step } else { self.center + normal * self.radius };
+        Interaction::new(ray, point, normal, self.center, self.radius)
     }
 }

@@ -23,7 +23,7 @@ struct Path {
 /// Work put off: a path, or the rest of a glossy lobe.
 enum Pending {
     Path(Path),
-    Lobe(Fan),
+    Lobe(Box<Fan>),
 }
 
 /// The directions of a lobe not yet followed.
@@ -140,7 +140,7 @@ impl<'world> Tracer<'world> {
             return;
         };
         let fan = Fan { lobe, from: view.interaction, normal: view.normal, next: 0, count: glossy_samples.get(), path };
-        self.pending.push(Pending::Lobe(fan));
+        self.pending.push(Pending::Lobe(Box::new(fan)));
     }
 
     fn put_off(&mut self, path: &Path, from: &Interaction, direction: Vec3, weight: f64, branch: u64) {

@@ -114,11 +114,12 @@ impl World {
     /// The nearest hit with t > 0; of several at the same t, that of the first surface.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let shear = Shear::new(ray);
+        let (ray, unit) = ray.tamed();
+        let shear = Shear::new(&ray);
         let mut best = Hit { t: f64::INFINITY, surface: usize::MAX };
         let mut visit = |surface: u32| {
             let surface = surface as usize;
-            if let Some(t) = self.surfaces[surface].shape.intersect(ray, &shear)
+            if let Some(t) = self.surfaces[surface].shape.intersect(&ray, &shear)
                 && (t < best.t || (t == best.t && surface < best.surface))
             {
                 best = Hit { t, surface };
@@ -128,8 +129,8 @@ impl World {
         for surface in &self.unbounded {
             visit(*surface);
         }
-        self.bvh.walk(ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
-        (best.surface != usize::MAX).then_some(best)
+        self.bvh.walk(&ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
+        (best.surface != usize::MAX).then_some(Hit { t: best.t * unit, ..best })
     }
 
     /// Whether anything lies strictly between `from` and `to`; both ends may lie on surfaces.

@@ -1,0 +1,4 @@
+//! An arbitrary scene is proven or refused.
+
+#![no_main]
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc::pipeline::trial::validate(bytes));

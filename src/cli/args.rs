@@ -1,0 +1,261 @@
+//! The arguments, exactly as typed; [`super`] resolves them.
+
+use crate::render::Crop;
+use crate::{diag, ir};
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
+    let version = env!("CARGO_PKG_VERSION");
+    format!("{version}\nwrites IR version {0}, reads IR versions up to {0}", ir::VERSION)
+});
+
+/// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes every time.
+#[derive(Debug, Parser)]
+#[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted.")]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Check scenes and say what is wrong with them
+    Check(Check),
+    /// Compile a scene to the intermediate representation
+    Compile(Compile),
+    /// Render a scene to a picture
+    Render(Render),
+    /// Explain a code of a diagnostic
+    Explain(Explain),
+    /// Print the JSON Schema of a format
+    Schema(Schema),
+    /// Print a completion script for a shell
+    Completions(Completions),
+    /// Print a manual page
+    Man(Man),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    /// Scenes, as YAML or IR; `-` is standard input
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Compile {
+    /// The scene, as YAML or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// Where to write; `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
+    pub(super) output: PathBuf,
+    /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
+    #[arg(long, value_enum)]
+    pub(super) emit: Option<Emit>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Render {
+    /// The scene, as YAML or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// Where to write, .png or .exr; `-` is PNG to standard output [default: the scene's name with .png, here]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) output: Option<PathBuf>,
+    /// Width and height in pixels; the picture keeps its height in the scene
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(super) size: Option<[u32; 2]>,
+    /// Sub-samples along each side of a pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) supersampling: Option<u32>,
+    /// Bounces after the first hit
+    #[arg(long, value_name = "N")]
+    pub(super) depth: Option<u32>,
+    /// Threads to work on [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    /// Render only this part of the picture, in pixels from the upper left
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    pub(super) crop: Option<Crop>,
+    /// Bits a channel of a PNG [default: 8]
+    #[arg(long)]
+    pub(super) bits: Option<Bits>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Explain {
+    /// The code, as VA001
+    #[arg(required_unless_present = "all")]
+    pub(super) code: Option<String>,
+    /// Explain every code there is, as Markdown
+    #[arg(long, conflicts_with = "code")]
+    pub(super) all: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Schema {
+    /// The format
+    #[arg(value_enum, default_value_t)]
+    pub(super) of: Format,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Completions {
+    /// The shell
+    pub(super) shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Man {
+    /// The command the page is about [default: all of rtc]
+    pub(super) command: Option<String>,
+}
+
+/// How the input is read.
+#[derive(Debug, Args)]
+pub(super) struct Reading {
+    /// What to call standard input in messages
+    #[arg(long, value_name = "NAME")]
+    pub(super) stdin_name: Option<String>,
+    /// Refuse unknown keys
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// Repair mistakes that have one sensible repair, with a warning
+    #[arg(long)]
+    pub(super) lenient: bool,
+    /// Lift the limits on the size of the picture and the number of rays
+    #[arg(long)]
+    pub(super) allow_huge: bool,
+}
+
+/// How findings are told.
+#[derive(Debug, Args)]
+pub(super) struct Talk {
+    /// The form of diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(super) message_format: MessageFormat,
+    /// Colours in diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
+    pub(super) color: Color,
+    /// Show at most this many diagnostics of a file
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) max_errors: u32,
+    /// Only errors: no warnings, no progress, no summary
+    #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose")]
+    pub(super) quiet: bool,
+    /// Notes too
+    #[arg(short, long, action = ArgAction::SetTrue)]
+    pub(super) verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Emit {
+    /// The IR as text (JSON)
+    Ir,
+    /// The IR in its binary container
+    IrBin,
+    /// The scene, in canonical spelling
+    Yaml,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Bits {
+    #[value(name = "8")]
+    Eight,
+    #[value(name = "16")]
+    Sixteen,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// Scenes
+    #[default]
+    Scene,
+    /// The text form of the IR
+    Ir,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum MessageFormat {
+    /// For people, with the source
+    #[default]
+    Human,
+    /// One line each, for editors
+    Short,
+    /// One JSON object a line
+    Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// GitHub workflow commands
+    Github,
+}
+
+impl From<MessageFormat> for diag::Format {
+    fn from(format: MessageFormat) -> Self {
+        match format {
+            MessageFormat::Human => Self::Human,
+            MessageFormat::Short => Self::Short,
+            MessageFormat::Json => Self::Json,
+            MessageFormat::Sarif => Self::Sarif,
+            MessageFormat::Github => Self::Github,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Color {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+}
+
+fn crop(text: &str) -> Result<Crop, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
+        _ => Err("expected left, top, width and height in pixels, as 10,20,64,48".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_agree_with_each_other() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_and_crops() {
+        assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
+        assert!(["640", "0x4", "4x", "-1x2", "1x2x3"].into_iter().all(|text| size(text).is_err()));
+        assert_eq!(crop("1, 2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
+        assert!(["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"].into_iter().all(|text| crop(text).is_err()));
+    }
+}

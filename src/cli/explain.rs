@@ -1,0 +1,90 @@
+//! `rtc explain`: the long text of a code, or of all of them as a page of Markdown.
+
+use super::args::Explain;
+use super::{Failure, output};
+use crate::diag::{Code, Severity, codes};
+
+/// Columns of the text.
+const WIDTH: usize = 80;
+
+/// Prints the text of the code asked for.
+pub(super) fn run(args: &Explain) -> Result<(), Failure> {
+    let text = match &args.code {
+        Some(id) => entry(codes::find(id).ok_or_else(|| unknown(id))?),
+        None => page(),
+    };
+    output::to_stdout(text.as_bytes())
+}
+
+fn unknown(id: &str) -> Failure {
+    Failure::Trouble(format!("there is no code `{}`; `rtc explain --all` lists them", id.escape_debug()))
+}
+
+/// What stands before the codes.
+const HEAD: &str = "\
+# Diagnostics
+
+Every code rtc gives, printed by `rtc explain --all`. A code never changes its
+meaning. `--strict` makes some warnings errors, `--lenient` some errors warnings.
+
+With `--message-format json` each finding is one line, an object with
+
+- `code`, `severity` (`error`, `warning` or `note`) and `message`;
+- `file`: the file that was checked;
+- `primary`: the culprit, or null: `file`, `byteStart`, `byteEnd`, `start` and
+  `end` (each `line` and `column` from 1, columns in characters; absent where
+  the file is not text) and `text`, what is there;
+- `labels`: other places that matter, each like `primary`;
+- `hints`: what to do, each with `text` and `replacement`, which is null or
+  like `primary`, its `text` being what to put there;
+- `pointer`: a JSON pointer to the culprit, or null.
+
+If more was found than `--max-errors`, a last line `{\"omitted\": N}` says how
+much.
+";
+
+/// `schema/diagnostics.md`.
+fn page() -> String {
+    codes::all().fold(HEAD.to_owned(), |page, code| format!("{page}\n{}", entry(code)))
+}
+
+fn entry(code: &Code) -> String {
+    let Code { id, severity, summary, explanation } = code;
+    let severity = match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    format!("## {id} ({severity}): {summary}\n\n{}", fill(explanation))
+}
+
+/// The words in lines of at most [`WIDTH`] characters.
+fn fill(text: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().expect("there is a first line and none is taken away");
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_filled_and_no_longer() {
+        let text = "ab ".repeat(100);
+        let filled = fill(&text);
+        assert!(filled.lines().all(|line| line.len() <= WIDTH));
+        assert_eq!(filled.lines().count(), 4);
+        assert_eq!(filled.split_whitespace().count(), 100);
+    }
+}

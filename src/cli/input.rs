@@ -1,0 +1,104 @@
+//! The input of a command: a scene from a file or standard input, with what was found about it.
+
+use super::Failure;
+use super::args::Reading;
+use super::talk::Talk;
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::ir::Lowered;
+use crate::pipeline::{self, Options};
+use crate::source::{FileId, LoadError, Loader, SourceMap};
+use crate::valid::ValidScene;
+use crate::{front, valid};
+use std::io;
+use std::path::Path;
+
+/// A scene that was read, or could not be.
+pub(super) struct Input {
+    /// The name of the scene in messages.
+    name: String,
+    map: SourceMap,
+    sink: Sink,
+    file: Option<FileId>,
+    options: Options,
+}
+
+/// A scene that was proven, and that from which it was.
+pub(super) struct Proven {
+    /// The scene and where its values were written.
+    pub(super) lowered: Lowered,
+    /// The proof.
+    pub(super) scene: ValidScene,
+}
+
+impl Input {
+    /// Reads the file at `path`, or standard input if it is `-`.
+    pub(super) fn read(path: &Path, reading: &Reading) -> Self {
+        let Reading { stdin_name, strict, lenient, allow_huge } = reading;
+        let options = Options {
+            front: front::Options { strict: *strict, lenient: *lenient },
+            valid: valid::Options { allow_huge: *allow_huge },
+        };
+        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let from_stdin = path.as_os_str() == "-";
+        let name = if from_stdin {
+            stdin_name.clone().unwrap_or_else(|| "<stdin>".to_owned())
+        } else {
+            path.display().to_string()
+        };
+        let read =
+            if from_stdin { Loader.reader(&name, io::stdin().lock(), &mut map) } else { Loader.file(path, &mut map) };
+        let file = read.map_err(|error| sink.push(unreadable(&name, &error))).ok();
+        Self { name, map, sink, file, options }
+    }
+
+    /// Lowers the scene, lets `change` change it, and proves it.
+    pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered)) -> Option<Proven> {
+        let mut lowered = pipeline::load(self.file?, &self.map, &self.options, &mut self.sink)?;
+        change(&mut lowered);
+        let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
+        Some(Proven { lowered, scene })
+    }
+
+    /// Tells what was found since the last time, and whether the input is fit for use.
+    pub(super) fn tell(&mut self, talk: &mut Talk) -> Result<(), Failure> {
+        let sink = std::mem::take(&mut self.sink);
+        let verdict = match self.file {
+            None => Err(Failure::Unreadable),
+            Some(_) if sink.has_errors() => Err(Failure::Findings),
+            Some(_) => Ok(()),
+        };
+        talk.file(&self.name, sink, &self.map)?;
+        verdict
+    }
+
+    /// Adds a finding.
+    pub(super) fn push(&mut self, diagnostic: Diagnostic) {
+        self.sink.push(diagnostic);
+    }
+
+    /// The name of the scene in messages.
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// Proves a scene for a command that needs it, and tells what was found.
+pub(super) fn require(
+    input: &mut Input,
+    talk: &mut Talk,
+    change: impl FnOnce(&mut Lowered),
+) -> Result<Proven, Failure> {
+    let proven = input.prove(change);
+    input.tell(talk)?;
+    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
+}
+
+fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
+    match error {
+        LoadError::Io(error) => Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}")),
+        LoadError::TooLarge { limit } => {
+            let limit = limit >> 20;
+            Diagnostic::new(&codes::TOO_LARGE, format!("`{name}` is larger than {limit} MiB"))
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! How far a long render is: a bar on a terminal, nothing elsewhere; and how long it took.
+
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use std::fmt::Write;
+use std::io::{self, IsTerminal};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
+
+/// Counts the pixels done and the rays they took; all threads may tell it.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    rays: Arc<AtomicU64>,
+}
+
+impl Progress {
+    /// Starts to count `pixels`; `quiet` means no bar.
+    pub(super) fn start(pixels: u64, quiet: bool) -> Self {
+        let shown = !quiet && io::stderr().is_terminal();
+        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let rays = Arc::new(AtomicU64::new(0));
+        let bar = ProgressBar::with_draw_target(Some(pixels), target).with_style(style(Arc::clone(&rays)));
+        Self { bar, rays }
+    }
+
+    /// One more pixel is done.
+    pub(super) fn pixel(&self, rays: u64) {
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+        self.bar.inc(1);
+    }
+
+    /// Takes the bar away and says how long it took.
+    pub(super) fn finish(self) -> Duration {
+        let elapsed = self.bar.elapsed();
+        self.bar.finish_and_clear();
+        elapsed
+    }
+}
+
+fn style(rays: Arc<AtomicU64>) -> ProgressStyle {
+    let rate = move |state: &ProgressState, text: &mut dyn Write| {
+        let rays = rays.load(Ordering::Relaxed);
+        // A bar that can't be drawn is no fault of the render.
+        let _ = write!(text, "{}", per_second(rays, state.elapsed()));
+    };
+    let left = |state: &ProgressState, text: &mut dyn Write| {
+        let _ = write!(text, "{:#} left", HumanDuration(state.eta()));
+    };
+    ProgressStyle::with_template("{bar:30} {percent:>3} %  {rate}  {left}")
+        .expect("the template is a constant and well formed")
+        .with_key("rate", rate)
+        .with_key("left", left)
+}
+
+/// `1,234,567 rays/s`.
+pub(super) fn per_second(rays: u64, elapsed: Duration) -> String {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, and rounded for people")]
+    let rate = (rays as f64 / elapsed.as_secs_f64().max(1e-9)) as u64;
+    format!("{} rays/s", HumanCount(rate))
+}
+
+/// `1,234,567 rays, 0.52 s, 2,374,167 rays/s`.
+pub(super) fn summary(rays: u64, elapsed: Duration) -> String {
+    format!("{} rays, {:.2} s, {}", HumanCount(rays), elapsed.as_secs_f64(), per_second(rays, elapsed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_summary_counts_rays_and_seconds() {
+        assert_eq!(summary(3_000_000, Duration::from_millis(1500)), "3,000,000 rays, 1.50 s, 2,000,000 rays/s");
+        assert!(summary(1, Duration::ZERO).starts_with("1 rays, 0.00 s, "));
+    }
+}

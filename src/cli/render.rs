@@ -1,0 +1,168 @@
+//! `rtc render`: a scene to a picture. What was typed becomes a [`Plan`] before anything is read.
+
+use super::Failure;
+use super::args::{self, Bits, Talk as TalkArgs};
+use super::input::{self, Input, Proven};
+use super::interrupt::Interrupt;
+use super::output::{self, Output};
+use super::progress::{self, Progress};
+use super::talk::{self, Talk};
+use crate::codec::{self, Form};
+use crate::diag::{Diagnostic, codes};
+use crate::image;
+use crate::ir::{Field, Noun, Place, Scene};
+use crate::pipeline::{self, Overrides};
+use crate::render::{Counts, Crop, Film, Job, Values};
+use std::path::{Path, PathBuf};
+use xxhash_rust::xxh3::xxh3_128;
+
+/// A render as it will be done.
+struct Plan {
+    output: PathBuf,
+    kind: Kind,
+    overrides: Overrides,
+    crop: Option<Crop>,
+    threads: usize,
+}
+
+/// A kind of pixel file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Png8,
+    Png16,
+    Exr,
+}
+
+/// Renders the scene and writes the picture.
+pub(super) fn run(args: args::Render) -> Result<(), Failure> {
+    let plan = Plan::new(&args)?;
+    let args::Render { file, reading, talk, .. } = args;
+    plan.carry_out(&mut Input::read(&file, &reading), &talk)
+}
+
+impl Plan {
+    fn new(args: &args::Render) -> Result<Self, Failure> {
+        let output = match &args.output {
+            Some(output) => output.clone(),
+            None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
+        };
+        output::refuse_terminal(&output)?;
+        Ok(Self {
+            kind: kind(&output, args.bits)?,
+            output,
+            overrides: Overrides { size: args.size, supersampling: args.supersampling, depth: args.depth },
+            crop: args.crop,
+            threads: args.threads.map_or(0, usize::from),
+        })
+    }
+
+    fn carry_out(&self, input: &mut Input, args: &TalkArgs) -> Result<(), Failure> {
+        let mut talk = Talk::beside_result(args);
+        let proven = input::require(input, &mut talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
+        let window = self.window(&proven.lowered.scene)?;
+        let interrupt = Interrupt::listen()?;
+        let output = Output::open(&self.output, &interrupt)?;
+        let (film, told) = self.trace(&proven, window, &interrupt, talk.is_quiet())?;
+        if self.crop.is_none() && film.counts.hits == 0 {
+            input.push(nothing_in_view(&proven));
+            input.tell(&mut talk)?;
+        }
+        talk.finish()?;
+        let form = self.form(&proven.lowered.scene);
+        let bytes = film.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
+        output.commit(&bytes, &interrupt)?;
+        told.iter().for_each(|line| talk::say(line));
+        Ok(())
+    }
+
+    /// The part of the picture that is rendered.
+    fn window(&self, scene: &Scene) -> Result<Crop, Failure> {
+        let [width, height] = scene.camera.size;
+        let window = self.crop.map_or(Crop { x: 0, y: 0, width, height }, |crop| crop.within(width, height));
+        if window.width == 0 || window.height == 0 {
+            return Err(Failure::Trouble(format!("the crop lies outside the picture of {width}×{height} pixels")));
+        }
+        Ok(window)
+    }
+
+    /// The film, and unless `quiet` what there is to say about its making.
+    fn trace(
+        &self,
+        proven: &Proven,
+        window: Crop,
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<(Film, Option<String>), Failure> {
+        let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
+        let job = Job { crop: Some(window), values };
+        let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
+        let proceed = |rays| {
+            progress.pixel(rays);
+            !interrupt.is_raised()
+        };
+        let film = pipeline::render(&proven.scene, &job, self.threads, &proceed);
+        let elapsed = progress.finish();
+        let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+        let film = film.ok_or(Failure::Interrupted)?;
+        let told = self.summary(&film.counts, window, elapsed);
+        Ok((film, (!quiet).then_some(told)))
+    }
+
+    fn summary(&self, counts: &Counts, Crop { width, height, .. }: Crop, elapsed: std::time::Duration) -> String {
+        let work = progress::summary(counts.rays(), elapsed);
+        format!("{}: {width}×{height}, {work}", self.output.display())
+    }
+
+    fn form(&self, scene: &Scene) -> image::Form {
+        match self.kind {
+            Kind::Png8 => image::Form::Png8,
+            Kind::Png16 => image::Form::Png16,
+            Kind::Exr => image::Form::Exr(self.origin(scene)),
+        }
+    }
+
+    /// Enough to make the same picture again: which rtc, which scene, which part of it.
+    fn origin(&self, scene: &Scene) -> image::Origin {
+        let bytes = codec::encode(Form::Text, scene).expect("a proven scene holds finite numbers only");
+        let settings = serde_json::json!({
+            "size": scene.camera.size,
+            "lens": scene.camera.lens,
+            "settings": scene.settings,
+            "crop": self.crop.map(|Crop { x, y, width, height }| [x, y, width, height]),
+        });
+        image::Origin {
+            software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
+            scene: format!("xxh3:{:032x}", xxh3_128(&bytes)),
+            settings: settings.to_string(),
+        }
+    }
+}
+
+/// The name of the scene with `.png`, in the current folder.
+fn beside_here(file: &Path, stdin_name: Option<&str>) -> Result<PathBuf, Failure> {
+    let name = if file.as_os_str() == "-" { stdin_name.map(Path::new) } else { Some(file) };
+    let stem = name.and_then(Path::file_stem);
+    let stem = stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
+    Ok(PathBuf::from(stem).with_added_extension("png"))
+}
+
+fn kind(output: &Path, bits: Option<Bits>) -> Result<Kind, Failure> {
+    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let is_stdout = output.as_os_str() == "-";
+    match (extension.as_deref(), bits) {
+        (Some("exr"), None) => Ok(Kind::Exr),
+        (Some("exr"), Some(_)) => Err(Failure::Trouble("`--bits` is for PNG; an EXR holds 32-bit floats".to_owned())),
+        (Some("png"), Some(Bits::Sixteen)) => Ok(Kind::Png16),
+        (Some("png"), Some(Bits::Eight) | None) => Ok(Kind::Png8),
+        (None, Some(Bits::Sixteen)) if is_stdout => Ok(Kind::Png16),
+        (None, Some(Bits::Eight) | None) if is_stdout => Ok(Kind::Png8),
+        _ => Err(Failure::Trouble(format!("can't tell what `{}` is to be; name it .png or .exr", output.display()))),
+    }
+}
+
+fn nothing_in_view(proven: &Proven) -> Diagnostic {
+    let camera = proven.lowered.origins.span(Place::new(Noun::Camera, 0, Field::Whole));
+    Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
+        .at(camera, "this camera sees only the background")
+        .hint("check where the camera stands and looks, and where the objects are")
+}

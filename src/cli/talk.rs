@@ -1,0 +1,76 @@
+//! What is said, and on which stream: findings for people on standard error, those for programs on standard output.
+
+use super::{Failure, args, output};
+use crate::diag::{Format, Options, Printer, Severity, Sink};
+use crate::source::SourceMap;
+use anstream::{AutoStream, ColorChoice};
+use std::io::{self, Write};
+
+/// Where the terminal does not say how wide it is.
+const WIDTH: usize = 100;
+
+/// Tells the findings about one file after another.
+pub(super) struct Talk {
+    printer: Printer,
+    to_stdout: bool,
+    quiet: bool,
+}
+
+impl Talk {
+    /// For a command whose result is its findings: those for programs go to standard output.
+    pub(super) fn as_result(args: &args::Talk) -> Self {
+        let format = Format::from(args.message_format);
+        Self { to_stdout: !matches!(format, Format::Human | Format::Short), ..Self::beside_result(args) }
+    }
+
+    /// For a command with another result: all findings go to standard error.
+    pub(super) fn beside_result(args: &args::Talk) -> Self {
+        let args::Talk { message_format, color, max_errors, quiet, verbose } = *args;
+        let least = match (quiet, verbose) {
+            (true, _) => Severity::Error,
+            (false, true) => Severity::Note,
+            (false, false) => Severity::Warning,
+        };
+        let width = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).unwrap_or(WIDTH);
+        let options = Options { color: is_colored(color), width, least, max: max_errors as usize };
+        Self { printer: Printer::new(message_format.into(), options), to_stdout: false, quiet }
+    }
+
+    /// Tells the findings about the file `name`.
+    pub(super) fn file(&mut self, name: &str, sink: Sink, map: &SourceMap) -> Result<(), Failure> {
+        let text = self.printer.file(name, sink, map);
+        write(self.to_stdout, &text)
+    }
+
+    /// Tells what follows the last finding.
+    pub(super) fn finish(self) -> Result<(), Failure> {
+        write(self.to_stdout, &self.printer.finish())
+    }
+
+    /// True if only errors are wanted.
+    pub(super) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+}
+
+/// Says something on standard error, without what would command a terminal. If nobody listens there is nobody to tell.
+pub(super) fn say(words: &str) {
+    let harmless = words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
+    let _ = writeln!(io::stderr(), "{harmless}");
+}
+
+fn write(to_stdout: bool, text: &str) -> Result<(), Failure> {
+    if to_stdout {
+        return output::to_stdout(text.as_bytes());
+    }
+    let _ = io::stderr().write_all(text.as_bytes());
+    Ok(())
+}
+
+fn is_colored(color: args::Color) -> bool {
+    match color {
+        args::Color::Always => true,
+        args::Color::Never => false,
+        args::Color::Auto => AutoStream::choice(&io::stderr()) != ColorChoice::Never,
+    }
+}

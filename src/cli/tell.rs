@@ -1,0 +1,38 @@
+//! What rtc tells about itself: `rtc schema`, `rtc completions`, `rtc man`.
+
+use super::args::{Cli, Completions, Format, Man, Schema};
+use super::{Failure, output};
+use crate::codec;
+use crate::front::course;
+use clap::CommandFactory;
+
+/// Prints the JSON Schema of a format.
+pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
+    let schema = match args.of {
+        Format::Scene => course::schema(),
+        Format::Ir => codec::schema(),
+    };
+    output::to_stdout(format!("{schema:#}\n").as_bytes())
+}
+
+/// Prints a completion script.
+pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "rtc", &mut script);
+    output::to_stdout(&script)
+}
+
+/// Prints the manual page of rtc or of one of its commands.
+pub(super) fn man(args: &Man) -> Result<(), Failure> {
+    let mut rtc = Cli::command();
+    rtc.build();
+    let command = match &args.command {
+        Some(name) => rtc.find_subcommand(name).cloned(),
+        None => Some(rtc),
+    };
+    let command =
+        command.ok_or_else(|| Failure::Trouble("there is no such command; `rtc help` lists them".to_owned()))?;
+    let mut page = Vec::new();
+    clap_mangen::Man::new(command).render(&mut page).map_err(|error| Failure::Trouble(error.to_string()))?;
+    output::to_stdout(&page)
+}

@@ -1,0 +1,33 @@
+//! Older trees brought to the current version, one step a version; a step renames and fills in, it never computes.
+//!
+//! A new version is one function here, one entry in `STEPS`, and one frozen file in `tests/codec`.
+
+use crate::ir::VERSION;
+use serde_json::Value;
+
+/// `STEPS[n]` brings version n to version n + 1.
+const STEPS: [fn(&mut Value); VERSION as usize] = [from_0];
+
+/// The tree in the current version; what is not as its version says is left for the typed decoder to refuse.
+pub(super) fn to_current(version: u32, mut tree: Value) -> Value {
+    for step in STEPS.iter().skip(version as usize) {
+        step(&mut tree);
+    }
+    tree
+}
+
+/// Version 0 was never published. It is made up, so that the way through this file is walked from the first day:
+/// it spells `superSampling` as the scene format does.
+fn from_0(tree: &mut Value) {
+    if let Some(settings) = tree.get_mut("settings") {
+        rename(settings, "superSampling", "supersampling");
+    }
+}
+
+fn rename(map: &mut Value, old: &str, new: &str) {
+    if let Some(members) = map.as_object_mut()
+        && let Some(value) = members.remove(old)
+    {
+        members.insert(new.to_owned(), value);
+    }
+}

@@ -1,0 +1,45 @@
+//! For GitHub: workflow commands, which become annotations in the lines of a pull request.
+
+use super::place::{Place, Point};
+use super::text::clean_except;
+use crate::diag::{Diagnostic, Severity};
+use crate::source::SourceMap;
+
+/// One finding; `name` stands for its file where it has no place.
+pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
+    let command = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "notice",
+    };
+    let place = diagnostic.primary.as_ref().map(|label| Place::new(map, label.span));
+    let file = property(place.as_ref().map_or(name, |place| place.file));
+    let at = place.and_then(|place| Some(position(place.start?, place.end?))).unwrap_or_default();
+    format!("::{command} file={file}{at},title={}::{}\n", diagnostic.code, data(&body(diagnostic)))
+}
+
+fn position(start: Point, end: Point) -> String {
+    let lines = format!(",line={},endLine={}", start.line, end.line);
+    // Columns are understood only within one line.
+    if start.line == end.line { format!("{lines},col={},endColumn={}", start.column, end.column) } else { lines }
+}
+
+/// The message, with the words of the label, the pointer and the hints on lines of their own.
+fn body(diagnostic: &Diagnostic) -> String {
+    let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
+    let pointer = diagnostic.pointer.iter().map(|pointer| format!("at `{pointer}`"));
+    let hints = diagnostic.hints.iter().map(|hint| match &hint.replacement {
+        Some(replacement) => format!("help: {}: `{}`", hint.text, replacement.text),
+        None => format!("help: {}", hint.text),
+    });
+    let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(pointer).chain(hints);
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn data(text: &str) -> String {
+    clean_except(text, &['\n', '\r']).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+}
+
+fn property(text: &str) -> String {
+    data(text).replace(':', "%3A").replace(',', "%2C")
+}

@@ -1,0 +1,127 @@
+//! From findings to text: for people, editors, programs, code scanning and GitHub.
+//!
+//! Findings come out sorted by place and capped; nothing of the input can command a terminal; nothing is written here.
+
+mod github;
+mod human;
+mod json;
+mod place;
+mod sarif;
+mod short;
+mod text;
+mod window;
+
+#[cfg(test)]
+mod tests;
+
+use super::{Diagnostic, Severity, Sink};
+use crate::source::SourceMap;
+
+/// The form of the text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// With the source and marks in it.
+    #[default]
+    Human,
+    /// One line a finding.
+    Short,
+    /// One JSON object a line.
+    Json,
+    /// SARIF 2.1.0.
+    Sarif,
+    /// GitHub workflow commands.
+    Github,
+}
+
+impl Format {
+    /// True if programs read it: then it holds every finding, whatever its severity.
+    #[must_use]
+    pub fn is_for_programs(self) -> bool {
+        matches!(self, Self::Json | Self::Sarif)
+    }
+}
+
+/// How findings are shown.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// With colours, in the human format.
+    pub color: bool,
+    /// Columns of the terminal.
+    pub width: usize,
+    /// The least severity shown; programs always get everything.
+    pub least: Severity,
+    /// At most this many findings of a file, at least 1.
+    pub max: usize,
+}
+
+/// Turns the findings of one file after another into text.
+#[derive(Debug)]
+pub struct Printer {
+    format: Format,
+    options: Options,
+    omitted: usize,
+    results: Vec<serde_json::Value>,
+}
+
+impl Printer {
+    /// A printer that has seen no file.
+    #[must_use]
+    pub fn new(format: Format, options: Options) -> Self {
+        Self { format, options, omitted: 0, results: Vec::new() }
+    }
+
+    /// The text for the findings of the file `name`; empty if there are none to show.
+    pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
+        sink.sort();
+        let visible =
+            |diagnostic: &&Diagnostic| self.format.is_for_programs() || diagnostic.severity <= self.options.least;
+        let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
+        let shown = cap(&found, self.options.max);
+        let hidden = found.len() - shown.len() + sink.dropped();
+        self.omitted += hidden;
+        let each = |one: &dyn Fn(&Diagnostic) -> String| shown.iter().map(|diagnostic| one(diagnostic)).collect();
+        match self.format {
+            Format::Human if found.is_empty() => String::new(),
+            Format::Human => {
+                let findings: String = each(&|diagnostic| human::finding(diagnostic, map, &self.options));
+                findings + &human::summary(name, &found, hidden)
+            }
+            Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
+            Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),
+            Format::Github => each(&|diagnostic| github::finding(name, diagnostic, map)),
+            Format::Sarif => {
+                self.results.extend(shown.iter().map(|diagnostic| sarif::result(name, diagnostic, map)));
+                String::new()
+            }
+        }
+    }
+
+    /// The text after the last file.
+    #[must_use]
+    pub fn finish(self) -> String {
+        match self.format {
+            Format::Sarif => sarif::log(&self.results, self.omitted),
+            Format::Json if self.omitted > 0 => json::omitted(self.omitted),
+            Format::Short if self.omitted > 0 => format!("and {} more\n", self.omitted),
+            Format::Github if self.omitted > 0 => format!("::notice::and {} more\n", self.omitted),
+            Format::Human | Format::Short | Format::Json | Format::Github => String::new(),
+        }
+    }
+}
+
+/// At most `max` findings: errors before warnings before notes, and each kind from the top, in order of place.
+fn cap<'a>(found: &[&'a Diagnostic], max: usize) -> Vec<&'a Diagnostic> {
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    order.sort_by_key(|&index| found[index].severity);
+    order.truncate(max);
+    order.sort_unstable();
+    order.into_iter().map(|index| found[index]).collect()
+}
+
+fn severity(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    }
+}

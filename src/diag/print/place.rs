@@ -1,0 +1,69 @@
+//! A span as people and tools count it: bytes of a file, and lines and columns where the file is text.
+
+use super::text::clean;
+use crate::source::{FileId, SourceMap, Span};
+use serde::Serialize;
+use std::fmt;
+
+/// How far into a file a NUL is looked for.
+const SNIFF: usize = 8192;
+
+/// A place in a file.
+#[derive(Clone, Debug, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Place<'a> {
+    /// The name of the file as the user gave it.
+    pub(super) file: &'a str,
+    /// The first byte, from 0.
+    pub(super) byte_start: u32,
+    /// One past the last byte.
+    pub(super) byte_end: u32,
+    /// Line and column of the first character; absent where the file is not text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) start: Option<Point>,
+    /// Line and column just past the last character.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) end: Option<Point>,
+}
+
+/// Line and column, both from 1, columns in characters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub(super) struct Point {
+    pub(super) line: u32,
+    pub(super) column: u32,
+}
+
+impl<'a> Place<'a> {
+    /// The place of `span`.
+    pub(super) fn new(map: &'a SourceMap, span: Span) -> Self {
+        let Span { file, start, end } = span;
+        let point = |offset| {
+            let at = map.line_column(file, offset);
+            Point { line: at.line, column: at.column }
+        };
+        let text = is_text(map, file);
+        Self {
+            file: map.name(file),
+            byte_start: start,
+            byte_end: end,
+            start: text.then(|| point(start)),
+            end: text.then(|| point(end)),
+        }
+    }
+}
+
+impl fmt::Display for Place<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file = clean(self.file);
+        match self.start {
+            Some(Point { line, column }) => write!(f, "{file}:{line}:{column}"),
+            None => write!(f, "{file}: byte {}", self.byte_start),
+        }
+    }
+}
+
+/// True if lines of the file mean something to a person. Latin-1 counts: its lines can be read but for some letters.
+pub(super) fn is_text(map: &SourceMap, file: FileId) -> bool {
+    let bytes = map.bytes(file);
+    !bytes[..bytes.len().min(SNIFF)].contains(&0) || map.text(file).is_some()
+}

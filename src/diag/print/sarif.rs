@@ -1,0 +1,117 @@
+//! For code scanning: SARIF 2.1.0, one run, the rules from the table of codes.
+
+use super::place::Place;
+use super::text;
+use crate::diag::{Diagnostic, Label, Severity, codes};
+use crate::source::{SourceMap, Span};
+use serde_json::{Value, json};
+
+/// The whole log, of the results given; `omitted` findings were left out.
+pub(super) fn log(results: &[Value], omitted: usize) -> String {
+    let log = json!({
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [{
+            "tool": { "driver": {
+                "name": "rtc",
+                "version": env!("CARGO_PKG_VERSION"),
+                "rules": codes::all().map(rule).collect::<Vec<_>>(),
+            } },
+            "columnKind": "unicodeCodePoints",
+            "results": results,
+            "properties": { "omitted": omitted },
+        }],
+    });
+    format!("{}\n", text::clean_json(&log.to_string()))
+}
+
+fn rule(code: &'static codes::Code) -> Value {
+    json!({
+        "id": code.id,
+        "shortDescription": { "text": code.summary },
+        "fullDescription": { "text": code.explanation },
+        "defaultConfiguration": { "level": level(code.severity) },
+    })
+}
+
+fn level(severity: Severity) -> &'static str {
+    super::severity(severity)
+}
+
+/// One finding; `name` stands for its file where it has no place.
+pub(super) fn result(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> Value {
+    let rule = codes::all().position(|code| code == diagnostic.code);
+    let file = json!({ "physicalLocation": { "artifactLocation": { "uri": uri(name) } } });
+    let mut location = diagnostic.primary.as_ref().map_or(file, |label| location(label, map));
+    if let Some(pointer) = &diagnostic.pointer {
+        location["logicalLocations"] = json!([{ "fullyQualifiedName": pointer }]);
+    }
+    let mut result = json!({
+        "ruleId": diagnostic.code.id,
+        "ruleIndex": rule,
+        "level": level(diagnostic.severity),
+        "message": { "text": message(diagnostic) },
+        "locations": [location],
+        "relatedLocations": diagnostic.secondary.iter().map(|label| self::location(label, map)).collect::<Vec<_>>(),
+    });
+    let fixes = fixes(diagnostic, map);
+    if !fixes.is_empty() {
+        result["fixes"] = fixes.into();
+    }
+    result
+}
+
+/// The message and the advice: viewers show no more than this.
+fn message(diagnostic: &Diagnostic) -> String {
+    let hints = diagnostic.hints.iter().map(|hint| format!("\nhelp: {}", hint.text));
+    std::iter::once(diagnostic.message.clone()).chain(hints).collect()
+}
+
+fn location(label: &Label, map: &SourceMap) -> Value {
+    let physical = json!({
+        "artifactLocation": { "uri": uri(map.name(label.span.file)) },
+        "region": region(label.span, map),
+    });
+    if label.text.is_empty() {
+        json!({ "physicalLocation": physical })
+    } else {
+        json!({ "physicalLocation": physical, "message": { "text": label.text } })
+    }
+}
+
+fn region(span: Span, map: &SourceMap) -> Value {
+    let place = Place::new(map, span);
+    let mut region = json!({ "byteOffset": span.start, "byteLength": span.end.saturating_sub(span.start) });
+    if let (Some(start), Some(end)) = (place.start, place.end) {
+        region["startLine"] = start.line.into();
+        region["startColumn"] = start.column.into();
+        region["endLine"] = end.line.into();
+        region["endColumn"] = end.column.into();
+    }
+    region
+}
+
+fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
+    let changes = diagnostic.hints.iter().filter_map(|hint| Some((hint, hint.replacement.as_ref()?)));
+    let fix = |(hint, change): (&crate::diag::Hint, &crate::diag::Replacement)| {
+        json!({
+            "description": { "text": hint.text },
+            "artifactChanges": [{
+                "artifactLocation": { "uri": uri(map.name(change.span.file)) },
+                "replacements": [{
+                    "deletedRegion": region(change.span, map),
+                    "insertedContent": { "text": change.text },
+                }],
+            }],
+        })
+    };
+    changes.map(fix).collect()
+}
+
+/// The path as a URI reference: relative as the user gave it, or with the scheme `file`.
+fn uri(path: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
+    let escape = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    let escaped: String = path.bytes().map(escape).collect();
+    if path.starts_with('/') { format!("file://{escaped}") } else { escaped }
+}

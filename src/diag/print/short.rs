@@ -1,0 +1,18 @@
+//! For editors: one line a finding, `file:line:column: error[VA001]: message`.
+
+use super::place::Place;
+use super::severity;
+use super::text::clean;
+use crate::diag::Diagnostic;
+use crate::source::SourceMap;
+
+/// One finding; `name` stands for its file where it has no place.
+pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
+    let place = match (&diagnostic.primary, &diagnostic.pointer) {
+        (Some(label), _) => Place::new(map, label.span).to_string(),
+        (None, Some(pointer)) => format!("{}: {}", clean(name), clean(pointer)),
+        (None, None) => clean(name).into_owned(),
+    };
+    let Diagnostic { code, severity: level, message, .. } = diagnostic;
+    format!("{place}: {}[{code}]: {}\n", severity(*level), clean(message))
+}

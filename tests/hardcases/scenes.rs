@@ -1,0 +1,80 @@
+//! Worlds out of shapes, by the same way every scene takes: IR, proof, world.
+
+use crate::truth::{number, vector};
+use rtc::diag::Sink;
+use rtc::ir;
+use rtc::render::World;
+use rtc::valid::{self, ValidScene};
+use serde_json::Value;
+
+/// A white Phong material that is lit, shines and mirrors.
+pub(crate) fn white() -> ir::Material {
+    ir::Material::Phong(ir::Phong {
+        color: [1.0; 3],
+        ka: 0.0,
+        kd: 1.0,
+        ks: 0.0,
+        n: 1.0,
+        kt: 0.0,
+        eta: 1.0,
+        glossy_samples: 1,
+    })
+}
+
+/// A scene of shapes, each white, seen from afar.
+pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
+    let surface = |shape| ir::Surface { shape, material: ir::MaterialId(0) };
+    ir::Scene {
+        camera: ir::Camera {
+            eye: [0.0, 0.0, 10.0],
+            center: [0.0; 3],
+            right: [1.0, 0.0, 0.0],
+            up: [0.0, 1.0, 0.0],
+            size: [1, 1],
+            lens: ir::Lens { radius: 0.0, samples: 1 },
+        },
+        settings: ir::Settings { mode: ir::Mode::Phong, shadows: true, max_depth: 0, supersampling: 1 },
+        lights: Vec::new(),
+        materials: vec![white()],
+        surfaces: shapes.into_iter().map(surface).collect(),
+    }
+}
+
+/// The proof of a scene; what the proof says otherwise is the panic's message.
+pub(crate) fn proven(scene: &ir::Scene) -> ValidScene {
+    check(scene).unwrap_or_else(|codes| panic!("refused: {codes:?}"))
+}
+
+/// The proof, or the codes of the errors.
+pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> {
+    let mut sink = Sink::default();
+    let proof = valid::validate(scene, &ir::Origins::default(), &valid::Options::default(), &mut sink);
+    proof.ok_or_else(|| sink.kept().iter().map(|finding| finding.code.id).collect())
+}
+
+pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
+    World::prepare(&proven(&scene(shapes)))
+}
+
+pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {
+    ir::Shape::Sphere(ir::Sphere { center, radius })
+}
+
+pub(crate) fn plane(center: [f64; 3], normal: [f64; 3]) -> ir::Shape {
+    ir::Shape::Plane(ir::Plane { center, normal })
+}
+
+pub(crate) fn triangle(vertices: [[f64; 3]; 3]) -> ir::Shape {
+    ir::Shape::Triangle(ir::Triangle { vertices })
+}
+
+/// The shape of a case, or `None` for one that this version does not have.
+pub(crate) fn shape(value: &Value) -> Option<ir::Shape> {
+    let point = |key: &str| vector(&value[key]).to_array();
+    match value["type"].as_str().unwrap() {
+        "sphere" => Some(sphere(point("center"), number(&value["radius"]))),
+        "plane" => Some(plane(point("center"), point("normal"))),
+        "triangle" => Some(triangle([0, 1, 2].map(|k| vector(&value["v"][k]).to_array()))),
+        _ => None,
+    }
+}

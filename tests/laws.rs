@@ -1,0 +1,151 @@
+//! The laws that hold for every scene of `scenes/`: forms of the IR, threads, crops and powers of two change no byte.
+
+#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use rtc::codec::{self, Form};
+use rtc::diag::Sink;
+use rtc::ir::{self, Lowered, Origins, Scene};
+use rtc::math::ldexp;
+use rtc::pipeline::{self, Options, Overrides};
+use rtc::render::{Crop, Film, Job, Values};
+use rtc::source::{Loader, SourceMap};
+use std::path::{Path, PathBuf};
+
+/// The scenes of the repo.
+fn paths() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut paths: Vec<_> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    paths.sort();
+    assert!(paths.len() >= 10, "the repo has scenes");
+    paths
+}
+
+/// A scene, small enough to be rendered many times.
+fn small(path: &Path) -> Scene {
+    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    let mut scene = pipeline::load(file, &map, &options, &mut sink).unwrap().scene;
+    assert!(!sink.has_errors(), "{}: {:?}", path.display(), sink.kept());
+    let sampling = scene.settings.supersampling.min(2);
+    let depth = scene.settings.max_depth.min(8);
+    Overrides { size: Some([48, 40]), supersampling: Some(sampling), depth: Some(depth) }.apply(&mut scene);
+    scene.camera.lens.samples = scene.camera.lens.samples.min(4);
+    scene
+}
+
+fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    pipeline::render(&valid, job, threads, &|_| true).unwrap().unwrap()
+}
+
+/// The bits of every value.
+fn bits(film: &Film) -> Vec<u64> {
+    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+}
+
+const WHOLE: Job = Job { crop: None, values: Values::Linear };
+
+#[test]
+fn the_ir_in_any_form_makes_the_same_picture() {
+    for path in paths() {
+        let scene = small(&path);
+        let picture = bits(&film(&scene, &WHOLE, 0));
+        for form in [Form::Text, Form::Binary] {
+            let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+            let file = map.add("scene", codec::encode(form, &scene).unwrap());
+            let decoded = pipeline::load(file, &map, &Options::default(), &mut sink).unwrap().scene;
+            assert_eq!(decoded, scene, "{form:?} of {}", path.display());
+            assert!(bits(&film(&decoded, &WHOLE, 0)) == picture, "{form:?} of {}", path.display());
+        }
+    }
+}
+
+#[test]
+fn threads_change_no_bit() {
+    for path in paths() {
+        let scene = small(&path);
+        let one = film(&scene, &WHOLE, 1);
+        for threads in [2, 7] {
+            let many = film(&scene, &WHOLE, threads);
+            assert!(bits(&many) == bits(&one), "{threads} threads: {}", path.display());
+            assert_eq!(many.counts, one.counts, "{threads} threads: {}", path.display());
+        }
+    }
+}
+
+#[test]
+fn a_crop_is_a_part_of_the_whole() {
+    let crop = Crop { x: 11, y: 7, width: 20, height: 50 };
+    for path in paths() {
+        let scene = small(&path);
+        let whole = film(&scene, &WHOLE, 0).image;
+        let part = film(&scene, &Job { crop: Some(crop), ..WHOLE }, 0).image;
+        assert_eq!((part.width, part.height), (20, 33));
+        let rows = whole.pixels.chunks(whole.width as usize).skip(7);
+        let wanted = rows.flat_map(|row| &row[11..31]).copied().collect::<Vec<_>>();
+        assert!(part.pixels == wanted, "{}", path.display());
+    }
+}
+
+/// Every length of the scene times a factor; what is a direction or a colour stays.
+fn scaled(scene: &Scene, factor: f64) -> Scene {
+    let mut scene = scene.clone();
+    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
+    let ir::Camera { eye, center, right, up, size: _, lens } = &mut scene.camera;
+    for vector in [eye, center, right, up] {
+        scale(vector);
+    }
+    lens.radius *= factor;
+    for ir::Light::Point(light) in &mut scene.lights {
+        scale(&mut light.position);
+    }
+    for surface in &mut scene.surfaces {
+        match &mut surface.shape {
+            ir::Shape::Sphere(ir::Sphere { center, radius }) => {
+                scale(center);
+                *radius *= factor;
+            }
+            ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
+            ir::Shape::Triangle(ir::Triangle { vertices }) => vertices.iter_mut().for_each(scale),
+        }
+    }
+    scene
+}
+
+/// Kills every fixed epsilon in the program.
+#[test]
+fn a_scene_times_a_power_of_two_makes_the_same_picture() {
+    for path in paths() {
+        let scene = small(&path);
+        let picture = bits(&film(&scene, &WHOLE, 0));
+        for k in [-40, -17, -1, 1, 9, 40] {
+            let other = film(&scaled(&scene, ldexp(1.0, k)), &WHOLE, 0);
+            assert!(bits(&other) == picture, "2^{k}: {}", path.display());
+        }
+    }
+}
+
+/// Equal distances apart, the order of surfaces is no part of a scene's meaning.
+#[test]
+fn the_order_of_surfaces_does_not_matter() {
+    for path in paths() {
+        let mut scene = small(&path);
+        let picture = film(&scene, &WHOLE, 0);
+        scene.surfaces.reverse();
+        let other = film(&scene, &WHOLE, 0);
+        let differ = bits(&picture).iter().zip(bits(&other)).filter(|(a, b)| **a != *b).count();
+        assert!(differ <= bits(&picture).len() / 500, "{differ} values differ: {}", path.display());
+    }
+}
+
+/// Stopping gives no film at all.
+#[test]
+fn a_render_that_is_stopped_leaves_nothing() {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered { scene: small(&paths()[0]), origins: Origins::default() };
+    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    assert!(pipeline::render(&valid, &WHOLE, 2, &|_| false).unwrap().is_none());
+}
