@@ -210,7 +210,7 @@ impl<'a> Context<'a> {
     /// A span that stands for a node as a whole: its first pair if it is a map, else its first line.
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
-            Some((key, value)) if self.tree.shape(node) == Shape::Map => match self.tree.shape(value) {
+            Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {
                 Shape::Word(_) | Shape::Text(_) => self.tree.span(key).to(self.tree.span(value)),
                 Shape::List | Shape::Map => self.tree.span(key),
             },
@@ -220,7 +220,7 @@ impl<'a> Context<'a> {
 
     /// The node, or only its head if it is a map or list in block form.
     fn first_line(&self, node: NodeId) -> Span {
-        if self.tree.shape(node) == Shape::Map { self.head(node) } else { self.tree.span(node) }
+        if self.tree.is_map(node) { self.head(node) } else { self.tree.span(node) }
     }
 
     /// Counts work that aliases can repeat. False once there was too much of it, which is reported once.

@@ -6,7 +6,7 @@
 use super::decode::{Context, Entry, Key, Spanned, Value, describe};
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
-use super::tree::{NodeId, Shape};
+use super::tree::NodeId;
 use crate::diag::codes;
 use crate::source::Span;
 use serde_json::Value as Json;
@@ -138,18 +138,18 @@ impl<T> Found<T> {
 
 /// What a field holds: one value, or a group of them.
 pub(super) trait Slot: Sized {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self>;
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self>;
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
 impl<T: Value> Slot for Spanned<T> {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
         let entry = entries.first()?;
         let tree = context.tree;
         let key = tree.span(entry.key_node);
-        context.key = Key { text: tree.text(entry.key_node)?, span: Some(key) };
+        context.key = Key { text: entry.key, span: Some(key) };
         let value = T::decode(entry.value, context)?;
-        let span = if tree.shape(entry.value) == Shape::Map { key } else { tree.span(entry.value) };
+        let span = if tree.is_map(entry.value) { key } else { tree.span(entry.value) };
         Some(Self { value, span: Some(span) })
     }
 
@@ -159,7 +159,7 @@ impl<T: Value> Slot for Spanned<T> {
 }
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in the others.
         let read: Vec<_> = entries.chunks(1).map(|entry| Spanned::take(entry, context)).collect();
         let read: Option<Vec<_>> = read.into_iter().collect();
@@ -192,7 +192,7 @@ pub(super) struct Reader {
 impl Reader {
     /// Opens a map; anything else is reported.
     pub(super) fn open(record: &'static Record, node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        if context.tree.shape(node) != Shape::Map {
+        if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
         let head = context.key.span.unwrap_or_else(|| context.head(node));
@@ -330,7 +330,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
                 return;
             }
             match tree.text(key_node) {
-                Some("<<") if tree.shape(value) == Shape::List => merged.extend(tree.items(value)),
+                Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),
                 Some("<<") => merged.push(value),
                 Some(key) => context.entries.push(Entry { key, key_node, value, claimed: false }),
                 None => {
@@ -341,7 +341,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
             }
         }
         for map in merged.into_iter().rev() {
-            if tree.shape(map) == Shape::Map {
+            if tree.is_map(map) {
                 open.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
                 context.key = Key { text: "<<", span: Some(tree.span(map)) };

@@ -103,6 +103,16 @@ impl Tree<'_> {
         }
     }
 
+    /// Whether the node is a map, aliases followed.
+    pub(super) fn is_map(&self, id: NodeId) -> bool {
+        self.node(self.target(id)).kind == Kind::Map
+    }
+
+    /// Whether the node is a list, aliases followed.
+    pub(super) fn is_list(&self, id: NodeId) -> bool {
+        self.node(self.target(id)).kind == Kind::List
+    }
+
     /// The text of a word, quoted or not.
     pub(super) fn text(&self, id: NodeId) -> Option<&str> {
         match self.shape(id) {
