@@ -51,7 +51,7 @@ fn text(spheres: u32) -> String {
         let step = |period: u32| f64::from(number % period) * 1.25;
         writeln!(
             text,
-            "- type: sphere\n  position: [{:.3}, {:.3}, {:.3}]\n  radius: {:.2}\n  material:\n    color: [{:.2}, 0.5, 0.25]\n    \
+            "- type: sphere\n  position: [{:.7}, {:.7}, {:.7}]\n  radius: {:.4}\n  material:\n    color: [{:.4}, 0.5000, 0.2500]\n    \
              ka: 0.2\n    kd: 0.7\n    ks: 0.5\n    n: 64",
             step(401) + 0.125,
             step(397) - 0.125,

@@ -138,18 +138,21 @@ impl<T> Found<T> {
 
 /// What a field holds: one value, or a group of them.
 pub(super) trait Slot: Sized {
-    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self>;
+    /// Reads the values of the entries at the places given; `None` if one can't be read, and then the sink has an error.
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self>;
+
+    /// The schema of each value.
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
 impl<T: Value> Slot for Spanned<T> {
-    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
-        let entry = entries.first()?;
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
+        let Entry { key: text, key_node, value: node, claimed: _ } = context.entries[*places.first()?];
         let tree = context.tree;
-        let key = tree.span(entry.key_node);
-        context.key = Key { text: entry.key, span: Some(key) };
-        let value = T::decode(entry.value, context)?;
-        let span = if tree.is_map(entry.value) { key } else { tree.span(entry.value) };
+        let key = tree.span(key_node);
+        context.key = Key { text, span: Some(key) };
+        let value = T::decode(node, context)?;
+        let span = if tree.is_map(node) { key } else { tree.span(node) };
         Some(Self { value, span: Some(span) })
     }
 
@@ -159,9 +162,9 @@ impl<T: Value> Slot for Spanned<T> {
 }
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
-    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in the others.
-        let read: Vec<_> = entries.chunks(1).map(|entry| Spanned::take(entry, context)).collect();
+        let read: Vec<_> = places.chunks(1).map(|place| Spanned::take(place, context)).collect();
         let read: Option<Vec<_>> = read.into_iter().collect();
         read?.try_into().ok()
     }
@@ -180,9 +183,8 @@ const MAX_ROW: usize = 4;
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct Reader {
     record: &'static Record,
-    next: usize,
-    /// The fields that were there, one bit each.
-    present: u32,
+    /// The row of keys under which each field so far was there, if it was.
+    rows: Vec<Option<&'static [&'static str]>>,
     /// Where the map's entries start among those of the context.
     from: usize,
     /// Stands for the map in findings.
@@ -198,31 +200,28 @@ impl Reader {
         let head = context.key.span.unwrap_or_else(|| context.head(node));
         let from = context.entries.len();
         gather(node, context);
-        Some(Self { record, next: 0, present: 0, from, head })
+        Some(Self { record, rows: Vec::with_capacity(record.fields.len()), from, head })
     }
 
     /// The next field of the declaration.
     pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> Found<S> {
-        let field = &self.record.fields[self.next];
-        let bit = 1 << self.next;
-        self.next += 1;
-        let Some((row, entries)) = self.row(field, context) else { return Found::Absent };
-        self.present |= bit;
-        for (key, canonical) in row.iter().zip(field.rows[0]) {
-            for entry in context.entries[self.from..].iter_mut().filter(|entry| entry.key == *key) {
-                entry.claimed = true;
-            }
+        let field = &self.record.fields[self.rows.len()];
+        let found = self.row(field, context);
+        self.rows.push(found.map(|(row, _)| row));
+        let Some((row, found)) = found else { return Found::Absent };
+        for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
+            context.entries[at].claimed = true;
             if key != canonical {
-                note_spelling(key, canonical, &entries, context);
+                note_spelling(key, canonical, context.entries[at].key_node, context);
             }
         }
-        S::take(&entries[..row.len()], context).map_or(Found::Broken, Found::Read)
+        S::take(&found[..row.len()], context).map_or(Found::Broken, Found::Read)
     }
 
-    /// The first row of the field whose keys are all there and not yet used.
-    fn row<'a>(&self, field: &Field, context: &Context<'a>) -> Option<(&'static [&'static str], [Entry<'a>; MAX_ROW])> {
+    /// The first row of the field whose keys are all there and not yet used, and where.
+    fn row(&self, field: &Field, context: &Context<'_>) -> Option<(&'static [&'static str], [usize; MAX_ROW])> {
         let entries = &context.entries[self.from..];
-        let find = |key: &str| entries.iter().find(|entry| entry.key == key && !entry.claimed).copied();
+        let find = |key: &str| Some(self.from + entries.iter().position(|entry| entry.key == key && !entry.claimed)?);
         field.rows.iter().find_map(|row| {
             let mut found = [find(row[0])?; MAX_ROW];
             for (slot, key) in found.iter_mut().zip(*row).skip(1) {
@@ -234,7 +233,7 @@ impl Reader {
 
     /// Reports what was left unread and what is missing.
     pub(super) fn close(self, context: &mut Context<'_>) {
-        let mut partial = 0;
+        let mut partial = 0_u32;
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed {
@@ -243,7 +242,7 @@ impl Reader {
         }
         context.entries.truncate(self.from);
         let required = |field: &Field| matches!(field.need, Need::Required);
-        let absent = |at: &usize| (self.present | partial) & (1 << at) == 0;
+        let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();
         let missing = fields.filter(|(at, field)| absent(at) && required(field));
         let missing: Vec<_> = missing.flat_map(|(_, field)| field.rows[0].iter().copied()).collect();
@@ -257,7 +256,11 @@ impl Reader {
         let Record { word, fields, .. } = self.record;
         let span = context.tree.span(entry.key_node);
         let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
-        let has = |at: usize| self.present & (1 << at) != 0;
+        // Another of the same key was used: a duplicate, which is reported already, or hidden by what merges it.
+        if self.rows.iter().flatten().any(|row| row.contains(&entry.key)) {
+            return 0;
+        }
+        let has = |at: usize| self.rows[at].is_some();
         let used = fields.iter().enumerate().find(|(at, field)| has(*at) && part_of(field));
         if let Some((_, field)) = used {
             let message = || format!("`{}` says again what another key of the {word} says", entry.key);
@@ -307,10 +310,9 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut 
     );
 }
 
-fn note_spelling(key: &'static str, canonical: &'static str, entries: &[Entry<'_>], context: &mut Context<'_>) {
+fn note_spelling(key: &'static str, canonical: &'static str, node: NodeId, context: &mut Context<'_>) {
     if !context.spellings.iter().any(|(written, meant, _)| (*written, *meant) == (key, canonical)) {
-        let entry = entries.iter().find(|entry| entry.key == key);
-        context.spellings.extend(entry.map(|entry| (key, canonical, context.tree.span(entry.key_node))));
+        context.spellings.push((key, canonical, context.tree.span(node)));
     }
 }
 
@@ -327,7 +329,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
         let mut merged = Vec::new();
         for (key_node, value) in tree.pairs(map) {
             if !context.step(key_node) {
-                return;
+                break;
             }
             match tree.text(key_node) {
                 Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),

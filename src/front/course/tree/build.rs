@@ -4,7 +4,7 @@ use super::text::{MAX_WORD, text, to_u32, too_long};
 use super::{Kind, Node, NodeId, Tree, fault};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::source::{FileId, Span};
-use granit_parser::{Event, Parser, StructureStyle, TryLoadError, TrySpannedEventReceiver};
+use granit_parser::{Event, Parser, StructureStyle};
 use std::borrow::Cow;
 
 /// How deep lists and maps may lie in each other.
@@ -22,17 +22,20 @@ pub(in super::super) fn parse<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink
         flow_nesting_limit: MAX_DEPTH,
         block_nesting_limit: MAX_DEPTH,
     };
-    match Parser::new_from_str_with_options(source, options).try_load(&mut build, true) {
-        Ok(()) => build.finish(),
-        Err(stopped) => {
-            let fault = match stopped {
-                TryLoadError::Scan(error) => fault::syntax(&build.tree, build.open_bracket(), &error),
-                TryLoadError::Receiver(fault) => fault,
-            };
+    for event in Parser::new_from_str_with_options(source, options) {
+        let step = match event {
+            Ok((event, span)) => {
+                let range = span.byte_range().unwrap_or_default();
+                build.event(event, to_u32(range.start), to_u32(range.end))
+            }
+            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
+        };
+        if let Err(fault) = step {
             build.sink.push(*fault);
-            None
+            return None;
         }
     }
+    build.finish()
 }
 
 /// A list or map whose end is still to come.
@@ -53,15 +56,6 @@ struct Build<'s, 'k> {
 }
 
 type Step = Result<(), Box<Diagnostic>>;
-
-impl<'s> TrySpannedEventReceiver<'s> for Build<'s, '_> {
-    type Error = Box<Diagnostic>;
-
-    fn on_event(&mut self, event: Event<'s>, span: granit_parser::Span) -> Step {
-        let range = span.byte_range().unwrap_or_default();
-        self.event(event, to_u32(range.start), to_u32(range.end))
-    }
-}
 
 impl<'s> Build<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
