@@ -173,7 +173,7 @@ pub(super) struct Radius(pub(super) f64);
 impl Value for Radius {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
-        if tree.shape(node) != Shape::List {
+        if !tree.is_list(node) {
             return number(node, "a number", context).map(Self);
         }
         unsupported("the axis of a texture", tree.span(node), "the texture", context);

@@ -6,10 +6,11 @@
 use super::decode::{Context, Entry, Key, Spanned, Value, describe};
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
-use super::tree::{NodeId, Shape};
+use super::tree::NodeId;
 use crate::diag::codes;
 use crate::source::Span;
 use serde_json::Value as Json;
+use std::collections::BTreeSet;
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
 pub(super) type Rows = &'static [&'static [&'static str]];
@@ -137,18 +138,18 @@ impl<T> Found<T> {
 
 /// What a field holds: one value, or a group of them.
 pub(super) trait Slot: Sized {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self>;
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self>;
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
 impl<T: Value> Slot for Spanned<T> {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
         let entry = entries.first()?;
         let tree = context.tree;
         let key = tree.span(entry.key_node);
-        context.key = Key { text: tree.text(entry.key_node)?, span: Some(key) };
+        context.key = Key { text: entry.key, span: Some(key) };
         let value = T::decode(entry.value, context)?;
-        let span = if tree.shape(entry.value) == Shape::Map { key } else { tree.span(entry.value) };
+        let span = if tree.is_map(entry.value) { key } else { tree.span(entry.value) };
         Some(Self { value, span: Some(span) })
     }
 
@@ -158,7 +159,7 @@ impl<T: Value> Slot for Spanned<T> {
 }
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+    fn take<'a>(entries: &[Entry<'a>], context: &mut Context<'a>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in the others.
         let read: Vec<_> = entries.chunks(1).map(|entry| Spanned::take(entry, context)).collect();
         let read: Option<Vec<_>> = read.into_iter().collect();
@@ -169,6 +170,9 @@ impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
         T::schema(definitions)
     }
 }
+
+/// So many findings get a suggestion.
+const ADVISED: usize = 100;
 
 /// The longest row of any field.
 const MAX_ROW: usize = 4;
@@ -188,7 +192,7 @@ pub(super) struct Reader {
 impl Reader {
     /// Opens a map; anything else is reported.
     pub(super) fn open(record: &'static Record, node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        if context.tree.shape(node) != Shape::Map {
+        if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
         let head = context.key.span.unwrap_or_else(|| context.head(node));
@@ -271,7 +275,9 @@ impl Reader {
                 .report(&codes::MISSING_KEY, span, message, |d| d.at(span, "one of a group").hint("give all of them"));
             return 1 << at;
         }
-        let open = fields.iter().enumerate().filter(|(at, _)| !has(*at)).map(|(_, field)| field);
+        // Who made so many mistakes does not look for advice on each, and each costs a comparison with every key.
+        let advise = context.findings() < ADVISED;
+        let open = fields.iter().enumerate().filter(|_| advise).filter(|(at, _)| !has(*at)).map(|(_, field)| field);
         let meant = nearest(entry.key, open.flat_map(|field| field.rows.iter().copied().flatten().copied()));
         unknown_key(word, meant, entry, context);
         0
@@ -312,6 +318,8 @@ fn note_spelling(key: &'static str, canonical: &'static str, entries: &[Entry<'_
 fn gather(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
     let mut open = vec![map];
+    // Merging a map again changes nothing; without this, merges of merges would grow without bound.
+    let mut seen = BTreeSet::new();
     while let Some(map) = open.pop() {
         if !context.step(map) {
             return;
@@ -322,7 +330,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
                 return;
             }
             match tree.text(key_node) {
-                Some("<<") if tree.shape(value) == Shape::List => merged.extend(tree.items(value)),
+                Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),
                 Some("<<") => merged.push(value),
                 Some(key) => context.entries.push(Entry { key, key_node, value, claimed: false }),
                 None => {
@@ -333,8 +341,8 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
             }
         }
         for map in merged.into_iter().rev() {
-            if tree.shape(map) == Shape::Map {
-                open.push(map);
+            if tree.is_map(map) {
+                open.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
                 context.key = Key { text: "<<", span: Some(tree.span(map)) };
                 context.expected::<()>(map, "a map or a list of maps");

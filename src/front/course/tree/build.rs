@@ -4,7 +4,7 @@ use super::text::{MAX_WORD, text, to_u32, too_long};
 use super::{Kind, Node, NodeId, Tree, fault};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::source::{FileId, Span};
-use granit_parser::{Event, Parser, StructureStyle};
+use granit_parser::{Event, Parser, StructureStyle, TryLoadError, TrySpannedEventReceiver};
 use std::borrow::Cow;
 
 /// How deep lists and maps may lie in each other.
@@ -19,24 +19,20 @@ pub(in super::super) fn parse<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink
     let tree = Tree { source, base, file, nodes: Vec::new(), cooked: Vec::new() };
     let mut build = Build { tree, open: Vec::new(), anchors: Vec::new(), ended: false, last_end: 0, sink };
     let options = granit_parser::options! {
-        emit_comments: false,
         flow_nesting_limit: MAX_DEPTH,
         block_nesting_limit: MAX_DEPTH,
     };
-    for event in Parser::new_from_str_with_options(source, options) {
-        let step = match event {
-            Ok((event, span)) => {
-                let range = span.byte_range().unwrap_or_default();
-                build.event(event, to_u32(range.start), to_u32(range.end))
-            }
-            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
-        };
-        if let Err(fault) = step {
+    match Parser::new_from_str_with_options(source, options).try_load(&mut build, true) {
+        Ok(()) => build.finish(),
+        Err(stopped) => {
+            let fault = match stopped {
+                TryLoadError::Scan(error) => fault::syntax(&build.tree, build.open_bracket(), &error),
+                TryLoadError::Receiver(fault) => fault,
+            };
             build.sink.push(*fault);
-            return None;
+            None
         }
     }
-    build.finish()
 }
 
 /// A list or map whose end is still to come.
@@ -57,6 +53,15 @@ struct Build<'s, 'k> {
 }
 
 type Step = Result<(), Box<Diagnostic>>;
+
+impl<'s> TrySpannedEventReceiver<'s> for Build<'s, '_> {
+    type Error = Box<Diagnostic>;
+
+    fn on_event(&mut self, event: Event<'s>, span: granit_parser::Span) -> Step {
+        let range = span.byte_range().unwrap_or_default();
+        self.event(event, to_u32(range.start), to_u32(range.end))
+    }
+}
 
 impl<'s> Build<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
@@ -112,7 +117,7 @@ impl<'s> Build<'s, '_> {
             (Kind::Cooked, to_u32(self.tree.cooked.len() - 1))
         };
         self.last_end = end;
-        self.push(Node { start, end, link, kind, anchored: anchor != 0 }, anchor);
+        self.push(Node { start, end, link, kind }, anchor);
         Ok(())
     }
 
@@ -127,7 +132,7 @@ impl<'s> Build<'s, '_> {
             ));
         }
         self.last_end = end;
-        self.push(Node { start, end, link: target.0, kind: Kind::Alias, anchored: false }, 0);
+        self.push(Node { start, end, link: target.0, kind: Kind::Alias }, 0);
         Ok(())
     }
 
@@ -136,7 +141,7 @@ impl<'s> Build<'s, '_> {
             return Err(Box::new(fault::too_deep(self.span(start, end.max(start + 1)))));
         }
         self.last_end = end;
-        let node = self.push(Node { start, end, link: 0, kind, anchored: anchor != 0 }, anchor);
+        let node = self.push(Node { start, end, link: 0, kind }, anchor);
         self.open.push(Open { node, flow: style == StructureStyle::Flow });
         Ok(())
     }
