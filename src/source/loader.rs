@@ -31,8 +31,12 @@ impl Loader {
     #[expect(clippy::disallowed_methods, reason = "this is the one place that reads")]
     pub fn file(&self, path: &Path, map: &mut SourceMap) -> Result<FileId, LoadError> {
         let file = std::fs::File::open(path).map_err(LoadError::Io)?;
-        if file.metadata().map_err(LoadError::Io)?.is_dir() {
+        let metadata = file.metadata().map_err(LoadError::Io)?;
+        if metadata.is_dir() {
             return Err(LoadError::Io(std::io::ErrorKind::IsADirectory.into()));
+        }
+        if metadata.len() > MAX_BYTES {
+            return Err(LoadError::TooLarge { limit: MAX_BYTES });
         }
         self.reader(&path.display().to_string(), file, map)
     }
