@@ -151,7 +151,7 @@ impl Search {
     /// The file at a name with `..` in front, which only the folder the user allows can hold.
     fn climb(&self, scene: &Folder, name: &Name) -> Option<PathBuf> {
         let allowed = self.allowed.as_ref().filter(|_| name.climbs > 0 && !name.is_absolute)?;
-        let above = scene.resolved.ancestors().nth(name.climbs).filter(|above| above.starts_with(allowed))?;
+        let above = scene.resolved.ancestors().nth(name.climbs)?;
         let path = fs::canonicalize(above.join(name.components.iter().collect::<PathBuf>())).ok()?;
         (path.starts_with(allowed) && path.is_file()).then_some(path)
     }

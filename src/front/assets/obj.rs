@@ -134,6 +134,9 @@ fn part_of(head: &Word<'_>) -> Option<usize> {
 
 /// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative, from the last so far.
 fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<[Option<u32>; 3], Fault> {
+    if corner.bytes[0] == b'/' {
+        return Err(corner.fault(format!("the corner `{}` has no vertex", corner.text()), "a corner of a face"));
+    }
     let mut found = [None; 3];
     for (part, index) in corner.split(b'/').enumerate() {
         let Some(slot) = found.get_mut(part) else {
@@ -142,9 +145,6 @@ fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<[Option<u
         if !index.bytes.is_empty() {
             *slot = Some(resolve(&index, NOUNS[part], so_far[part], total[part])?);
         }
-    }
-    if found[0].is_none() {
-        return Err(corner.fault(format!("the corner `{}` has no vertex", corner.text()), "a corner of a face"));
     }
     Ok(found)
 }
