@@ -215,6 +215,11 @@ fn programs_can_read_what_is_meant_for_them() {
     assert_eq!(sarif["runs"][0]["results"].as_array().unwrap().len(), lines.len());
     assert!(stdout("github").lines().all(|line| line.starts_with("::error file=")));
     assert!(stdout("short").is_empty());
+    for verb in ["render", "compile"] {
+        let refused = rtc(&folder, &[verb, "bad.json", "--message-format", "sarif"]);
+        let log: serde_json::Value = serde_json::from_slice(&refused.stderr).unwrap();
+        assert!(code(&refused) == 1 && refused.stdout.is_empty() && log["runs"][0]["results"][0].is_object());
+    }
 }
 
 #[test]

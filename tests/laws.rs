@@ -101,18 +101,47 @@ fn scaled(scene: &Scene, factor: f64) -> Scene {
     lens.radius *= factor;
     for ir::Light::Point(light) in &mut scene.lights {
         scale(&mut light.position);
+        light.radius *= factor;
     }
     for surface in &mut scene.surfaces {
-        match &mut surface.shape {
-            ir::Shape::Sphere(ir::Sphere { center, radius }) => {
-                scale(center);
-                *radius *= factor;
-            }
-            ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
-            ir::Shape::Triangle(ir::Triangle { vertices }) => vertices.iter_mut().for_each(scale),
-        }
+        scale_shape(&mut surface.shape, factor);
     }
     scene
+}
+
+fn scale_shape(shape: &mut ir::Shape, factor: f64) {
+    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
+    match shape {
+        ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: _ }) => {
+            scale(center);
+            *radius *= factor;
+        }
+        ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
+        ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) => vertices.iter_mut().for_each(scale),
+        ir::Shape::Quad(ir::Quad { vertices }) => vertices.iter_mut().for_each(scale),
+        ir::Shape::Disc(ir::Disc { center, normal: _, radius }) => {
+            scale(center);
+            *radius *= factor;
+        }
+        ir::Shape::Cylinder(ir::Cylinder { base, axis: _, height, radius }) => {
+            scale(base);
+            *height *= factor;
+            *radius *= factor;
+        }
+        ir::Shape::Cone(ir::Cone { base, up, radius }) => {
+            scale(base);
+            scale(up);
+            *radius *= factor;
+        }
+        ir::Shape::Torus(ir::Torus { center, axis: _, major, minor }) => {
+            scale(center);
+            *major *= factor;
+            *minor *= factor;
+        }
+        ir::Shape::Instance(ir::Instance { mesh: _, world_from_object }) => {
+            world_from_object.iter_mut().for_each(scale);
+        }
+    }
 }
 
 /// Kills every fixed epsilon in the program.

@@ -102,6 +102,21 @@ impl Shape {
         }
     }
 
+    /// Whether its shading normals are not the geometric ones.
+    pub(super) fn has_shading_normals(&self) -> bool {
+        match self {
+            Self::Instance(instance) => instance.has_shading_normals(),
+            Self::Sphere(..)
+            | Self::Plane(_)
+            | Self::Triangle(..)
+            | Self::Quad(_)
+            | Self::Disc(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_)
+            | Self::Torus(_) => false,
+        }
+    }
+
     /// What the shape knows of the point beyond its geometry.
     pub(super) fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
         match self {

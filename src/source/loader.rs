@@ -57,8 +57,12 @@ impl Loader {
     #[expect(clippy::disallowed_methods, reason = "this is the one place that reads")]
     pub fn bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, LoadError> {
         let file = std::fs::File::open(path).map_err(LoadError::Io)?;
-        if file.metadata().map_err(LoadError::Io)?.is_dir() {
+        let metadata = file.metadata().map_err(LoadError::Io)?;
+        if metadata.is_dir() {
             return Err(LoadError::Io(std::io::ErrorKind::IsADirectory.into()));
+        }
+        if metadata.len() > limit {
+            return Err(LoadError::TooLarge { limit });
         }
         all(file, limit)
     }

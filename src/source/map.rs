@@ -137,8 +137,7 @@ impl SourceMap {
 }
 
 fn line_starts(bytes: &[u8]) -> Vec<u32> {
-    let after = |(index, _)| to_u32(index + 1);
-    std::iter::once(0).chain(bytes.iter().enumerate().filter(|(_, b)| **b == b'\n').map(after)).collect()
+    std::iter::once(0).chain(memchr::memchr_iter(b'\n', bytes).map(|index| to_u32(index + 1))).collect()
 }
 
 fn to_u32(count: usize) -> u32 {

@@ -9,6 +9,7 @@ use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::Options;
 use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
 use crate::source::{FileId, SourceMap, Span};
+use std::collections::BTreeMap;
 
 /// Reads a scene text and lowers it. `None` if the text is no scene at all; every mistake is in the sink.
 ///
@@ -46,8 +47,8 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
 /// A scene in the making.
 pub(super) struct Lowering {
     pub(super) scene: ir::Scene,
-    /// Materials that aliases may name again.
-    pub(super) shared: Vec<(NodeId, MaterialId)>,
+    /// The materials by their nodes: aliases may name them again.
+    pub(super) shared: BTreeMap<NodeId, MaterialId>,
     origins: Origins,
 }
 
@@ -71,7 +72,7 @@ impl Lowering {
             materials: Vec::new(),
             surfaces: Vec::new(),
         };
-        Self { scene, shared: Vec::new(), origins: Origins::default() }
+        Self { scene, shared: BTreeMap::new(), origins: Origins::default() }
     }
 
     /// Remembers where a value was written; a default was written nowhere.

@@ -4,7 +4,6 @@ use super::decode::{Context, Shared, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::record::{Found, keys, missing_keys, record};
-use super::tree::NodeId;
 use super::value::{Color, Unsupported};
 use crate::ir::{self, Field, MaterialId, Noun};
 
@@ -38,18 +37,18 @@ record! {
 }
 
 impl Lowering {
-    /// Lowers a material, once if aliases share it. `None` if it has neither colour nor texture, which is reported.
+    /// Lowers a material, once if aliases share it. `None` if it has neither colour nor texture, which is reported once.
     pub(super) fn material(
         &mut self,
         material: &Spanned<Shared<Material>>,
         context: &mut Context<'_>,
     ) -> Option<MaterialId> {
-        let Shared { value, anchor } = &material.value;
-        let known = |(node, _): &&(NodeId, MaterialId)| Some(*node) == *anchor;
-        if let Some((_, id)) = self.shared.iter().find(known) {
+        let Shared { node, value } = &material.value;
+        if let Some(id) = self.shared.get(node) {
             return Some(*id);
         }
-        let Material { color, texture, _bump: _, _specular: _, ka, kd, ks, n, kt, eta, glossy_samples } = value;
+        let Material { color, texture, _bump: _, _specular: _, ka, kd, ks, n, kt, eta, glossy_samples } =
+            value.as_ref()?;
         let color = match (color, texture) {
             (Found::Read(color), _) => *color,
             (Found::Absent, Found::Read(_) | Found::Broken) => Spanned::unwritten(Color([1.0; 3])),
@@ -89,7 +88,7 @@ impl Lowering {
             self.origin(Noun::Material, index, field, span);
         }
         let id = MaterialId(u32::try_from(index).unwrap_or(u32::MAX));
-        self.shared.extend(anchor.map(|node| (node, id)));
+        self.shared.insert(*node, id);
         Some(id)
     }
 }

@@ -7,7 +7,7 @@ use super::number::{Radius, Real};
 use super::record::{Found, Rows, keys, look_up, missing_keys, record};
 use super::schema::{self, Definitions};
 use super::spelling::{clip, list, nearest};
-use super::tree::{NodeId, Shape};
+use super::tree::NodeId;
 use super::value::{Point, Text, Unsupported, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
@@ -129,7 +129,7 @@ const NOT_YET: &[&str] = &[
 
 impl Value for Object {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        if context.tree.shape(node) != Shape::Map {
+        if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
         let Some(kind) = look_up("type", node, context) else {
