@@ -26,6 +26,8 @@ pub struct Overrides {
     pub size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel.
     pub supersampling: Option<u32>,
+    /// Points of each soft light.
+    pub light_samples: Option<u32>,
     /// Bounces after the first hit.
     pub depth: Option<u32>,
 }
@@ -33,13 +35,14 @@ pub struct Overrides {
 impl Overrides {
     /// Writes the values given into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { size, supersampling, depth } = *self;
+        let Self { size, supersampling, light_samples, depth } = *self;
         if let Some(size) = size {
             let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
             scene.camera.up = scene.camera.up.map(|component| component * ratio);
             scene.camera.size = size;
         }
+        scene.settings.light_samples = light_samples.unwrap_or(scene.settings.light_samples);
         scene.settings.supersampling = supersampling.unwrap_or(scene.settings.supersampling);
         scene.settings.max_depth = depth.unwrap_or(scene.settings.max_depth);
     }

@@ -29,7 +29,8 @@ fn small(path: &Path) -> Scene {
     assert!(!sink.has_errors(), "{}: {:?}", path.display(), sink.kept());
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
-    Overrides { size: Some([48, 40]), supersampling: Some(sampling), depth: Some(depth) }.apply(&mut scene);
+    let size = Some([48, 40]);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(4);
     scene
 }

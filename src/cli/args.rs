@@ -81,6 +81,9 @@ pub(super) struct Render {
     /// Sub-samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) supersampling: Option<u32>,
+    /// Points of each soft light
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) light_samples: Option<u32>,
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,

@@ -53,7 +53,12 @@ impl Plan {
         Ok(Self {
             kind: kind(&output, args.bits)?,
             output,
-            overrides: Overrides { size: args.size, supersampling: args.supersampling, depth: args.depth },
+            overrides: Overrides {
+                size: args.size,
+                supersampling: args.supersampling,
+                light_samples: args.light_samples,
+                depth: args.depth,
+            },
             crop: args.crop,
             threads: args.threads.map_or(0, usize::from),
         })
