@@ -194,7 +194,7 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 /// so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    lists: [List; 5],
+    lists: [List; Noun::Surface as usize + 1],
 }
 
 #[derive(Clone, Debug, Default)]
