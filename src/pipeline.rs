@@ -3,7 +3,7 @@
 pub mod trial;
 
 use crate::diag::Sink;
-use crate::front::course;
+use crate::front::{assets, course};
 use crate::ir::{Lowered, Origins, Scene};
 use crate::render::{Film, Job, World};
 use crate::source::{FileId, SourceMap};
@@ -11,7 +11,7 @@ use crate::valid::{self, ValidScene};
 use crate::{codec, front};
 
 /// How strict the check is.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// What the front end lets pass.
     pub front: front::Options,
@@ -48,14 +48,19 @@ impl Overrides {
     }
 }
 
-/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content.
-pub fn load(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content. The files
+/// a YAML names come into the map.
+pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
-        None => course::lower(file, map, &options.front, sink),
+        None => {
+            let mut lowered = course::lower(file, map, &options.front, sink)?;
+            assets::bring(&mut lowered, Vec::new(), file, &options.front, map, sink);
+            Some(lowered)
+        }
     }
 }
 

@@ -73,7 +73,7 @@ type Pixels = Vec<[u8; 3]>;
 fn render(path: &Path, figure: &Figure) -> Pixels {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
-    let mut lowered = pipeline::load(file, &map, &options, &mut sink).unwrap();
+    let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     Overrides { supersampling: figure.supersampling, ..Overrides::default() }.apply(&mut lowered.scene);
     if let Some(samples) = figure.aperture_samples {
         lowered.scene.camera.lens.samples = samples;

@@ -25,7 +25,7 @@ fn paths() -> Vec<PathBuf> {
 fn small(path: &Path) -> Scene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
-    let mut scene = pipeline::load(file, &map, &options, &mut sink).unwrap().scene;
+    let mut scene = pipeline::load(file, &mut map, &options, &mut sink).unwrap().scene;
     assert!(!sink.has_errors(), "{}: {:?}", path.display(), sink.kept());
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
@@ -57,7 +57,7 @@ fn the_ir_in_any_form_makes_the_same_picture() {
         for form in [Form::Text, Form::Binary] {
             let (mut map, mut sink) = (SourceMap::default(), Sink::default());
             let file = map.add("scene", codec::encode(form, &scene).unwrap());
-            let decoded = pipeline::load(file, &map, &Options::default(), &mut sink).unwrap().scene;
+            let decoded = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap().scene;
             assert_eq!(decoded, scene, "{form:?} of {}", path.display());
             assert!(bits(&film(&decoded, &WHOLE, 0)) == picture, "{form:?} of {}", path.display());
         }

@@ -80,9 +80,9 @@ fn errors(document: &Value) -> Vec<&'static str> {
     let mut map = SourceMap::default();
     let file = map.add("document", document.to_string().into_bytes());
     let mut sink = Sink::default();
-    let strict = front::Options { strict: true, lenient: false };
+    let strict = front::Options { strict: true, ..front::Options::default() };
     let options = pipeline::Options { front: strict, ..pipeline::Options::default() };
-    if let Some(lowered) = pipeline::load(file, &map, &options, &mut sink) {
+    if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
         let _ = pipeline::prove(&lowered, &options, &mut sink);
     }
     sink.kept().iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.id).collect()

@@ -7,6 +7,7 @@ mod binary;
 mod columns;
 mod locate;
 mod print;
+mod run;
 mod schema;
 mod section;
 mod text;
