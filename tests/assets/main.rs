@@ -8,6 +8,7 @@
 mod mesh;
 mod picture;
 mod search;
+mod shared;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
