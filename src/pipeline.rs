@@ -52,7 +52,7 @@ pub fn load(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
-        None => course::lower(file, map, &options.front, sink),
+        None => course::lower(file, map, &options.front, sink).map(course::Draft::finish),
     }
 }
 

@@ -1,6 +1,9 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language, and one for the files they name.
 
 pub mod course;
+
+use crate::ir::{ImageId, MeshId};
+use crate::source::Span;
 
 /// What a front end lets pass.
 #[derive(Clone, Copy, Debug, Default)]
@@ -9,4 +12,24 @@ pub struct Options {
     pub strict: bool,
     /// Mistakes with one sensible repair are repaired, with a warning that says what was done.
     pub lenient: bool,
+}
+
+/// A file that a scene names, for a place in the IR that waits for it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// What the file is for.
+    pub asset: Asset,
+    /// Its path as the scene writes it.
+    pub path: String,
+    /// Where the scene writes it.
+    pub span: Option<Span>,
+}
+
+/// The place in the IR that a file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Asset {
+    /// An image, of one pixel until its file is there.
+    Image(ImageId),
+    /// A mesh, empty until its file is there.
+    Mesh(MeshId),
 }

@@ -4,6 +4,7 @@
 //! one first. Every key of a map is either used by one field or reported.
 
 use super::decode::{Context, Entry, Key, Spanned, Value, describe};
+use super::form;
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
 use super::tree::{NodeId, Shape};
@@ -39,6 +40,8 @@ pub(super) struct Record {
     pub(super) fields: &'static [Field],
     /// Sets of fields of which exactly one must be there; empty if any will do.
     pub(super) forms: &'static [&'static [&'static str]],
+    /// Whether the lowering sees to the forms, because it knows a better message or a repair.
+    pub(super) forms_are_lowered: bool,
 }
 
 /// Rows of one key each: spellings of the same key, the canonical one first.
@@ -57,6 +60,7 @@ macro_rules! record {
             )+
         }
         $(forms { $([$($member:ident)+])+ })?
+        $(lowered_forms { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
         pub(super) struct $name {
@@ -75,7 +79,8 @@ macro_rules! record {
                     need: record!(@need $need $type $(, $default)?),
                     schema: <$type as $crate::front::course::record::Slot>::schema,
                 }),+],
-                forms: &[$($(&[$(stringify!($member)),+]),+)?],
+                forms: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
+                forms_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
         }
 
@@ -86,7 +91,7 @@ macro_rules! record {
             ) -> Option<Self> {
                 let mut reader = $crate::front::course::record::Reader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
-                reader.close(context);
+                reader.close(context).then_some(())?;
                 Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
             }
 
@@ -208,8 +213,8 @@ impl Reader {
             for entry in context.entries[self.from..].iter_mut().filter(|entry| entry.key == *key) {
                 entry.claimed = true;
             }
-            if key != canonical {
-                note_spelling(key, canonical, &entries, context);
+            if let Some(entry) = entries.iter().find(|entry| entry.key == *key) {
+                context.note_spelling(key, canonical, context.tree.span(entry.key_node));
             }
         }
         S::take(&entries[..row.len()], context).map_or(Found::Broken, Found::Read)
@@ -228,8 +233,8 @@ impl Reader {
         })
     }
 
-    /// Reports what was left unread and what is missing.
-    pub(super) fn close(self, context: &mut Context<'_>) {
+    /// Reports what was left unread and what is missing. False if the map has none of the forms it may have.
+    pub(super) fn close(self, context: &mut Context<'_>) -> bool {
         let mut partial = 0;
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
@@ -246,6 +251,8 @@ impl Reader {
         if !missing.is_empty() {
             missing_keys(self.record.word, self.head, &missing, context);
         }
+        let there = self.present | partial;
+        form::check(self.record, self.head, |at| there & (1 << at) != 0, context)
     }
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is incomplete.
@@ -299,13 +306,6 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut 
             }
         },
     );
-}
-
-fn note_spelling(key: &'static str, canonical: &'static str, entries: &[Entry<'_>], context: &mut Context<'_>) {
-    if !context.spellings.iter().any(|(written, meant, _)| (*written, *meant) == (key, canonical)) {
-        let entry = entries.iter().find(|entry| entry.key == key);
-        context.spellings.extend(entry.map(|entry| (key, canonical, context.tree.span(entry.key_node))));
-    }
 }
 
 /// Adds the entries of a map to those of the context, its own first, then those it merges.
