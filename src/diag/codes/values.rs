@@ -45,6 +45,9 @@ super::codes! { VA:
     ETA = "VA015", Error, "an index of refraction is not above 0",
         "The index of refraction is that of the inside over that of the outside: glass in air has about 1.5, water \
          1.33, and 1 does not bend light.";
+    TOO_DEEP = "VA016", Error, "more than 1000000 bounces",
+        "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
+         10, a box of mirrors a few hundred.";
     BAD_IMAGE = "VA017", Error, "an image has not the pixels it should have",
         "An image of the IR is width × height pixels of three bytes, as Base64. Only a damaged or hand-made IR file \
          gets here.";
@@ -55,9 +58,6 @@ super::codes! { VA:
     BAD_ROTATION = "VA019", Error, "a transformation is none",
         "The texture of a sphere is turned by a rotation, and a mesh is placed by a map that keeps its volume: three axes \
          that span space, none of them zero.";
-    TOO_DEEP = "VA016", Error, "more than 1000000 bounces",
-        "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
-         10, a box of mirrors a few hundred.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";

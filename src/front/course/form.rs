@@ -24,7 +24,12 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
         let forms: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
         format!("a {word} takes {}", forms.join("; or "))
     };
-    let missing = forms.iter().filter(holds).map(|form| {
+    let possible: Vec<_> = forms.iter().filter(holds).collect();
+    // A form with more keys than another is not worth recommending.
+    let larger = |form: &[&str]| {
+        possible.iter().any(|other| other.len() < form.len() && other.iter().all(|name| form.contains(name)))
+    };
+    let missing = possible.iter().filter(|form| !larger(form)).map(|form| {
         let missing: Vec<_> = form.iter().copied().filter(|name| !given.contains(name)).collect();
         keys(record, &missing)
     });

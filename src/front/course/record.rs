@@ -251,8 +251,8 @@ impl Reader {
         if !missing.is_empty() {
             missing_keys(self.record.word, self.head, &missing, context);
         }
-        let there = self.present | partial;
-        form::check(self.record, self.head, |at| there & (1 << at) != 0, context)
+        // Which form was meant is unclear while a group is incomplete, which was reported.
+        partial != 0 || form::check(self.record, self.head, |at| self.present & (1 << at) != 0, context)
     }
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is incomplete.
