@@ -57,9 +57,10 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
             Some(Lowered { scene, origins: Origins::default() })
         }
         None => {
-            let mut lowered = course::lower(file, map, &options.front, sink)?;
-            assets::bring(&mut lowered, Vec::new(), file, &options.front, map, sink);
-            Some(lowered)
+            let mut draft = course::lower(file, map, &options.front, sink)?;
+            let wanted = std::mem::take(&mut draft.wanted);
+            assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
+            Some(draft.finish())
         }
     }
 }

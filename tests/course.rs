@@ -21,7 +21,7 @@ fn scene(text: &str) -> Option<Scene> {
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
     let lowered = course::lower(file, &map, &Options::default(), &mut sink);
-    lowered.filter(|_| !sink.has_errors()).map(|lowered| lowered.scene)
+    lowered.filter(|_| !sink.has_errors()).map(|draft| draft.finish().scene)
 }
 
 fn texts() -> Vec<(PathBuf, String)> {
@@ -112,7 +112,7 @@ fn spellings_and_merge_keys_mean_the_same() {
          ka: 1, kd: 1, ks: 0, n: 1}}\n",
     );
     let wild = scene(
-        "\u{feff}rendermode: 2\nshadow: TRUE\nMaxIterations: 0x2\nSuperSampling:\t3\nEye: [\n200, 2e2, 1000.\n]\n\
+        "\u{feff}rendermode: 1\nshadow: TRUE\nMaxIterations: 0x2\nSuperSampling:\t3\nEye: [\n200, 2e2, 1000.\n]\n\
          Objects:\n- {type: plane, n: [0, 0, 2], d: -2, material: &m {color: [1, 1, 1], ka: 1, kd: 1, ks: 0, n: 1}}\n\
          - type: triangle\n  v1: [0, 0, 0]\n  v2: [1, 0, 0]\n  v3: [0, 1, 0]\n  material:\n    <<: *m\n    \
          color: [0, 0, 1]\n",

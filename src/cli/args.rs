@@ -196,6 +196,8 @@ pub(super) enum Format {
     Scene,
     /// The text form of the IR
     Ir,
+    /// Scenes, as a page to read in Markdown
+    Page,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

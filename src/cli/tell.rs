@@ -6,13 +6,14 @@ use crate::codec;
 use crate::front::course;
 use clap::CommandFactory;
 
-/// Prints the JSON Schema of a format.
+/// Prints the JSON Schema of a format, or its page.
 pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
-    let schema = match args.of {
-        Format::Scene => course::schema(),
-        Format::Ir => codec::schema(),
+    let text = match args.of {
+        Format::Scene => format!("{:#}\n", course::schema()),
+        Format::Ir => format!("{:#}\n", codec::schema()),
+        Format::Page => course::page(),
     };
-    output::to_stdout(format!("{schema:#}\n").as_bytes())
+    output::to_stdout(text.as_bytes())
 }
 
 /// Prints a completion script.

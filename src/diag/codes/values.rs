@@ -74,4 +74,7 @@ super::codes! { VA:
     UP_PARALLEL = "VA106", Error, "the `up` of the camera points along the view",
         "When `up` is parallel to the way from `eye` to `center`, no side of the picture is its upper side. The hint \
          proposes the axis that lies least along the view; with `--lenient` that axis is taken, with a warning.";
+    FLAT_SOLID = "VA107", Error, "a box, prism or tetrahedron has no volume",
+        "One of its sides has no length, or all of its corners lie in one plane. A flat shape is written as a `quad` or \
+         a `triangle`.";
 }

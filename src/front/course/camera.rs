@@ -71,6 +71,19 @@ impl Lowering {
         };
     }
 
+    /// Lowers a camera of three top-level keys: eye, the point looked at, and the upward direction.
+    pub(super) fn look(&mut self, [eye, center, up]: &[Spanned<Point>; 3], context: &mut Context<'_>) {
+        let camera = Camera {
+            eye: *eye,
+            center: *center,
+            up: up.map(|point| Vector(point.0)),
+            view_size: Spanned::unwritten(Size([OLD_SIDE, OLD_SIDE])),
+            aperture_radius: Spanned::unwritten(NonNegative(0.0)),
+            aperture_samples: Spanned::unwritten(Count(1)),
+        };
+        self.camera(&Spanned { value: camera, span: eye.span }, context);
+    }
+
     /// Lowers an `Eye`: it looks at the square of 400 units in the plane z = 0, one unit a pixel.
     pub(super) fn eye(&mut self, eye: Spanned<Point>) {
         let middle = f64::from(OLD_SIDE) / 2.0;

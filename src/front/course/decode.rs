@@ -36,6 +36,11 @@ impl<T> Spanned<T> {
     pub(super) fn unwritten(value: T) -> Self {
         Self { value, span: None }
     }
+
+    /// Another value from the same place.
+    pub(super) fn map<U>(&self, change: impl FnOnce(&T) -> U) -> Spanned<U> {
+        Spanned { value: change(&self.value), span: self.span }
+    }
 }
 
 /// A value that aliases and merge keys may bring us to again: its node, and the value the first time.
@@ -200,6 +205,14 @@ impl<'a> Context<'a> {
         let message = || format!("{name} must be {what}, not {found}");
         self.report(&codes::WRONG_TYPE, place, message, |d| d.at(place, found.clone()));
         None
+    }
+
+    /// Remembers that something was written otherwise than it should be, unless that is known.
+    pub(super) fn note_spelling(&mut self, written: &'static str, meant: &'static str, span: Span) {
+        let known = |(w, m, _): &(&str, &str, Span)| (*w, *m) == (written, meant);
+        if written != meant && !self.spellings.iter().any(known) {
+            self.spellings.push((written, meant, span));
+        }
     }
 
     /// The severity of what is left unread: an error if the user asked for strictness.

@@ -2,20 +2,22 @@
 
 use super::camera;
 use super::decode::{Context, Key, Value};
+use super::mesh;
 use super::record::Found;
 use super::settings::Scene;
+use super::texture::Files;
 use super::tree::{self, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::Options;
+use crate::front::{Options, Wanted};
 use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
-/// Reads a scene text and lowers it. `None` if the text is no scene at all; every mistake is in the sink.
+/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at all; every mistake is in the sink.
 ///
 /// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so that the proof can
 /// find the mistakes of the rest; the sink has an error for each.
-pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
     let tree = tree::parse(file, map.bytes(file), sink)?;
     match tree.shape(tree.root()) {
         Shape::Map => {}
@@ -44,11 +46,36 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
     Some(lowering.finish())
 }
 
+/// A scene as lowered from its text alone: the files it names are still to be brought.
+#[derive(Clone, Debug)]
+pub struct Draft {
+    /// The scene, with an image of one pixel or an empty mesh for each file.
+    pub lowered: Lowered,
+    /// The files, each once.
+    pub wanted: Vec<Wanted>,
+    fitted: Vec<usize>,
+}
+
+impl Draft {
+    /// The scene, with each mesh in its size; after its files were brought.
+    #[must_use]
+    pub fn finish(mut self) -> Lowered {
+        self.fitted.iter().for_each(|surface| mesh::fit(&mut self.lowered.scene, *surface));
+        self.lowered
+    }
+}
+
 /// A scene in the making.
 pub(super) struct Lowering {
     pub(super) scene: ir::Scene,
     /// The materials by their nodes: aliases may name them again.
     pub(super) shared: BTreeMap<NodeId, MaterialId>,
+    /// The material of what has none, once there is such a thing.
+    pub(super) grey: Option<MaterialId>,
+    /// The textures and meshes named so far.
+    pub(super) files: Files,
+    /// The surfaces whose mesh is to have a given size.
+    pub(super) fitted: Vec<usize>,
     origins: Origins,
 }
 
@@ -72,7 +99,14 @@ impl Lowering {
             materials: Vec::new(),
             surfaces: Vec::new(),
         };
-        Self { scene, shared: BTreeMap::new(), origins: Origins::default() }
+        Self {
+            scene,
+            shared: BTreeMap::new(),
+            grey: None,
+            files: Files::default(),
+            fitted: Vec::new(),
+            origins: Origins::default(),
+        }
     }
 
     /// Remembers where a value was written; a default was written nowhere.
@@ -87,29 +121,34 @@ impl Lowering {
         self.view(&scene, context);
         self.settings(&scene, context);
         scene.lights.value.decode_each(context, "Lights", |_, light| self.light(&light));
+        self.soften(&scene);
         scene.objects.value.decode_each(context, "Objects", |context, object| self.object(&object.value, context));
     }
 
     /// Chooses between the two cameras.
     fn view(&mut self, scene: &Scene, context: &mut Context<'_>) {
-        match (&scene.camera, &scene.eye) {
-            (Found::Absent, Found::Absent) => no_camera(context),
-            (Found::Absent, Found::Read(eye)) => self.eye(*eye),
-            (Found::Absent, Found::Broken) => {}
-            (camera, eye) => {
-                if let Found::Read(camera) = camera {
-                    self.camera(camera, context);
-                }
-                if let Found::Read(eye) = eye {
-                    ignored_eye(eye.span, context);
-                }
-            }
+        let Scene { camera, eye, look, .. } = scene;
+        match (camera, look, eye) {
+            (Found::Absent, Found::Absent, Found::Absent) => no_camera(context),
+            (Found::Read(camera), ..) => self.camera(camera, context),
+            (Found::Absent, Found::Read(look), _) => self.look(look, context),
+            (Found::Absent, Found::Absent, Found::Read(eye)) => self.eye(*eye),
+            (Found::Broken, ..) | (_, Found::Broken, _) | (.., Found::Broken) => {}
+        }
+        if let (false, Found::Read(look)) = (camera.is_absent(), look) {
+            ignored_camera("CameraEye", "Camera", look[0].span, context);
+        }
+        match (camera.is_absent(), look.is_absent(), eye) {
+            (false, _, Found::Read(eye)) => ignored_camera("Eye", "Camera", eye.span, context),
+            (true, false, Found::Read(eye)) => ignored_camera("Eye", "CameraEye", eye.span, context),
+            _ => {}
         }
     }
 
-    fn finish(mut self) -> Lowered {
-        self.origins.finish();
-        Lowered { scene: self.scene, origins: self.origins }
+    fn finish(self) -> Draft {
+        let Self { scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
+        origins.finish();
+        Draft { lowered: Lowered { scene, origins }, wanted, fitted }
     }
 }
 
@@ -121,12 +160,12 @@ fn no_camera(context: &mut Context<'_>) {
     });
 }
 
-fn ignored_eye(span: Option<Span>, context: &mut Context<'_>) {
+fn ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Context<'_>) {
     let severity = context.unread();
     if let Some(span) = span {
-        let message = || "the scene has both `Camera` and `Eye`".to_owned();
+        let message = || format!("the scene has both `{used}` and `{word}`");
         context.report(&codes::TWO_CAMERAS, span, message, |d| {
-            d.at(span, "ignored: `Camera` is used").severity(severity).hint("remove `Eye`")
+            d.at(span, format!("ignored: `{used}` is used")).severity(severity).hint(format!("remove `{word}`"))
         });
     }
 }

@@ -1,23 +1,26 @@
 //! The materials.
 
-use super::decode::{Context, Shared, Spanned};
+use super::decode::{Shared, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
-use super::record::{Found, keys, missing_keys, record};
-use super::value::{Color, Unsupported};
+use super::record::{Found, keys, record};
+use super::value::{Color, FileName};
 use crate::ir::{self, Field, MaterialId, Noun};
+use crate::source::Span;
 
 record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
     struct Material, "material" {
         /// The colour: red, green, blue.
         color: Spanned<Color>, optional, keys!["color"];
-        /// A picture laid over the surface; this version can't show it. Without `color` the surface is white.
-        texture: Spanned<Unsupported>, optional, keys!["texture"];
-        /// A picture of bumps; this version can't show it.
-        _bump: Spanned<Unsupported>, optional, keys!["bump" "normalMap"];
-        /// A picture of highlights; this version can't show it.
-        _specular: Spanned<Unsupported>, optional, keys!["specularMap"];
+        /// The file of a picture laid over the surface, which gives its colour; or `UV` for the colours (u, 0, v).
+        texture: Spanned<FileName>, optional, keys!["texture"];
+        /// The file of a picture whose brightness is the height of the surface.
+        bump: Spanned<FileName>, optional, keys!["bump"];
+        /// The file of a picture of normals: red to the right, green upwards, blue away from the surface.
+        normal_map: Spanned<FileName>, optional, keys!["normalMap"];
+        /// The file of a picture whose red multiplies `ks`.
+        specular_map: Spanned<FileName>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
         ka: Spanned<NonNegative>, required, keys!["ka"];
         /// The weight of the diffuse light.
@@ -33,50 +36,76 @@ record! {
         /// How many rays sample a blurred mirror image; 1 is a sharp one.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }
-    forms { [color] }
+    forms { [color] [texture] [color texture] }
 }
 
+/// The material of a mesh for which none was written.
+const GREY: ir::Phong = ir::Phong {
+    color: [0.7; 3],
+    ka: 0.2,
+    kd: 0.8,
+    ks: 0.0,
+    n: 1.0,
+    kt: 0.0,
+    eta: 1.0,
+    glossy_samples: 1,
+    color_map: None,
+    specular_map: None,
+    normal_map: None,
+    bump: None,
+};
+
 impl Lowering {
-    /// Lowers a material, once if aliases share it. `None` if it has neither colour nor texture, which is reported once.
-    pub(super) fn material(
-        &mut self,
-        material: &Spanned<Shared<Material>>,
-        context: &mut Context<'_>,
-    ) -> Option<MaterialId> {
+    /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
+    pub(super) fn material(&mut self, material: &Spanned<Shared<Material>>) -> Option<MaterialId> {
         let Shared { node, value } = &material.value;
         if let Some(id) = self.shared.get(node) {
             return Some(*id);
         }
-        let Material { color, texture, _bump: _, _specular: _, ka, kd, ks, n, kt, eta, glossy_samples } =
-            value.as_ref()?;
-        let color = match (color, texture) {
+        let value = value.as_ref()?;
+        let color = match (&value.color, &value.texture) {
             (Found::Read(color), _) => *color,
-            (Found::Absent, Found::Read(_) | Found::Broken) => Spanned::unwritten(Color([1.0; 3])),
-            (Found::Absent, Found::Absent) => {
-                material.span.into_iter().for_each(|span| missing_keys("material", span, &["color"], context));
-                return None;
-            }
+            (Found::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
             (Found::Broken, _) => return None,
         };
-        let index = self.scene.materials.len();
-        let (weight, ratio) = refraction(kt.value.0, eta.value.0);
-        self.scene.materials.push(ir::Material::Phong(ir::Phong {
-            color: color.value.0,
+        let phong = self.phong(value, color.value);
+        let id = self.add_material(phong);
+        self.material_origins(id, value, material.span, color.span);
+        self.shared.insert(*node, id);
+        Some(id)
+    }
+
+    fn phong(&mut self, material: &Material, color: Color) -> ir::Phong {
+        let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
+            material;
+        let (kt, eta) = refraction(kt.value.0, eta.value.0);
+        ir::Phong {
+            color: color.0,
             ka: ka.value.0,
             kd: kd.value.0,
             ks: ks.value.0,
             n: n.value.0,
-            kt: weight,
-            eta: ratio,
+            kt,
+            eta,
             glossy_samples: glossy_samples.value.0,
-            color_map: None,
-            specular_map: None,
-            normal_map: None,
-            bump: None,
-        }));
+            color_map: self.map(texture),
+            specular_map: self.map(specular_map),
+            normal_map: self.map(normal_map),
+            bump: self.map(bump).map(|texture| ir::Bump { texture, height: 1.0 }),
+        }
+    }
+
+    fn map(&mut self, file: &Found<Spanned<FileName>>) -> Option<ir::TextureId> {
+        if let Found::Read(file) = file { Some(self.files.texture(&mut self.scene, file)) } else { None }
+    }
+
+    fn material_origins(&mut self, id: MaterialId, material: &Material, whole: Option<Span>, color: Option<Span>) {
+        let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
+            material;
+        let map = |file: &Found<Spanned<FileName>>| if let Found::Read(file) = file { file.span } else { None };
         for (field, span) in [
-            (Field::Whole, material.span),
-            (Field::Color, color.span),
+            (Field::Whole, whole),
+            (Field::Color, color),
             (Field::Ka, ka.span),
             (Field::Kd, kd.span),
             (Field::Ks, ks.span),
@@ -84,12 +113,26 @@ impl Lowering {
             (Field::Kt, kt.span),
             (Field::Eta, eta.span),
             (Field::GlossySamples, glossy_samples.span),
+            (Field::ColorMap, map(texture)),
+            (Field::SpecularMap, map(specular_map)),
+            (Field::NormalMap, map(normal_map)),
+            (Field::Bump, map(bump)),
         ] {
-            self.origin(Noun::Material, index, field, span);
+            self.origin(Noun::Material, id.0 as usize, field, span);
         }
-        let id = MaterialId(u32::try_from(index).unwrap_or(u32::MAX));
-        self.shared.insert(*node, id);
-        Some(id)
+    }
+
+    /// The material of what has none.
+    pub(super) fn grey(&mut self) -> MaterialId {
+        let id = self.grey.unwrap_or_else(|| self.add_material(GREY));
+        self.grey = Some(id);
+        id
+    }
+
+    fn add_material(&mut self, phong: ir::Phong) -> MaterialId {
+        let id = MaterialId(u32::try_from(self.scene.materials.len()).unwrap_or(u32::MAX));
+        self.scene.materials.push(ir::Material::Phong(phong));
+        id
     }
 }
 

@@ -4,20 +4,34 @@
 //! its schema. Every mistake is collected; none stops the pass.
 
 mod camera;
+mod cone;
+mod cylinder;
 mod decode;
+mod disc;
 mod emit;
+mod form;
 mod light;
 mod lower;
 mod material;
+mod mesh;
 mod number;
 mod object;
+mod page;
+mod plane;
+mod quad;
 mod record;
 mod schema;
 mod settings;
+mod solid;
 mod spelling;
+mod sphere;
+mod texture;
+mod torus;
 mod tree;
+mod triangle;
 mod value;
 
 pub use emit::emit;
-pub use lower::lower;
+pub use lower::{Draft, lower};
+pub use page::page;
 pub use schema::schema;

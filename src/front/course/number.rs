@@ -7,7 +7,6 @@ use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use super::spelling::clip;
 use super::tree::{NodeId, Shape};
-use super::value::unsupported;
 use crate::diag::codes;
 use serde_json::{Value as Json, json};
 
@@ -98,6 +97,11 @@ pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
         },
         Shape::Text(_) | Shape::List | Shape::Map => None,
     }
+}
+
+/// Whether a word without quotes is a number, finite or not.
+pub(super) fn is_number(word: &str) -> bool {
+    !matches!(read(word), Reading::NoNumber)
 }
 
 /// A finite number; else the sink has an error.
@@ -194,23 +198,9 @@ number! {
     NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
 }
 
-/// The radius of a sphere, above 0; with the axis of its texture, which this version can't show.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Radius(pub(super) f64);
-
-impl Value for Radius {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let tree = context.tree;
-        if !tree.is_list(node) {
-            return number(node, "a number", context).map(Self);
-        }
-        unsupported("the axis of a texture", tree.span(node), "the texture", context);
-        number(tree.items(node).next().unwrap_or(node), "a number", context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        json!({ "type": "number", "exclusiveMinimum": 0 })
-    }
+number! {
+    /// A number above 0.
+    Positive(f64), |node, context| number(node, "a number", context), { "type": "number", "exclusiveMinimum": 0 }
 }
 
 number! {

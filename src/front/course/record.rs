@@ -4,6 +4,7 @@
 //! one first. Every key of a map is either used by one field or reported.
 
 use super::decode::{Context, Entry, Key, Spanned, Value, describe};
+use super::form;
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
 use super::tree::NodeId;
@@ -40,6 +41,8 @@ pub(super) struct Record {
     pub(super) fields: &'static [Field],
     /// Sets of fields of which exactly one must be there; empty if any will do.
     pub(super) forms: &'static [&'static [&'static str]],
+    /// Whether the lowering sees to the forms, because it knows a better message or a repair.
+    pub(super) forms_are_lowered: bool,
 }
 
 /// Rows of one key each: spellings of the same key, the canonical one first.
@@ -58,6 +61,7 @@ macro_rules! record {
             )+
         }
         $(forms { $([$($member:ident)+])+ })?
+        $(lowered_forms { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
         pub(super) struct $name {
@@ -76,7 +80,8 @@ macro_rules! record {
                     need: record!(@need $need $type $(, $default)?),
                     schema: <$type as $crate::front::course::record::Slot>::schema,
                 }),+],
-                forms: &[$($(&[$(stringify!($member)),+]),+)?],
+                forms: &[$($(&[$(stringify!($member)),+]),+)? $($(&[$(stringify!($lowered)),+]),+)?],
+                forms_are_lowered: !<[&str]>::is_empty(&[$($($(stringify!($lowered)),+),+)?]),
             };
         }
 
@@ -87,7 +92,7 @@ macro_rules! record {
             ) -> Option<Self> {
                 let mut reader = $crate::front::course::record::Reader::open(&Self::RECORD, node, context)?;
                 $(let $field = reader.next::<$type>(context);)+
-                reader.close(context);
+                reader.close(context).then_some(())?;
                 Some(Self { $($field: record!(@value $need $field $(, $default)?)),+ })
             }
 
@@ -212,7 +217,7 @@ impl Reader {
         for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
             context.entries[at].claimed = true;
             if key != canonical {
-                note_spelling(key, canonical, context.entries[at].key_node, context);
+                context.note_spelling(key, canonical, context.tree.span(context.entries[at].key_node));
             }
         }
         S::take(&found[..row.len()], context).map_or(Found::Broken, Found::Read)
@@ -231,8 +236,8 @@ impl Reader {
         })
     }
 
-    /// Reports what was left unread and what is missing.
-    pub(super) fn close(self, context: &mut Context<'_>) {
+    /// Reports what was left unread and what is missing. False if the map has none of the forms it may have.
+    pub(super) fn close(self, context: &mut Context<'_>) -> bool {
         let mut partial = 0_u32;
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
@@ -249,6 +254,8 @@ impl Reader {
         if !missing.is_empty() {
             missing_keys(self.record.word, self.head, &missing, context);
         }
+        // Which form was meant is unclear while a group is incomplete, which was reported.
+        partial != 0 || form::check(self.record, self.head, |at| self.rows[at].is_some(), context)
     }
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is incomplete.
@@ -308,12 +315,6 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut 
             }
         },
     );
-}
-
-fn note_spelling(key: &'static str, canonical: &'static str, node: NodeId, context: &mut Context<'_>) {
-    if !context.spellings.iter().any(|(written, meant, _)| (*written, *meant) == (key, canonical)) {
-        context.spellings.push((key, canonical, context.tree.span(node)));
-    }
 }
 
 /// Adds the entries of a map to those of the context, its own first, then those it merges.

@@ -23,15 +23,22 @@ record! {
         eye: Spanned<Point>, optional, keys!["Eye"];
         /// The camera: where it stands, what it looks at, and the image it makes.
         camera: Spanned<Camera>, optional, keys!["Camera"];
+        /// The camera as three keys: where it stands, what it looks at, and the upward direction, whose length is the size of
+        /// a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
+        look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
         /// What a pixel shows: `phong` the lit surface, `zbuffer` its distance, `normal` its direction, `gooch` a drawing.
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
         shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"];
         /// How many mirror or refraction bounces follow the first hit.
         depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"];
+        /// Whether there are mirror images: `false` is a `MaxRecursionDepth` of 0, `true` one of 2 unless it is written.
+        reflections: Spanned<bool>, optional, keys!["Reflections"];
         /// How many rays a pixel takes along each of its sides.
-        sampling: Spanned<SuperSampling>, default(SuperSampling(Count(1))),
-            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAlias"];
+        sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
+            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAlias" "AA"];
+        /// How many points of each soft light are asked; without it 16 if there is one.
+        light_samples: Spanned<Count>, optional, keys!["LightSamples"];
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// The lights.
@@ -39,7 +46,7 @@ record! {
         /// What there is to see.
         objects: Spanned<Each<Object>>, default(Each::<Object>::none()), keys!["Objects"];
     }
-    forms { [camera] [eye] }
+    lowered_forms { [camera] [eye] [look] }
 }
 
 record! {
@@ -77,7 +84,7 @@ const MODES: &[(&str, Mode)] = &[
 ];
 
 /// The modes as some files number them.
-const NUMBERED: &[(u8, Mode)] = &[(0, Mode::Phong), (1, Mode::Normal), (2, Mode::Zbuffer), (4, Mode::Gooch)];
+const NUMBERED: &[(u8, Mode)] = &[(0, Mode::Phong), (1, Mode::Zbuffer), (2, Mode::Normal), (4, Mode::Gooch)];
 
 impl Value for Mode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -100,22 +107,60 @@ impl Value for Mode {
 }
 
 record! {
-    /// How many rays a pixel takes.
+    /// How many rays a pixel takes, and where they lie.
     struct Grid, "`SuperSampling` map" {
         /// How many rays a pixel takes along each of its sides.
         factor: Spanned<Count>, required, keys!["factor"];
+        /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
+        /// pixel.
+        pattern: Spanned<Pattern>, default(Pattern(ir::Pattern::Grid)), keys!["pattern"];
+    }
+}
+
+/// Where in its cell each ray lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pattern(ir::Pattern);
+
+/// The words for the patterns.
+pub(super) const PATTERNS: &[(&str, ir::Pattern)] =
+    &[("grid", ir::Pattern::Grid), ("jitter", ir::Pattern::Jitter), ("random", ir::Pattern::Random)];
+
+impl Value for Pattern {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, PATTERNS, context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(PATTERNS)
+    }
+
+    fn json(&self) -> Json {
+        PATTERNS.iter().find(|(_, pattern)| *pattern == self.0).map_or(Json::Null, |(word, _)| json!(word))
     }
 }
 
 /// The number of rays along the side of a pixel, as a map or bare.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SuperSampling(Count);
+pub(super) struct SuperSampling {
+    factor: Count,
+    pattern: ir::Pattern,
+}
+
+impl SuperSampling {
+    /// One ray in the middle.
+    const ONE: Self = Self { factor: Count(1), pattern: ir::Pattern::Grid };
+}
 
 impl Value for SuperSampling {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::Map => Grid::decode(node, context).map(|grid| Self(grid.factor.value)),
-            Shape::Word(_) | Shape::Text(_) | Shape::List => Count::decode(node, context).map(Self),
+            Shape::Map => {
+                let Grid { factor, pattern } = Grid::decode(node, context)?;
+                Some(Self { factor: factor.value, pattern: pattern.value.0 })
+            }
+            Shape::Word(_) | Shape::Text(_) | Shape::List => {
+                Count::decode(node, context).map(|factor| Self { factor, ..Self::ONE })
+            }
         }
     }
 
@@ -124,25 +169,41 @@ impl Value for SuperSampling {
     }
 
     fn json(&self) -> Json {
-        self.0.json()
+        self.factor.json()
     }
 }
+
+/// The bounces of `Reflections: true` where the file does not say how many.
+const SOME_REFLECTIONS: u32 = 2;
+
+/// The points asked of each soft light where the file does not say how many.
+const SOFT_LIGHT_SAMPLES: u32 = 16;
 
 impl Lowering {
     /// Lowers the settings of the file.
     pub(super) fn settings(&mut self, scene: &Scene, context: &mut Context<'_>) {
-        let Scene { mode, shadows, depth, sampling, gooch, .. } = scene;
+        let Scene { mode, shadows, depth, sampling, gooch, light_samples, .. } = scene;
+        let light_samples = if let Found::Read(count) = light_samples { *count } else { Spanned::unwritten(Count(1)) };
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
-            max_depth: depth.value.0,
-            supersampling: sampling.value.0.0,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
+            max_depth: max_depth(scene, context),
+            supersampling: sampling.value.factor.0,
+            pattern: sampling.value.pattern,
+            light_samples: light_samples.value.0,
         };
         self.origin(Noun::Settings, 0, Field::Mode, mode.span);
         self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);
         self.origin(Noun::Settings, 0, Field::Supersampling, sampling.span);
+        self.origin(Noun::Settings, 0, Field::LightSamples, light_samples.span);
+    }
+
+    /// Asks enough points of each soft light, unless the file says how many; after the lights.
+    pub(super) fn soften(&mut self, scene: &Scene) {
+        let soft = self.scene.lights.iter().any(|ir::Light::Point(light)| light.radius > 0.0);
+        if soft && scene.light_samples.is_absent() {
+            self.scene.settings.light_samples = SOFT_LIGHT_SAMPLES;
+        }
     }
 
     fn mode(&mut self, mode: Mode, gooch: &Found<Spanned<Gooch>>, context: &mut Context<'_>) -> ir::Mode {
@@ -166,5 +227,17 @@ impl Lowering {
         self.origin(Noun::Settings, 0, Field::GoochAlpha, alpha.span);
         self.origin(Noun::Settings, 0, Field::GoochBeta, beta.span);
         ir::Gooch { b: b.value.0, y: y.value.0, alpha: alpha.value.0, beta: beta.value.0 }
+    }
+}
+
+/// The bounces, which some files only turn on or off.
+fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
+    let Scene { depth, reflections, .. } = scene;
+    let Found::Read(Spanned { value: reflect, span: Some(span) }) = reflections else { return depth.value.0 };
+    context.note_spelling("Reflections", "MaxRecursionDepth", *span);
+    match (reflect, depth.span) {
+        (true, Some(_)) => depth.value.0,
+        (true, None) => SOME_REFLECTIONS,
+        (false, _) => 0,
     }
 }

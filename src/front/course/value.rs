@@ -1,12 +1,11 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value};
-use super::number::{json_number, number, whole};
+use super::number::{is_number, json_number, number, plain_number, whole};
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
 use super::tree::{NodeId, Shape};
-use crate::diag::{Severity, codes};
-use crate::source::Span;
+use crate::diag::codes;
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the others.
@@ -94,8 +93,31 @@ impl Value for Size {
     }
 }
 
+/// A place in a texture.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Uv(pub(super) [f64; 2]);
+
+impl Value for Uv {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        const WHAT: &str = "a list of two numbers";
+        tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 })
+    }
+}
+
+/// Truth values as some files number them.
+const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
+
 impl Value for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let given = plain_number(node, context);
+        if let Some((_, word, truth)) = NUMBERED.iter().find(|(number, ..)| given == Some(f64::from(*number))) {
+            context.note_spelling(if *truth { "1" } else { "0" }, word, context.tree.span(node));
+            return Some(*truth);
+        }
         let Some(text) = context.tree.text(node) else { return context.expected(node, "`true` or `false`") };
         match (context.tree.shape(node), text) {
             (Shape::Word(_), "true" | "True" | "TRUE") => return Some(true),
@@ -103,8 +125,8 @@ impl Value for bool {
             _ => {}
         }
         let meant = match text.to_ascii_lowercase().as_str() {
-            "true" | "yes" | "y" | "on" | "1" => "true",
-            "false" | "no" | "n" | "off" | "0" => "false",
+            "true" | "yes" | "y" | "on" => "true",
+            "false" | "no" | "n" | "off" => "false",
             _ => return context.expected(node, "`true` or `false`"),
         };
         let (key, span) = (context.key, context.tree.span(node));
@@ -116,7 +138,11 @@ impl Value for bool {
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        json!({ "type": "boolean" })
+        let numbers: Vec<_> =
+            NUMBERED.iter().map(|(number, ..)| json!({ "const": number, "deprecated": true })).collect();
+        let mut schema = json!({ "anyOf": [{ "type": "boolean" }] });
+        schema["anyOf"].as_array_mut().into_iter().for_each(|forms| forms.extend(numbers.clone()));
+        schema
     }
 
     fn json(&self) -> Json {
@@ -141,30 +167,28 @@ impl Value for Text {
     }
 }
 
-/// What the format has and this version can't show: an error, or with `--lenient` left out.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Unsupported;
+/// The name of a file, or of what stands for one.
+#[derive(Clone, Debug)]
+pub(super) struct FileName(pub(super) String);
 
-impl Value for Unsupported {
+impl Value for FileName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let what = format!("`{}`", context.key.text);
-        unsupported(&what, context.tree.span(node), &what, context);
-        Some(Self)
+        match context.tree.shape(node) {
+            Shape::Word(word) if is_text(word) => Some(Self(word.to_owned())),
+            Shape::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
+            Shape::Word(_) | Shape::Text(_) | Shape::List | Shape::Map => context.expected(node, "the name of a file"),
+        }
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        Json::Bool(false)
+        json!({ "type": "string", "minLength": 1 })
     }
 }
 
-/// Reports what this version can't show; with `lenient` it is a warning that says what was left out.
-pub(super) fn unsupported(what: &str, span: Span, left_out: &str, context: &mut Context<'_>) {
-    let lenient = context.options.lenient;
-    let message = || format!("{what} is not supported by this version");
-    context.report(&codes::UNSUPPORTED, span, message, |d| match lenient {
-        true => d.at(span, format!("{left_out} is left out of the picture")).severity(Severity::Warning),
-        false => d.at(span, "this would be missing from the picture").hint("`--lenient` leaves it out"),
-    });
+/// Whether a plain word is text by the core schema: no number, no truth value, not nothing.
+fn is_text(word: &str) -> bool {
+    !is_number(word)
+        && !matches!(word, "" | "~" | "null" | "Null" | "NULL" | "true" | "True" | "TRUE" | "false" | "False" | "FALSE")
 }
 
 /// A word of a table, in any case of letters: the table's words, and what each means.

@@ -1,0 +1,65 @@
+//! The cylinder.
+
+use super::decode::{Shared, Spanned};
+use super::lower::Lowering;
+use super::material::Material;
+use super::number::Positive;
+use super::record::{Found, keys, record};
+use super::value::{Point, Text, Vector};
+use crate::ir::{self, Field};
+use crate::math::Vec3;
+
+record! {
+    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps.
+    struct Cylinder, "cylinder" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// The centre of the base.
+        position: Spanned<Point>, optional, keys!["position" "center"];
+        /// The direction from the base to the top, of any length but 0.
+        direction: Spanned<Vector>, optional, keys!["direction" "axis"];
+        /// From base to top, above 0.
+        height: Spanned<Positive>, optional, keys!["height" "h"];
+        /// The centre of a cap.
+        ends: [Spanned<Point>; 2], optional, &[&["p1", "p2"], &["center1", "center2"], &["end1", "end2"]];
+        /// The radius, above 0.
+        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+    forms { [position direction height] [ends] }
+}
+
+impl Lowering {
+    /// Lowers a cylinder.
+    pub(super) fn cylinder(&mut self, cylinder: &Cylinder) {
+        let Cylinder { kind, radius, material, .. } = cylinder;
+        let clothes = self.clothe(kind, material);
+        if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(cylinder)) {
+            let shape =
+                ir::Cylinder { base: base.value, axis: axis.value, height: height.value, radius: radius.value.0 };
+            let places = [
+                (Field::CylinderBase, base.span),
+                (Field::CylinderAxis, axis.span),
+                (Field::CylinderHeight, height.span),
+                (Field::CylinderRadius, radius.span),
+            ];
+            self.put(&clothes, ir::Shape::Cylinder(shape), &places);
+        }
+    }
+}
+
+/// The centre of the base, the direction to the top, and the height.
+fn axis(cylinder: &Cylinder) -> Option<(Spanned<[f64; 3]>, Spanned<[f64; 3]>, Spanned<f64>)> {
+    let Cylinder { kind: _, position, direction, height, ends, radius: _, material: _ } = cylinder;
+    match (position, direction, height, ends) {
+        (Found::Read(position), Found::Read(direction), Found::Read(height), _) => {
+            Some((position.map(|point| point.0), direction.map(|vector| vector.0), height.map(|height| height.0)))
+        }
+        (.., Found::Read([base, top])) => {
+            let axis = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
+            Some((base.map(|point| point.0), top.map(|_| axis.to_array()), top.map(|_| axis.length())))
+        }
+        _ => None,
+    }
+}

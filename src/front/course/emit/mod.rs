@@ -1,0 +1,116 @@
+//! The IR back to text: the canonical spelling, with a `Camera`, and every number the shortest that reads back.
+
+mod camera;
+mod material;
+mod shape;
+
+use super::settings::PATTERNS;
+use crate::ir::{Gooch, Light, MaterialId, Mode, Pattern, PointLight, Scene, Settings, Surface};
+use camera::camera_up;
+use std::fmt::Write as _;
+
+/// Writes the scene in the canonical spelling with a `Camera`.
+///
+/// Lowering the text gives the scene again, without materials that no surface has; a material that several surfaces
+/// share becomes an anchor with aliases, images and meshes are written as the names of their files. The camera comes
+/// back to the last bit if an axis was its `up`, else at least up to rounding, as do textures turned on their spheres.
+///
+/// # Errors
+/// The reason, in words, why the scene can't be said in this format.
+pub fn emit(scene: &Scene) -> Result<String, String> {
+    let Scene { camera, settings, lights, images: _, textures: _, meshes: _, materials, surfaces } = scene;
+    let mut text = Text::default();
+    text.camera(camera, camera_up(camera)?);
+    text.settings(settings, lights);
+    text.line(0, if lights.is_empty() { "Lights: []" } else { "Lights:" });
+    for Light::Point(PointLight { position, color, radius }) in lights {
+        text.numbers("- position", position, 2);
+        text.numbers("color", color, 4);
+        if *radius != 0.0 {
+            text.number("radius", *radius, 4);
+        }
+    }
+    text.line(0, if surfaces.is_empty() { "Objects: []" } else { "Objects:" });
+    let mut uses = vec![0_usize; materials.len()];
+    for Surface { material: MaterialId(id), .. } in surfaces {
+        *uses.get_mut(*id as usize).ok_or("a surface refers to a material that does not exist")? += 1;
+    }
+    let mut written = vec![false; materials.len()];
+    for Surface { shape, material: MaterialId(id) } in surfaces {
+        text.shape(shape, scene)?;
+        let at = *id as usize;
+        match (uses[at] > 1, std::mem::replace(&mut written[at], true)) {
+            (true, true) => text.line(4, &format!("material: *m{id}")),
+            (true, false) => text.material(&format!("material: &m{id}"), &materials[at], scene)?,
+            (false, _) => text.material("material:", &materials[at], scene)?,
+        }
+    }
+    if text.finite { Ok(text.text) } else { Err("a number of the scene is not finite".to_owned()) }
+}
+
+/// The text so far.
+struct Text {
+    text: String,
+    /// Whether all numbers so far were.
+    finite: bool,
+}
+
+impl Default for Text {
+    fn default() -> Self {
+        Self { text: String::new(), finite: true }
+    }
+}
+
+impl Text {
+    fn line(&mut self, indent: usize, content: &str) {
+        writeln!(self.text, "{:indent$}{content}", "").expect("a string takes all that is written to it");
+    }
+
+    fn number(&mut self, key: &str, value: f64, indent: usize) {
+        self.finite &= value.is_finite();
+        self.line(indent, &format!("{key}: {}", number(value)));
+    }
+
+    fn numbers(&mut self, key: &str, value: &[f64; 3], indent: usize) {
+        self.finite &= value.iter().all(|value| value.is_finite());
+        self.line(indent, &format!("{key}: {}", triple(*value)));
+    }
+
+    fn settings(&mut self, settings: &Settings, lights: &[Light]) {
+        let Settings { mode, shadows, max_depth, supersampling, pattern, light_samples } = settings;
+        match mode {
+            Mode::Phong => self.line(0, "RenderMode: phong"),
+            Mode::Zbuffer => self.line(0, "RenderMode: zbuffer"),
+            Mode::Normal => self.line(0, "RenderMode: normal"),
+            Mode::Gooch(Gooch { b, y, alpha, beta }) => {
+                self.line(0, "RenderMode: gooch");
+                self.line(0, "GoochParameters:");
+                for (key, value) in [("b", b), ("y", y), ("alpha", alpha), ("beta", beta)] {
+                    self.number(key, *value, 2);
+                }
+            }
+        }
+        self.line(0, &format!("Shadows: {shadows}"));
+        self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
+        self.line(0, "SuperSampling:");
+        self.line(2, &format!("factor: {supersampling}"));
+        if let Some((word, _)) = PATTERNS.iter().find(|(_, known)| known == pattern && *pattern != Pattern::Grid) {
+            self.line(2, &format!("pattern: {word}"));
+        }
+        if *light_samples != 1 || lights.iter().any(|Light::Point(light)| light.radius > 0.0) {
+            self.line(0, &format!("LightSamples: {light_samples}"));
+        }
+    }
+}
+
+/// Three numbers as a flow list.
+pub(in crate::front::course) fn triple([x, y, z]: [f64; 3]) -> String {
+    format!("[{}, {}, {}]", number(x), number(y), number(z))
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    // People read 0.0001 and 100000 better than the few characters less.
+    if plain.len() <= scientific.len() + 4 { plain } else { scientific }
+}

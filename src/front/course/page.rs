@@ -1,0 +1,117 @@
+//! The page of documentation on the format, made from the declarations: every key, its other spellings, its type, its
+//! default and its meaning.
+
+use super::camera::Camera;
+use super::light::Light;
+use super::material::Material;
+use super::object::{KINDS, Kind};
+use super::record::{Field, Need, Record};
+use super::schema::Definitions;
+use super::settings::{Gooch, Grid, Scene};
+use serde_json::Value as Json;
+use std::fmt::Write as _;
+
+const HEAD: &str = "\
+# The scene format
+
+A scene is a YAML file. This page is made from the declarations that the decoder and the schema are made of.
+
+Every key has one canonical spelling, and often others that are met in files; all are read. A key of more than one word
+stands for several keys that are given together. Keys that are not on this page are ignored with a warning, and are
+errors with `--strict`. Lengths are in scene units; points, directions and colours are lists of three numbers.
+";
+
+const WRITES: &str = "a string takes all that is written to it";
+
+/// The page, in Markdown.
+#[must_use]
+pub fn page() -> String {
+    let mut page = HEAD.to_owned();
+    for (title, record) in [
+        ("The file", &Scene::RECORD),
+        ("`Camera`", &Camera::RECORD),
+        ("`SuperSampling`", &Grid::RECORD),
+        ("`GoochParameters`", &Gooch::RECORD),
+        ("`Lights`", &Light::RECORD),
+        ("`material`", &Material::RECORD),
+    ] {
+        section(title, record, &mut page);
+    }
+    for Kind { words, record, .. } in KINDS {
+        section(&format!("`type: {}`", words[0]), record, &mut page);
+        if let [_, others @ ..] = words
+            && !others.is_empty()
+        {
+            writeln!(page, "\nOther words for this type: {}.", code(others)).expect(WRITES);
+        }
+    }
+    page
+}
+
+fn section(title: &str, record: &Record, page: &mut String) {
+    writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(WRITES);
+    page.push_str("| key | other spellings | type | default | meaning |\n| --- | --- | --- | --- | --- |\n");
+    for Field { name, doc, rows, need, schema } in record.fields {
+        let (canonical, others) = rows.split_first().expect("a field has a row of keys");
+        let others: Vec<_> = others.iter().map(|row| code(row)).collect();
+        let in_form = record.forms.iter().any(|form| form.contains(name));
+        let default = match need {
+            Need::Required => "required".to_owned(),
+            Need::Optional if in_form => "see below".to_owned(),
+            Need::Optional => "none".to_owned(),
+            Need::Default(default) => format!("`{}`", default()),
+        };
+        let kind = kind(&schema(&mut Definitions::default()));
+        let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());
+        writeln!(page, "| {key} | {others} | {kind} | {default} | {meaning} |").expect(WRITES);
+    }
+    if record.forms.len() > 1 {
+        let keys =
+            |name: &&str| record.fields.iter().find(|field| field.name == *name).map(|field| code(field.rows[0]));
+        let forms = record.forms.iter().map(|form| form.iter().filter_map(keys).collect::<Vec<_>>().join(" "));
+        writeln!(page, "\nOne of these sets of keys: {}.", forms.collect::<Vec<_>>().join("; ")).expect(WRITES);
+    }
+}
+
+fn code(words: &[&str]) -> String {
+    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" ")
+}
+
+/// What a schema takes, in words.
+fn kind(schema: &Json) -> String {
+    if let Some(forms) = schema["anyOf"].as_array() {
+        let current = forms.iter().filter(|form| form["deprecated"] != true && form["pattern"].is_null());
+        return current.map(kind).collect::<Vec<_>>().join(", or ");
+    }
+    if let Some(words) = schema["enum"].as_array() {
+        return words.iter().filter_map(Json::as_str).map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
+    }
+    if schema["$ref"].is_string() {
+        return "map".to_owned();
+    }
+    match schema["type"].as_str() {
+        Some("array") => list(schema),
+        Some("object") => "map".to_owned(),
+        Some("integer") => format!("whole number{}", range(schema)),
+        Some("number") => format!("number{}", range(schema)),
+        Some("boolean") => "`true` or `false`".to_owned(),
+        Some("string") => "text".to_owned(),
+        Some(_) | None => "word".to_owned(),
+    }
+}
+
+fn list(schema: &Json) -> String {
+    match (&schema["prefixItems"], schema["minItems"].as_u64()) {
+        (Json::Array(items), _) => format!("list of {}", items.iter().map(kind).collect::<Vec<_>>().join(" and ")),
+        (_, Some(count)) => format!("{count} × {}", kind(&schema["items"])),
+        (_, None) => format!("list of {}s", kind(&schema["items"])),
+    }
+}
+
+fn range(schema: &Json) -> String {
+    let bound = |key: &str, sign: &str| schema[key].as_f64().map(|bound| (bound, format!(" {sign} {}", schema[key])));
+    // Bounds that only keep arithmetic finite are not worth a word.
+    let stated = |bound: Option<(f64, String)>| bound.filter(|(bound, _)| bound.abs() < 1e9).map(|(_, text)| text);
+    let bounds = [bound("exclusiveMinimum", ">"), bound("minimum", "≥"), bound("maximum", "≤")].map(stated);
+    bounds.into_iter().flatten().collect::<Vec<_>>().join(",")
+}

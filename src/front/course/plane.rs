@@ -1,0 +1,166 @@
+//! The planes: infinite ones, and the bounded ones of some files.
+
+use super::decode::{Context, Shared, Spanned, Value};
+use super::lower::Lowering;
+use super::material::Material;
+use super::number::{Positive, Real};
+use super::quad::EDGES;
+use super::record::{Found, keys, record};
+use super::schema::Definitions;
+use super::tree::NodeId;
+use super::triangle::CORNERS;
+use super::value::{Point, Text, Vector, word, word_schema};
+use crate::diag::codes;
+use crate::ir::{self, Field};
+use crate::math::Vec3;
+use serde_json::Value as Json;
+
+record! {
+    /// An infinite plane: a point and a normal, a normal and a distance from the origin, three points, or a point and
+    /// two directions.
+    struct Plane, "plane" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// One of three points of the plane.
+        corners: [Spanned<Point>; 3], optional, CORNERS;
+        /// A point of the plane.
+        position: Spanned<Point>, optional, keys!["position" "center" "O" "a"];
+        /// The direction at right angles to the plane, of any length but 0.
+        normal: Spanned<Vector>, optional, keys!["normal" "N" "n"];
+        /// The distance from the origin, along the normal.
+        distance: Spanned<Real>, optional, keys!["distance" "d"];
+        /// A direction in the plane.
+        edges: [Spanned<Vector>; 2], optional, EDGES;
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+    forms { [position normal] [normal distance] [corners] [position edges] }
+}
+
+record! {
+    /// A plane with bounds, as some files write it: a square with sides along the axes, or a disc. Better written `quad`
+    /// or `circle`.
+    struct BoundedPlane, "bounded plane" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// Whether it is a square, `quad`, or a disc, `circle`.
+        outline: Spanned<Outline>, required, keys!["typ"];
+        /// The centre.
+        center: Spanned<Point>, required, keys!["center" "position"];
+        /// The direction at right angles to it; that of a square is along an axis.
+        normal: Spanned<Vector>, required, keys!["normal" "N" "n"];
+        /// The radius, or half the side of the square; above 0.
+        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+}
+
+/// What bounds a bounded plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Outline {
+    Square,
+    Circle,
+}
+
+const OUTLINES: &[(&str, Outline)] = &[("quad", Outline::Square), ("circle", Outline::Circle)];
+
+impl Value for Outline {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, OUTLINES, context)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(OUTLINES)
+    }
+}
+
+impl Lowering {
+    /// Lowers a plane.
+    pub(super) fn plane(&mut self, plane: &Plane) {
+        let clothes = self.clothe(&plane.kind, &plane.material);
+        if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(plane)) {
+            let places = [(Field::PlaneCenter, center.span), (Field::PlaneNormal, normal.span)];
+            let shape = ir::Plane { center: center.value, normal: normal.value };
+            self.put(&clothes, ir::Shape::Plane(shape), &places);
+        }
+    }
+
+    /// Lowers a plane with bounds to a quadrilateral or a disc.
+    pub(super) fn bounded_plane(&mut self, plane: &BoundedPlane, context: &mut Context<'_>) {
+        let BoundedPlane { kind, outline, center, normal, radius, material } = plane;
+        let Some(clothes) = self.clothe(kind, material) else { return };
+        match outline.value {
+            Outline::Circle => {
+                let shape = ir::Disc { center: center.value.0, normal: normal.value.0, radius: radius.value.0 };
+                let places = [
+                    (Field::DiscCenter, center.span),
+                    (Field::DiscNormal, normal.span),
+                    (Field::DiscRadius, radius.span),
+                ];
+                self.put(&clothes, ir::Shape::Disc(shape), &places);
+            }
+            Outline::Square => {
+                let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+                let places = fields.map(|field| (field, center.span));
+                match square(center.value.0, normal.value.0, radius.value.0) {
+                    Some(vertices) => self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places),
+                    None => oblique(normal, context),
+                }
+            }
+        }
+    }
+}
+
+/// A square with sides along the axes; `None` if its normal is not along one.
+fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]> {
+    let center = Vec3::from_array(center);
+    let (u, v) = match normal.map(|component| component != 0.0) {
+        [true, false, false] => (Vec3::Y, Vec3::Z),
+        [false, true, false] => (Vec3::Z, Vec3::X),
+        [false, false, true] => (Vec3::X, Vec3::Y),
+        _ => return None,
+    };
+    let corner = |a: f64, b: f64| (center + u * (a * half) + v * (b * half)).to_array();
+    Some([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
+}
+
+fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
+    let Some(span) = normal.span else { return };
+    let message = || "a square `bplane` has its normal along an axis".to_owned();
+    context.report(&codes::UNSUPPORTED, span, message, |d| {
+        d.at(span, "along none").hint("write it as a `quad` with four corners, or as a `circle`")
+    });
+}
+
+/// A plane by the one form it is given in.
+fn center_and_normal(plane: &Plane) -> Option<(Spanned<[f64; 3]>, Spanned<[f64; 3]>)> {
+    let Plane { kind: _, corners, position, normal, distance, edges, material: _ } = plane;
+    match (corners, position, normal, distance, edges) {
+        (Found::Read(corners), ..) => Some(through(corners)),
+        (_, Found::Read(position), Found::Read(normal), ..) => {
+            Some((position.map(|point| point.0), normal.map(|vector| vector.0)))
+        }
+        (_, _, Found::Read(normal), Found::Read(distance), _) => Some(at_distance(normal, distance)),
+        (_, Found::Read(position), .., Found::Read([up, side])) => {
+            let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
+            let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
+            let normal = side_vector.cross(up_vector).to_array();
+            Some((position.map(|point| point.0), Spanned { value: normal, span }))
+        }
+        _ => None,
+    }
+}
+
+fn through(corners: &[Spanned<Point>; 3]) -> (Spanned<[f64; 3]>, Spanned<[f64; 3]>) {
+    let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
+    let span = corners[0].span.zip(corners[2].span).map(|(first, last)| first.to(last));
+    let normal = (b - a).cross(c - a).to_array();
+    (corners[0].map(|point| point.0), Spanned { value: normal, span })
+}
+
+fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Spanned<[f64; 3]>, Spanned<[f64; 3]>) {
+    // A normal of length 0 is left for the proof to refuse.
+    let direction = Vec3::from_array(normal.value.0).normalize_or_zero();
+    (distance.map(|distance| (direction * distance.0).to_array()), normal.map(|vector| vector.0))
+}

@@ -1,0 +1,69 @@
+//! The quadrilateral.
+
+use super::decode::{Shared, Spanned};
+use super::lower::Lowering;
+use super::material::Material;
+use super::record::{Found, Rows, keys, record};
+use super::value::{Point, Text, Vector};
+use crate::ir::{self, Field};
+use crate::math::Vec3;
+use crate::source::Span;
+
+/// How people name four corners.
+pub(super) const FOUR_CORNERS: Rows = &[
+    &["v0", "v1", "v2", "v3"],
+    &["v1", "v2", "v3", "v4"],
+    &["a", "b", "c", "d"],
+    &["p0", "p1", "p2", "p3"],
+    &["p1", "p2", "p3", "p4"],
+    &["point1", "point2", "point3", "point4"],
+    &["corner1", "corner2", "corner3", "corner4"],
+    &["position1", "position2", "position3", "position4"],
+];
+
+/// How people name the two edges from a corner: upward, and to the side.
+pub(super) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
+
+record! {
+    /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
+    /// Four corners out of a plane span a curved patch.
+    struct Quad, "quad" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// One of four corners, in order around it; a texture has its lower left at the first and its lower right at the second.
+        corners: [Spanned<Point>; 4], optional, FOUR_CORNERS;
+        /// The corner at the lower left of a texture.
+        position: Spanned<Point>, optional, keys!["position" "corner"];
+        /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
+        edges: [Spanned<Vector>; 2], optional, EDGES;
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+    forms { [corners] [position edges] }
+}
+
+impl Lowering {
+    /// Lowers a quadrilateral.
+    pub(super) fn quad(&mut self, quad: &Quad) {
+        let clothes = self.clothe(&quad.kind, &quad.material);
+        if let (Some(clothes), Some((vertices, spans))) = (clothes, corners(quad)) {
+            let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+            let places = [0, 1, 2, 3].map(|k| (fields[k], spans[k]));
+            self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
+        }
+    }
+}
+
+/// The corners in order around it, and where each was written.
+fn corners(quad: &Quad) -> Option<([[f64; 3]; 4], [Option<Span>; 4])> {
+    let Quad { kind: _, corners, position, edges, material: _ } = quad;
+    match (corners, position, edges) {
+        (Found::Read(corners), ..) => Some((corners.map(|corner| corner.value.0), corners.map(|corner| corner.span))),
+        (_, Found::Read(position), Found::Read([up, side])) => {
+            let [corner, v, u] = [position.value.0, up.value.0, side.value.0].map(Vec3::from_array);
+            let vertices = [corner, corner + u, corner + u + v, corner + v].map(|vertex| vertex.to_array());
+            Some((vertices, [position.span, side.span, side.span, up.span]))
+        }
+        _ => None,
+    }
+}

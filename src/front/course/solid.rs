@@ -1,0 +1,193 @@
+//! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they are bounded by.
+
+use super::decode::{Context, Shared, Spanned};
+use super::lower::Lowering;
+use super::material::Material;
+use super::object::Clothes;
+use super::quad::FOUR_CORNERS;
+use super::record::{Found, keys, record};
+use super::triangle::{CORNERS, VERTICES};
+use super::value::{Point, Text, Vector};
+use crate::diag::codes;
+use crate::ir;
+use crate::math::{Vec3, cos, sin};
+use crate::source::Span;
+
+record! {
+    /// A box: two opposite corners; or its centre and its lengths along x, y and z, turned or not; or a corner and the
+    /// three edges from it.
+    struct Cuboid, "box" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// One of two opposite corners of a box with sides along the axes.
+        extremes: [Spanned<Point>; 2], optional, &[&["min", "max"]];
+        /// The centre beside `dimension`; a corner beside `up`, `side` and `depth`.
+        position: Spanned<Point>, optional, keys!["position" "center"];
+        /// The lengths along x, y and z, before it is turned.
+        dimension: Spanned<Vector>, optional, keys!["dimension" "dimensions"];
+        /// The angles in radians by which it is turned about its centre: first about x, then y, then z.
+        rotation: Spanned<Vector>, optional, keys!["rotation"];
+        /// An edge from the corner `position`.
+        edges: [Spanned<Vector>; 3], optional, &[&["up", "side", "depth"]];
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+    forms { [extremes] [position dimension] [position dimension rotation] [position edges] }
+}
+
+record! {
+    /// A tetrahedron.
+    struct Tetrahedron, "tetrahedron" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// A corner.
+        corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+}
+
+record! {
+    /// A prism over a triangle.
+    struct Prism, "prism" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// A corner of the base.
+        corners: [Spanned<Point>; 3], required, CORNERS;
+        /// From the base to the top.
+        up: Spanned<Vector>, required, keys!["up" "direction"];
+        /// What it is made of.
+        material: Spanned<Shared<Material>>, required, keys!["material"];
+    }
+}
+
+/// A face by the indices of its corners, with the outside on the left of its edges; one of four corners begins at the
+/// lower left of its texture.
+type Face = &'static [usize];
+
+/// The corner of a box with index i lies at the far end of the edges whose bits i has.
+const BOX: &[Face] = &[&[0, 4, 6, 2], &[5, 1, 3, 7], &[0, 1, 5, 4], &[6, 7, 3, 2], &[1, 0, 2, 3], &[4, 5, 7, 6]];
+const TETRAHEDRON: &[Face] = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+const PRISM: &[Face] = &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
+
+impl Lowering {
+    /// Lowers a box.
+    pub(super) fn cuboid(&mut self, cuboid: &Cuboid, context: &mut Context<'_>) {
+        let clothes = self.clothe(&cuboid.kind, &cuboid.material);
+        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(cuboid)) {
+            let edges = [corners[1] - corners[0], corners[2] - corners[0], corners[4] - corners[0]];
+            let solid = Solid { word: "box", corners: &corners, faces: BOX, edges };
+            self.solid(&clothes, &solid, span, context);
+        }
+    }
+
+    /// Lowers a tetrahedron.
+    pub(super) fn tetrahedron(&mut self, tetrahedron: &Tetrahedron, context: &mut Context<'_>) {
+        let Tetrahedron { kind, corners, material } = tetrahedron;
+        let Some(clothes) = self.clothe(kind, material) else { return };
+        let span = corners[0].span;
+        let corners = corners.map(|corner| Vec3::from_array(corner.value.0));
+        let edges = [corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]];
+        self.solid(
+            &clothes,
+            &Solid { word: "tetrahedron", corners: &corners, faces: TETRAHEDRON, edges },
+            span,
+            context,
+        );
+    }
+
+    /// Lowers a prism.
+    pub(super) fn prism(&mut self, prism: &Prism, context: &mut Context<'_>) {
+        let Prism { kind, corners, up, material } = prism;
+        let Some(clothes) = self.clothe(kind, material) else { return };
+        let span = corners[0].span;
+        let ([a, b, c], up) = (corners.map(|corner| Vec3::from_array(corner.value.0)), Vec3::from_array(up.value.0));
+        let corners = [a, b, c, a + up, b + up, c + up];
+        self.solid(
+            &clothes,
+            &Solid { word: "prism", corners: &corners, faces: PRISM, edges: [b - a, c - a, up] },
+            span,
+            context,
+        );
+    }
+
+    /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
+    fn solid(&mut self, clothes: &Clothes, solid: &Solid<'_>, span: Option<Span>, context: &mut Context<'_>) {
+        let [x, y, z] = solid.edges;
+        let volume = x.cross(y).dot(z);
+        if volume == 0.0 {
+            span.into_iter().for_each(|span| flat(solid.word, span, context));
+            return;
+        }
+        let places = VERTICES.map(|field| (field, span));
+        for face in solid.faces {
+            for k in 1..face.len() - 1 {
+                let at = if volume > 0.0 { [0, k, k + 1] } else { [0, k + 1, k] };
+                let vertices = at.map(|k| solid.corners[face[k]].to_array());
+                let uvs = (face.len() == 4).then(|| at.map(|k| UNIT_SQUARE[k]));
+                self.put(clothes, ir::Shape::Triangle(ir::Triangle { vertices, uvs }), &places);
+            }
+        }
+    }
+}
+
+/// The uv of the corners of a face with four.
+const UNIT_SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+
+/// Corners and faces, and three edges that span the volume.
+struct Solid<'c> {
+    word: &'static str,
+    corners: &'c [Vec3],
+    faces: &'static [Face],
+    edges: [Vec3; 3],
+}
+
+fn flat(word: &str, span: Span, context: &mut Context<'_>) {
+    context.report(
+        &codes::FLAT_SOLID,
+        span,
+        || format!("this {word} has no volume"),
+        |d| d.at(span, "flat").hint("a flat shape is written as a `quad` or `triangle`"),
+    );
+}
+
+/// The corners of a box, and where its size was written.
+fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
+    let Cuboid { kind: _, extremes, position, dimension, rotation, edges, material: _ } = cuboid;
+    let end = |index: usize, axis: usize| (index >> axis) & 1;
+    match (extremes, position, dimension, rotation, edges) {
+        (Found::Read(ends), ..) => {
+            let corner = |index| Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]));
+            Some((std::array::from_fn(corner), ends[0].span))
+        }
+        (_, Found::Read(center), Found::Read(dimension), rotation, _) => {
+            let turn = match rotation {
+                Found::Read(rotation) => turned(rotation.value.0),
+                Found::Absent => Vec3::AXES,
+                Found::Broken => return None,
+            };
+            let (center, size) = (Vec3::from_array(center.value.0), dimension.value.0);
+            let half = |index, axis: usize| if end(index, axis) == 1 { size[axis] / 2.0 } else { -size[axis] / 2.0 };
+            let corner =
+                |index| center + turn[0] * half(index, 0) + turn[1] * half(index, 1) + turn[2] * half(index, 2);
+            Some((std::array::from_fn(corner), dimension.span))
+        }
+        (_, Found::Read(corner), .., Found::Read([up, side, depth])) => {
+            let edges = [side, up, depth].map(|edge| Vec3::from_array(edge.value.0));
+            let from = Vec3::from_array(corner.value.0);
+            let along = |index| (0..3).filter(move |axis| end(index, *axis) == 1).map(|axis| edges[axis]);
+            Some((std::array::from_fn(|index| from + along(index).sum::<Vec3>()), up.span))
+        }
+        _ => None,
+    }
+}
+
+/// Where the axes come to, turned by angles in radians about x, then y, then z.
+fn turned(angles: [f64; 3]) -> [Vec3; 3] {
+    let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
+    Vec3::AXES.map(|Vec3 { x, y, z }| {
+        let (y, z) = (y * cx - z * sx, y * sx + z * cx);
+        let (x, z) = (x * cy + z * sy, z * cy - x * sy);
+        Vec3::new(x * cz - y * sz, x * sz + y * cz, z)
+    })
+}

@@ -1,0 +1,70 @@
+//! The textures, and the files that images and meshes are to come from: each is wanted once.
+
+use super::decode::Spanned;
+use super::value::FileName;
+use crate::front::{Asset, Wanted};
+use crate::ir::{Image, ImageId, Mesh, MeshId, Scene, Texture, TextureId};
+use std::collections::BTreeMap;
+
+/// The word that stands for the uv of the surface in place of a file.
+pub(super) const UV: &str = "UV";
+
+/// One white pixel, in Base64.
+const PLACEHOLDER: &str = "////";
+
+/// What a scene has named so far.
+#[derive(Default)]
+pub(super) struct Files {
+    textures: BTreeMap<String, TextureId>,
+    meshes: BTreeMap<String, MeshId>,
+    uv: Option<TextureId>,
+    pub(super) wanted: Vec<Wanted>,
+}
+
+impl Files {
+    /// The texture of that name, whose image has one pixel until its file is there.
+    pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
+        if file.value.0.eq_ignore_ascii_case(UV) {
+            return *self.uv.get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId));
+        }
+        let name = file.value.0.replace('\\', "/");
+        if let Some(id) = self.textures.get(&name) {
+            return *id;
+        }
+        let image = Image { name: name.clone(), width: 1, height: 1, pixels: PLACEHOLDER.to_owned() };
+        let image = add(&mut scene.images, image, ImageId);
+        self.want(Asset::Image(image), file);
+        let id = add(&mut scene.textures, Texture::Image(image), TextureId);
+        self.textures.insert(name, id);
+        id
+    }
+
+    /// The mesh of that name, empty until its file is there.
+    pub(super) fn mesh(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> MeshId {
+        let name = file.value.0.replace('\\', "/");
+        if let Some(id) = self.meshes.get(&name) {
+            return *id;
+        }
+        let empty = Mesh {
+            name: name.clone(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            triangles: Vec::new(),
+        };
+        let id = add(&mut scene.meshes, empty, MeshId);
+        self.want(Asset::Mesh(id), file);
+        self.meshes.insert(name, id);
+        id
+    }
+
+    fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {
+        self.wanted.push(Wanted { asset, path: file.value.0.clone(), span: file.span });
+    }
+}
+
+fn add<T, Id>(list: &mut Vec<T>, item: T, id: fn(u32) -> Id) -> Id {
+    let index = u32::try_from(list.len()).unwrap_or(u32::MAX);
+    list.push(item);
+    id(index)
+}
