@@ -70,7 +70,7 @@ fn text_to_proof(bytes: Vec<u8>) -> bool {
     let file = map.add("spheres", bytes);
     let mut sink = Sink::default();
     let options = pipeline::Options::default();
-    let lowered = pipeline::load(file, &map, &options, &mut sink);
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink)).is_some()
 }
 

@@ -28,7 +28,7 @@ fn course(name: &str) -> Option<Scene> {
     }
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(&path, &mut map).unwrap();
-    let lowered = pipeline::load(file, &map, &options, &mut sink).unwrap();
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
     assert!(!sink.has_errors(), "{:?}", sink.kept());
     Some(lowered.scene)
 }
