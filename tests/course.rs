@@ -99,7 +99,7 @@ fn what_a_camera_cant_hold_is_said_in_words() {
     seen.camera.right = [-1.0, 0.0, 0.0];
     assert!(course::emit(&seen).unwrap_err().contains("mirrored"));
     seen.camera.right = [1.0, 0.0, 0.0];
-    seen.lights.push(ir::Light::Point(ir::PointLight { position: [f64::NAN, 0.0, 0.0], color: [1.0; 3] }));
+    seen.lights.push(ir::Light::Point(ir::PointLight { position: [f64::NAN, 0.0, 0.0], color: [1.0; 3], radius: 0.0 }));
     assert!(course::emit(&seen).unwrap_err().contains("finite"));
 }
 

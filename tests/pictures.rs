@@ -2,7 +2,7 @@
 //!
 //! Scenes of the course are read from `../shared/course`; without them those tests skip with a note.
 
-#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+#![expect(clippy::print_stdout, clippy::unwrap_used, reason = "a test says what it skips and stops at a surprise")]
 
 use rtc::diag::Sink;
 use rtc::ir::{self, Lowered, Scene};

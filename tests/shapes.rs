@@ -1,7 +1,5 @@
 //! Curved shapes against brute force: points along the ray, asked one by one whether they are inside.
 
-#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-
 use proptest::prelude::*;
 use rtc::math::Vec3;
 use rtc::render::{Cone, Cylinder, Disc, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle};

@@ -24,6 +24,11 @@ pub enum Noun {
     Surface,
 }
 
+impl Noun {
+    /// How many kinds there are.
+    const COUNT: usize = Self::Surface as usize + 1;
+}
+
 /// A value of an entity, or all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each names the field of the IR it stands for")]
@@ -124,6 +129,7 @@ impl fmt::Display for Place {
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "a table, one line a field")]
 fn pointer_tail(noun: Noun, field: Field) -> &'static str {
     match field {
         Field::Whole => "",
@@ -194,7 +200,7 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 /// so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    lists: [List; Noun::Surface as usize + 1],
+    lists: [List; Noun::COUNT],
 }
 
 #[derive(Clone, Debug, Default)]

@@ -113,14 +113,23 @@ fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> [f64; 3] {
         if a >= b || (value(a) < 0.0) == (value(b) < 0.0) {
             continue;
         }
+        let mut at = 0.5 * (a + b);
         for _ in 0..MAX_STEPS {
-            let middle = 0.5 * (a + b);
-            if middle <= a || middle >= b {
+            let height = value(at);
+            if (height > 0.0) == rises {
+                b = at
+            } else {
+                a = at
+            }
+            // A Newton step, or half the bracket where it leaves it.
+            let newton = at - height / (3.0 * at * at + linear);
+            let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+            if next == at || next <= a || next >= b {
                 break;
             }
-            if (value(middle) > 0.0) == rises { b = middle } else { a = middle }
+            at = next;
         }
-        roots[count] = b;
+        roots[count] = at;
         count += 1;
     }
     roots
