@@ -73,6 +73,8 @@ fn names(folder: &Path) -> Vec<String> {
 fn exit_codes_say_whose_fault_it_is() {
     let folder = folder();
     let code = |args: &[&str]| code(&rtc(&folder, args));
+    assert_eq!(code(&["check", "ball.json", "--asset-root", "."]), 0);
+    assert_eq!(code(&["check", "ball.json", "--asset-root", "nowhere"]), 2);
     assert_eq!(code(&["check", "ball.json"]), 0);
     assert_eq!(code(&["check", "ball.json", "bad.json"]), 1);
     assert_eq!(code(&["check", "bad.json", "none.json", "ball.json"]), 2);
