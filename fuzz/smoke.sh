@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes each target for its share of SECONDS (default 20), from the scenes, the frozen IR files and the corpora.
-# Exits non-zero at the first input that fails; it is kept in fuzz/artifacts. New inputs are not kept, unless KEEP=1.
+# Exits non-zero at the first input that fails and leaves it in fuzz/artifacts. What is new is thrown away; to keep it,
+# run a target with a folder of its own and merge the folder: cargo fuzz run -s none TARGET fuzz/corpus/TARGET FOLDER -- -merge=1
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,15 +12,12 @@ share=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]}))
 command -v cargo-fuzz >/dev/null || cargo install --quiet cargo-fuzz
 cargo fuzz build -s none
 
+new=$(mktemp -d)
+trap 'rm -rf "$new"' EXIT
 for target in "${targets[@]}"; do
-    found=$(mktemp -d)
-    corpus=fuzz/corpus/$target
-    mkdir -p "$corpus"
-    cargo fuzz run -s none "$target" "$found" "$corpus" scenes tests/codec/v0 tests/codec/v1 -- \
-        -max_total_time="$share" -timeout=5 -rss_limit_mb=2048 -max_len=20000 -dict=fuzz/yaml.dict -print_final_stats=0 \
-        2>&1 | tail -n 40
-    if [ "${KEEP:-0}" = 1 ]; then
-        cargo fuzz run -s none "$target" "$corpus" "$found" -- -merge=1 -max_len=4096 2>&1 | tail -n 3
-    fi
-    rm -rf "$found"
+    mkdir "$new/$target"
+    echo "fuzz $target for $share s"
+    cargo fuzz run -s none "$target" "$new/$target" "fuzz/corpus/$target" scenes tests/codec/v0 tests/codec/v1 -- \
+        -max_total_time="$share" -timeout=5 -rss_limit_mb=2048 -max_len=20000 -dict=fuzz/yaml.dict -verbosity=0 \
+        >"$new/log" 2>&1 || { tail -n 40 "$new/log"; exit 1; }
 done

@@ -14,6 +14,8 @@
 //!
 //! The promise between the rooms: whoever holds a [`valid::ValidScene`] need not doubt a number.
 
+#![forbid(unsafe_code)]
+
 pub mod cli;
 pub mod codec;
 pub mod color;

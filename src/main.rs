@@ -1,5 +1,7 @@
 //! The `rtc` binary: arguments in, exit code out.
 
+#![forbid(unsafe_code)]
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

@@ -3,7 +3,7 @@
 pub mod trial;
 
 use crate::diag::Sink;
-use crate::front::course;
+use crate::front::{assets, course};
 use crate::ir::{Lowered, Origins, Scene};
 use crate::render::{Film, Job, World};
 use crate::source::{FileId, SourceMap};
@@ -11,7 +11,7 @@ use crate::valid::{self, ValidScene};
 use crate::{codec, front};
 
 /// How strict the check is.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// What the front end lets pass.
     pub front: front::Options,
@@ -26,6 +26,8 @@ pub struct Overrides {
     pub size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel.
     pub supersampling: Option<u32>,
+    /// Points of each soft light.
+    pub light_samples: Option<u32>,
     /// Bounces after the first hit.
     pub depth: Option<u32>,
 }
@@ -33,26 +35,33 @@ pub struct Overrides {
 impl Overrides {
     /// Writes the values given into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { size, supersampling, depth } = *self;
+        let Self { size, supersampling, light_samples, depth } = *self;
         if let Some(size) = size {
             let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
             scene.camera.up = scene.camera.up.map(|component| component * ratio);
             scene.camera.size = size;
         }
+        scene.settings.light_samples = light_samples.unwrap_or(scene.settings.light_samples);
         scene.settings.supersampling = supersampling.unwrap_or(scene.settings.supersampling);
         scene.settings.max_depth = depth.unwrap_or(scene.settings.max_depth);
     }
 }
 
-/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content.
-pub fn load(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content. The files
+/// a YAML names come into the map.
+pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
-        None => course::lower(file, map, &options.front, sink).map(course::Draft::finish),
+        None => {
+            let mut draft = course::lower(file, map, &options.front, sink)?;
+            let wanted = std::mem::take(&mut draft.wanted);
+            assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
+            Some(draft.finish())
+        }
     }
 }
 

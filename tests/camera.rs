@@ -106,11 +106,12 @@ proptest! {
         prop_assume!(sine(center - eye, up) > 1e-3);
         let (right, above) = camera_basis(eye, center, up).unwrap();
         let camera = camera(eye, center, right, above);
-        let middle = image_point(&camera, [x, y], [0, 0], 1);
+        let middle = image_point(&camera, [x, y], [0.5; 2]);
+        let at = |i: u32, j: u32| [i, j].map(|k| (f64::from(k) + 0.5) / f64::from(factor));
         let size = length(center) + 400.0 * length(up);
         for (i, j) in (0..factor).flat_map(|i| (0..factor).map(move |j| (i, j))) {
-            let here = image_point(&camera, [x, y], [i, j], factor);
-            let opposite = image_point(&camera, [x, y], [factor - 1 - i, factor - 1 - j], factor);
+            let here = image_point(&camera, [x, y], at(i, j));
+            let opposite = image_point(&camera, [x, y], at(factor - 1 - i, factor - 1 - j));
             prop_assert!(length((here + opposite) / 2.0 - middle) <= 4.0 * f64::EPSILON * size);
         }
     }

@@ -73,6 +73,8 @@ fn names(folder: &Path) -> Vec<String> {
 fn exit_codes_say_whose_fault_it_is() {
     let folder = folder();
     let code = |args: &[&str]| code(&rtc(&folder, args));
+    assert_eq!(code(&["check", "ball.json", "--asset-root", "."]), 0);
+    assert_eq!(code(&["check", "ball.json", "--asset-root", "nowhere"]), 2);
     assert_eq!(code(&["check", "ball.json"]), 0);
     assert_eq!(code(&["check", "ball.json", "bad.json"]), 1);
     assert_eq!(code(&["check", "bad.json", "none.json", "ball.json"]), 2);
@@ -98,7 +100,7 @@ fn results_go_to_stdout_and_talk_to_stderr() {
     let quiet = rtc(&folder, &["render", "-q", "away.json", "-o", "-"]);
     assert!(quiet.stdout.starts_with(b"\x89PNG") && quiet.stderr.is_empty());
     let compiled = rtc(&folder, &["compile", "ball.json"]);
-    assert!(compiled.stdout.starts_with(b"{\n  \"irVersion\": 1") && compiled.stderr.is_empty());
+    assert!(compiled.stdout.starts_with(b"{\n  \"irVersion\": 2") && compiled.stderr.is_empty());
 }
 
 #[test]
@@ -215,6 +217,11 @@ fn programs_can_read_what_is_meant_for_them() {
     assert_eq!(sarif["runs"][0]["results"].as_array().unwrap().len(), lines.len());
     assert!(stdout("github").lines().all(|line| line.starts_with("::error file=")));
     assert!(stdout("short").is_empty());
+    for verb in ["render", "compile"] {
+        let refused = rtc(&folder, &[verb, "bad.json", "--message-format", "sarif"]);
+        let log: serde_json::Value = serde_json::from_slice(&refused.stderr).unwrap();
+        assert!(code(&refused) == 1 && refused.stdout.is_empty() && log["runs"][0]["results"][0].is_object());
+    }
 }
 
 #[test]
@@ -246,7 +253,7 @@ fn a_closed_pipe_is_success() {
 fn rtc_tells_about_itself() {
     let folder = folder();
     let stdout = |args: &[&str]| String::from_utf8(rtc(&folder, args).stdout).unwrap();
-    assert!(stdout(&["-V"]).contains("reads IR versions up to 1"));
+    assert!(stdout(&["-V"]).contains("reads IR versions up to 2"));
     assert!(stdout(&["explain", "rd001"]).starts_with("## RD001 (warning): "));
     assert!(stdout(&["completions", "bash"]).contains("_rtc"));
     assert!(stdout(&["man"]).contains(".TH rtc 1") && stdout(&["man", "render"]).contains("supersampling"));

@@ -10,7 +10,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 use rtc::diag::{Severity, Sink, codes};
-use rtc::source::SourceMap;
+use rtc::source::{Loader, SourceMap};
 use rtc::{front, pipeline};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// Codes that no scene text can raise: files, the container, renders, and faults only a hand-made IR can have. Texts
 /// for SY010 and SY011 are too large to keep; `tests/hostile.rs` makes them.
-const ELSEWHERE: &[&str] = &["IO", "IR", "RD", "SY010", "SY011", "VA012", "VA014", "VA017", "VA018"];
+const ELSEWHERE: &[&str] = &["IO", "IR", "RD", "RE", "SY010", "SY011", "VA012", "VA014", "VA017", "VA018"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics")
@@ -38,21 +38,26 @@ fn options(text: &str) -> pipeline::Options {
     let line = text.lines().find_map(|line| line.strip_prefix("# options:")).unwrap_or_default();
     let has = |word| line.split_whitespace().any(|option| option == word);
     pipeline::Options {
-        front: front::Options { strict: has("strict"), lenient: has("lenient") },
+        front: front::Options { strict: has("strict"), lenient: has("lenient"), asset_root: None },
         ..pipeline::Options::default()
     }
 }
 
+fn base_name(path: &str) -> &str {
+    path.rsplit('/').next().unwrap()
+}
+
 /// What is found in a file, one line each.
-fn findings(bytes: &[u8]) -> String {
+fn findings(case: &Path) -> String {
     let mut map = SourceMap::default();
-    let file = map.add("case", bytes.to_vec());
+    let file = Loader.file(case, &mut map).unwrap();
     let mut sink = Sink::default();
-    let options = options(&String::from_utf8_lossy(bytes));
-    let lowered = pipeline::load(file, &map, &options, &mut sink);
+    let options = options(&String::from_utf8_lossy(map.bytes(file)));
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
     assert_eq!(proof.is_some(), !sink.has_errors(), "a scene is proven unless there is an error");
     sink.sort();
+    let folder = case.parent().unwrap().display().to_string();
     let mut text = String::new();
     for finding in sink.kept() {
         let severity = match finding.severity {
@@ -61,8 +66,11 @@ fn findings(bytes: &[u8]) -> String {
             Severity::Note => "note",
         };
         let place = finding.primary.as_ref().expect("every finding in a text has a place");
-        let at = map.line_column(file, place.span.start);
-        writeln!(text, "# expect: {} {severity} {}:{} {}", finding.code, at.line, at.column, finding.message).unwrap();
+        let at = map.line_column(place.span.file, place.span.start);
+        let name =
+            if place.span.file == file { String::new() } else { format!("{}:", base_name(map.name(place.span.file))) };
+        let message = finding.message.replace(&*folder, ".");
+        writeln!(text, "# expect: {} {severity} {name}{}:{} {message}", finding.code, at.line, at.column).unwrap();
     }
     text
 }
@@ -95,7 +103,7 @@ fn update(path: &Path, found: &str) {
 fn every_case_is_found_as_its_comments_say() {
     let mut faults = String::new();
     for case in cases() {
-        let found = findings(&fs::read(&case).unwrap());
+        let found = findings(&case);
         let path = expectations(&case);
         if std::env::var_os("RTC_UPDATE").is_some() {
             update(&path, &found);

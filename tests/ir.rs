@@ -30,7 +30,7 @@ fn scenes() -> Vec<(String, PathBuf)> {
 fn scene(name: &str, text: Vec<u8>) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add(name, text);
-    let lowered = pipeline::load(file, &map, &Options::default(), &mut sink);
+    let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| pipeline::prove(lowered, &Options::default(), &mut sink));
     assert!(proven.is_some() && sink.kept().is_empty(), "{name}: {:#?}", sink.kept());
     lowered.unwrap().scene

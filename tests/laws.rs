@@ -25,11 +25,12 @@ fn paths() -> Vec<PathBuf> {
 fn small(path: &Path) -> Scene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
-    let mut scene = pipeline::load(file, &map, &options, &mut sink).unwrap().scene;
+    let mut scene = pipeline::load(file, &mut map, &options, &mut sink).unwrap().scene;
     assert!(!sink.has_errors(), "{}: {:?}", path.display(), sink.kept());
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
-    Overrides { size: Some([48, 40]), supersampling: Some(sampling), depth: Some(depth) }.apply(&mut scene);
+    let size = Some([48, 40]);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(4);
     scene
 }
@@ -56,7 +57,7 @@ fn the_ir_in_any_form_makes_the_same_picture() {
         for form in [Form::Text, Form::Binary] {
             let (mut map, mut sink) = (SourceMap::default(), Sink::default());
             let file = map.add("scene", codec::encode(form, &scene).unwrap());
-            let decoded = pipeline::load(file, &map, &Options::default(), &mut sink).unwrap().scene;
+            let decoded = pipeline::load(file, &mut map, &Options::default(), &mut sink).unwrap().scene;
             assert_eq!(decoded, scene, "{form:?} of {}", path.display());
             assert!(bits(&film(&decoded, &WHOLE, 0)) == picture, "{form:?} of {}", path.display());
         }
@@ -101,18 +102,47 @@ fn scaled(scene: &Scene, factor: f64) -> Scene {
     lens.radius *= factor;
     for ir::Light::Point(light) in &mut scene.lights {
         scale(&mut light.position);
+        light.radius *= factor;
     }
     for surface in &mut scene.surfaces {
-        match &mut surface.shape {
-            ir::Shape::Sphere(ir::Sphere { center, radius }) => {
-                scale(center);
-                *radius *= factor;
-            }
-            ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
-            ir::Shape::Triangle(ir::Triangle { vertices }) => vertices.iter_mut().for_each(scale),
-        }
+        scale_shape(&mut surface.shape, factor);
     }
     scene
+}
+
+fn scale_shape(shape: &mut ir::Shape, factor: f64) {
+    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
+    match shape {
+        ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: _ }) => {
+            scale(center);
+            *radius *= factor;
+        }
+        ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
+        ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) => vertices.iter_mut().for_each(scale),
+        ir::Shape::Quad(ir::Quad { vertices }) => vertices.iter_mut().for_each(scale),
+        ir::Shape::Disc(ir::Disc { center, normal: _, radius }) => {
+            scale(center);
+            *radius *= factor;
+        }
+        ir::Shape::Cylinder(ir::Cylinder { base, axis: _, height, radius }) => {
+            scale(base);
+            *height *= factor;
+            *radius *= factor;
+        }
+        ir::Shape::Cone(ir::Cone { base, up, radius }) => {
+            scale(base);
+            scale(up);
+            *radius *= factor;
+        }
+        ir::Shape::Torus(ir::Torus { center, axis: _, major, minor }) => {
+            scale(center);
+            *major *= factor;
+            *minor *= factor;
+        }
+        ir::Shape::Instance(ir::Instance { mesh: _, world_from_object }) => {
+            world_from_object.iter_mut().for_each(scale);
+        }
+    }
 }
 
 /// Kills every fixed epsilon in the program.

@@ -81,6 +81,9 @@ pub(super) struct Render {
     /// Sub-samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) supersampling: Option<u32>,
+    /// Points of each soft light
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) light_samples: Option<u32>,
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,
@@ -140,6 +143,9 @@ pub(super) struct Reading {
     /// Repair mistakes that have one sensible repair, with a warning
     #[arg(long)]
     pub(super) lenient: bool,
+    /// A folder, beside that of the scene, whose files the scene may name: textures and meshes
+    #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath)]
+    pub(super) asset_root: Option<PathBuf>,
     /// Lift the limits on the size of the picture and the number of rays
     #[arg(long)]
     pub(super) allow_huge: bool,
@@ -233,6 +239,10 @@ pub(super) enum Color {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+}
+
+fn folder(text: &str) -> Result<PathBuf, String> {
+    Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
 }
 
 fn crop(text: &str) -> Result<Crop, String> {

@@ -18,9 +18,14 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
         output::refuse_terminal(&args.output)?;
     }
     let mut talk = Talk::beside_result(&args.talk);
-    let mut input = Input::read(&args.file, &args.reading);
-    let proven = input::require(&mut input, &mut talk, |_| ())?;
+    let outcome = carry_out(args, emit, &mut talk);
     talk.finish()?;
+    outcome
+}
+
+fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure> {
+    let mut input = Input::read(&args.file, &args.reading);
+    let proven = input::require(&mut input, talk, |_| ())?;
     let bytes = encode(emit, &proven.lowered.scene)
         .map_err(|reason| Failure::Input(format!("`{}` can't be written so: {reason}", input.name())))?;
     let interrupt = Interrupt::listen()?;

@@ -33,9 +33,9 @@ pub(super) struct Proven {
 impl Input {
     /// Reads the file at `path`, or standard input if it is `-`.
     pub(super) fn read(path: &Path, reading: &Reading) -> Self {
-        let Reading { stdin_name, strict, lenient, allow_huge } = reading;
+        let Reading { stdin_name, strict, lenient, asset_root, allow_huge } = reading;
         let options = Options {
-            front: front::Options { strict: *strict, lenient: *lenient },
+            front: front::Options { strict: *strict, lenient: *lenient, asset_root: asset_root.clone() },
             valid: valid::Options { allow_huge: *allow_huge },
         };
         let (mut map, mut sink) = (SourceMap::default(), Sink::default());
@@ -53,7 +53,7 @@ impl Input {
 
     /// Lowers the scene, lets `change` change it, and proves it.
     pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered)) -> Option<Proven> {
-        let mut lowered = pipeline::load(self.file?, &self.map, &self.options, &mut self.sink)?;
+        let mut lowered = pipeline::load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
         change(&mut lowered);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })

@@ -54,22 +54,22 @@ impl Output {
 
     /// Writes the result; a file appears under its name only now, and not after Ctrl-C.
     pub(super) fn commit(self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), Failure> {
-        let name = match &self {
+        let (target, written) = match self {
             Self::Stdout => return to_stdout(bytes),
-            Self::Stream(target) | Self::File { target, draft: _ } => target.display().to_string(),
-        };
-        let written = match self {
-            Self::Stdout => Ok(()),
-            Self::Stream(target) => OpenOptions::new().write(true).open(target).and_then(|mut to| to.write_all(bytes)),
+            Self::Stream(target) => {
+                let written = OpenOptions::new().write(true).open(&target).and_then(|mut to| to.write_all(bytes));
+                (target, written)
+            }
             Self::File { target, mut draft } => {
                 let synced = draft.write_all(bytes).and_then(|()| draft.as_file().sync_all());
                 if interrupt.is_raised() {
                     return Err(Failure::Interrupted);
                 }
-                synced.and_then(|()| draft.persist(target).map_err(|error| error.error).map(drop))
+                let written = synced.and_then(|()| draft.persist(&target).map_err(|error| error.error).map(drop));
+                (target, written)
             }
         };
-        written.map_err(|error| failure(&format!("`{name}`"), &error))
+        written.map_err(|error| failure(&format!("`{}`", target.display()), &error))
     }
 }
 

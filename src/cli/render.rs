@@ -1,7 +1,7 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`Plan`] before anything is read.
 
 use super::Failure;
-use super::args::{self, Bits, Talk as TalkArgs};
+use super::args::{self, Bits};
 use super::input::{self, Input, Proven};
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
@@ -12,8 +12,9 @@ use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Place, Scene};
 use crate::pipeline::{self, Overrides};
-use crate::render::{Counts, Crop, Film, Job, Values};
+use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// A render as it will be done.
@@ -34,10 +35,12 @@ enum Kind {
 }
 
 /// Renders the scene and writes the picture.
-pub(super) fn run(args: args::Render) -> Result<(), Failure> {
-    let plan = Plan::new(&args)?;
-    let args::Render { file, reading, talk, .. } = args;
-    plan.carry_out(&mut Input::read(&file, &reading), &talk)
+pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
+    let plan = Plan::new(args)?;
+    let mut talk = Talk::beside_result(&args.talk);
+    let outcome = plan.carry_out(&mut Input::read(&args.file, &args.reading), &mut talk);
+    talk.finish()?;
+    outcome
 }
 
 impl Plan {
@@ -50,28 +53,34 @@ impl Plan {
         Ok(Self {
             kind: kind(&output, args.bits)?,
             output,
-            overrides: Overrides { size: args.size, supersampling: args.supersampling, depth: args.depth },
+            overrides: Overrides {
+                size: args.size,
+                supersampling: args.supersampling,
+                light_samples: args.light_samples,
+                depth: args.depth,
+            },
             crop: args.crop,
             threads: args.threads.map_or(0, usize::from),
         })
     }
 
-    fn carry_out(&self, input: &mut Input, args: &TalkArgs) -> Result<(), Failure> {
-        let mut talk = Talk::beside_result(args);
-        let proven = input::require(input, &mut talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
+    fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+        let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
         let window = self.window(&proven.lowered.scene)?;
         let interrupt = Interrupt::listen()?;
         let output = Output::open(&self.output, &interrupt)?;
-        let (film, told) = self.trace(&proven, window, &interrupt, talk.is_quiet())?;
+        let quiet = talk.is_quiet();
+        let (film, elapsed) = self.trace(&proven, window, &interrupt, quiet)?;
         if self.crop.is_none() && film.counts.hits == 0 {
             input.push(nothing_in_view(&proven));
-            input.tell(&mut talk)?;
+            input.tell(talk)?;
         }
-        talk.finish()?;
         let form = self.form(&proven.lowered.scene);
         let bytes = film.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
         output.commit(&bytes, &interrupt)?;
-        told.iter().for_each(|line| talk::say(line));
+        if !quiet {
+            talk::say(&self.summary(&film, elapsed));
+        }
         Ok(())
     }
 
@@ -85,14 +94,14 @@ impl Plan {
         Ok(window)
     }
 
-    /// The film, and unless `quiet` what there is to say about its making.
+    /// The film and how long it took.
     fn trace(
         &self,
         proven: &Proven,
         window: Crop,
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<(Film, Option<String>), Failure> {
+    ) -> Result<(Film, Duration), Failure> {
         let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
         let job = Job { crop: Some(window), values };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
@@ -103,14 +112,13 @@ impl Plan {
         let film = pipeline::render(&proven.scene, &job, self.threads, &proceed);
         let elapsed = progress.finish();
         let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-        let film = film.ok_or(Failure::Interrupted)?;
-        let told = self.summary(&film.counts, window, elapsed);
-        Ok((film, (!quiet).then_some(told)))
+        Ok((film.ok_or(Failure::Interrupted)?, elapsed))
     }
 
-    fn summary(&self, counts: &Counts, Crop { width, height, .. }: Crop, elapsed: std::time::Duration) -> String {
+    fn summary(&self, film: &Film, elapsed: Duration) -> String {
+        let Film { image, counts } = film;
         let work = progress::summary(counts.rays(), elapsed);
-        format!("{}: {width}×{height}, {work}", self.output.display())
+        format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height)
     }
 
     fn form(&self, scene: &Scene) -> image::Form {

@@ -4,7 +4,7 @@
 //! The header holds the scene's small parts and the tables its lists are made of. A change of any bit is found, and
 //! nothing is allocated that the length of the file does not warrant.
 
-use super::columns::{self, Table};
+use super::columns::{self, Stock, Table};
 use super::section::{self, ALIGNMENT, Body, Entry};
 use super::{CHECKSUMS_COUNT, Decoded, newer, span, typed};
 use crate::diag::{Code, Diagnostic, codes};
@@ -93,8 +93,9 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     let header = container.header(end)?;
     let sections = section::open(&container, end, &header.sections)?;
     let mut scene = header.scene;
+    let mut stock = Stock::new(&sections, &container);
     for table in &header.tables {
-        let entities = columns::unpack(table, &sections, &container)?;
+        let entities = columns::unpack(table, &mut stock, &container)?;
         if scene.insert(table.key.clone(), Value::Array(entities)).is_some() {
             let message = format!("the scene has two `{}`", table.key.escape_debug());
             return Err(container.fault(&codes::MALFORMED, message, PREAMBLE, end));

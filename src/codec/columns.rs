@@ -1,15 +1,16 @@
 //! Lists of entities as tables of numbers: entities that differ only in their numbers share a kind, and a kind is its
-//! tree with a null for each number.
+//! tree with a null for each number, each long list of numbers and each long text.
 //!
 //! No entity of the IR is named here: the tables describe themselves, so a file of an older version yields the tree of
 //! that version. Integers stay integers and floats keep every bit.
 
 use super::Decoded;
 use super::binary::Container;
+use super::run::{self, Run};
 use super::section::{Body, Element, Section};
 use crate::diag::codes;
 use serde::{Deserialize, Serialize};
-use serde_json::{Number, Value};
+use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// One list of the scene.
@@ -27,74 +28,94 @@ pub(super) struct Table {
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Kind {
-    /// The entity with a null for each number.
+    /// The entity with a null for each number, long list or long text.
     entity: Value,
     /// What each null stands for, in order.
-    numbers: Vec<Element>,
+    numbers: Vec<Slot>,
     /// The section with the floats, a record for each entity of this kind.
     floats: usize,
     /// The section with the integers, likewise.
     integers: usize,
+    /// Long lists and texts, entity by entity.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    runs: Vec<Run>,
 }
 
-/// The numbers taken out of the entities of one kind.
+/// What a null stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum Slot {
+    F64,
+    U32,
+    /// A long list or text, in a section of its own.
+    Run,
+}
+
+/// What was taken out of the entities of one kind.
 #[derive(Default)]
-struct Numbers {
-    kinds: Vec<Element>,
+struct Taken {
+    slots: Vec<Slot>,
     floats: Vec<u8>,
     integers: Vec<u8>,
+    runs: Vec<Run>,
 }
 
 /// Moves the numbers of `entities` into sections of `body`.
 pub(super) fn pack(key: String, entities: Vec<Value>, body: &mut Body) -> Table {
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
-    let mut kinds: Vec<(Value, Numbers)> = Vec::new();
+    let mut kinds: Vec<(Value, Taken)> = Vec::new();
     let mut order = Vec::new();
     for mut entity in entities {
-        let mut numbers = Numbers::default();
-        take(&mut entity, &mut numbers);
-        let name = format!("{entity}{:?}", numbers.kinds);
+        let mut taken = Taken::default();
+        take(&mut entity, &mut taken, body);
+        let name = format!("{entity}{:?}", taken.slots);
         let next = u32::try_from(found.len()).expect("kinds are fewer than entities, whose indices are u32");
         let index = *found.entry(name).or_insert(next);
         order.extend(index.to_le_bytes());
         match kinds.get_mut(index as usize) {
-            None => kinds.push((entity, numbers)),
+            None => kinds.push((entity, taken)),
             Some((_, earlier)) => {
-                earlier.floats.extend(numbers.floats);
-                earlier.integers.extend(numbers.integers);
+                earlier.floats.extend(taken.floats);
+                earlier.integers.extend(taken.integers);
+                earlier.runs.extend(taken.runs);
             }
         }
     }
     let order = body.push(Element::U32, 1, &order);
-    let kinds = kinds.into_iter().map(|(entity, numbers)| store(entity, numbers, body)).collect();
+    let kinds = kinds.into_iter().map(|(entity, taken)| store(entity, taken, body)).collect();
     Table { key, order, kinds }
 }
 
-fn store(entity: Value, numbers: Numbers, body: &mut Body) -> Kind {
-    let Numbers { kinds: numbers, floats, integers } = numbers;
-    let floats = body.push(Element::F64, count(&numbers, Element::F64), &floats);
-    let integers = body.push(Element::U32, count(&numbers, Element::U32), &integers);
-    Kind { entity, numbers, floats, integers }
+fn store(entity: Value, taken: Taken, body: &mut Body) -> Kind {
+    let Taken { slots: numbers, floats, integers, runs } = taken;
+    let floats = body.push(Element::F64, count(&numbers, Slot::F64), &floats);
+    let integers = body.push(Element::U32, count(&numbers, Slot::U32), &integers);
+    Kind { entity, numbers, floats, integers, runs }
 }
 
-fn count(numbers: &[Element], element: Element) -> usize {
-    numbers.iter().filter(|kind| **kind == element).count()
+fn count(numbers: &[Slot], slot: Slot) -> usize {
+    numbers.iter().filter(|kind| **kind == slot).count()
 }
 
-/// Replaces each number of the tree by a null. Integers beyond u32 stay: the IR has none.
-fn take(tree: &mut Value, numbers: &mut Numbers) {
+/// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay: the IR has none.
+fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body) {
+    if let Some(run) = run::store(tree, body) {
+        taken.runs.push(run);
+        taken.slots.push(Slot::Run);
+        *tree = Value::Null;
+        return;
+    }
     match tree {
         Value::Null | Value::Bool(_) | Value::String(_) => {}
-        Value::Array(items) => items.iter_mut().for_each(|item| take(item, numbers)),
-        Value::Object(members) => members.values_mut().for_each(|member| take(member, numbers)),
+        Value::Array(items) => items.iter_mut().for_each(|item| take(item, taken, body)),
+        Value::Object(members) => members.values_mut().for_each(|member| take(member, taken, body)),
         Value::Number(number) => {
-            let integer = number.as_u64().and_then(|integer| u32::try_from(integer).ok());
-            if let Some(integer) = integer {
-                numbers.integers.extend(integer.to_le_bytes());
-                numbers.kinds.push(Element::U32);
+            if let Some(integer) = run::as_u32(number) {
+                taken.integers.extend(integer.to_le_bytes());
+                taken.slots.push(Slot::U32);
             } else if let Some(float) = number.as_f64().filter(|_| number.is_f64()) {
-                numbers.floats.extend(float.to_le_bytes());
-                numbers.kinds.push(Element::F64);
+                taken.floats.extend(float.to_le_bytes());
+                taken.slots.push(Slot::F64);
             } else {
                 return;
             }
@@ -103,12 +124,35 @@ fn take(tree: &mut Value, numbers: &mut Numbers) {
     }
 }
 
-/// The list a table was packed from. Memory stays within a constant times the length of the file.
-pub(super) fn unpack(table: &Table, sections: &[Section], file: &Container) -> Decoded<Vec<Value>> {
+/// The sections of a file, and how much more may be made of them: memory stays within a constant times its length.
+pub(super) struct Stock<'a> {
+    sections: &'a [Section<'a>],
+    /// Which sections a run was made of: no two may be made of one.
+    spent: Vec<bool>,
+    /// How many bytes of text the kinds may still repeat.
+    text: usize,
+}
+
+impl<'a> Stock<'a> {
+    pub(super) fn new(sections: &'a [Section<'a>], file: &Container<'_>) -> Self {
+        Self { sections, spent: vec![false; sections.len()], text: file.bytes.len().saturating_mul(8) }
+    }
+
+    /// True for runs that are sound and of sections that no other run is made of.
+    fn spend(&mut self, runs: &[Run]) -> bool {
+        runs.iter().all(|run| {
+            let spent = self.spent.get_mut(run.section);
+            spent.is_some_and(|spent| !std::mem::replace(spent, true)) && run.is_sound(&self.sections[run.section])
+        })
+    }
+}
+
+/// The list a table was packed from.
+pub(super) fn unpack(table: &Table, stock: &mut Stock<'_>, file: &Container) -> Decoded<Vec<Value>> {
     let malformed = |what: &str| {
         file.fault(&codes::MALFORMED, format!("table `{}` {what}", table.key.escape_debug()), 0, file.bytes.len())
     };
-    let order = sections.get(table.order).filter(|order| order.holds(Element::U32, 1, order.len()));
+    let order = stock.sections.get(table.order).filter(|order| order.holds(Element::U32, 1, order.len()));
     let order = order.ok_or_else(|| malformed("has no section for the order of its entities"))?;
     let order: Vec<u32> = (0..order.len()).map(|at| order.u32(at)).collect();
     let mut records = vec![0_usize; table.kinds.len()];
@@ -116,14 +160,12 @@ pub(super) fn unpack(table: &Table, sections: &[Section], file: &Container) -> D
         *records.get_mut(*kind as usize).ok_or_else(|| malformed("names a kind that is not there"))? += 1;
     }
     let mut sources = Vec::new();
-    let mut size = 0_usize;
     for (kind, records) in table.kinds.iter().zip(records) {
-        size = size.saturating_add(records.saturating_mul(kind.entity.to_string().len()));
-        let source = kind.source(sections, records);
-        sources.push(source.ok_or_else(|| malformed("has sections of another length than it says"))?);
-    }
-    if size > 8 * file.bytes.len() {
-        return Err(malformed("repeats more text than the file can have been made from"));
+        let size = records.saturating_mul(kind.entity.to_string().len());
+        let left = stock.text.checked_sub(size);
+        stock.text = left.ok_or_else(|| malformed("repeats more text than the file can have been made from"))?;
+        let source = kind.source(stock.sections, records).filter(|_| stock.spend(&kind.runs));
+        sources.push(source.ok_or_else(|| malformed("has sections of another length or kind than it says"))?);
     }
     let mut entity = |kind: &u32| {
         let mut entity = table.kinds[*kind as usize].entity.clone();
@@ -133,25 +175,29 @@ pub(super) fn unpack(table: &Table, sections: &[Section], file: &Container) -> D
     Ok(order.iter().map(&mut entity).collect())
 }
 
-/// Where the numbers of one kind are read from.
+/// Where what the nulls of one kind stand for is read from.
 struct Source<'a> {
-    numbers: std::iter::Cycle<std::slice::Iter<'a, Element>>,
+    slots: std::iter::Cycle<std::slice::Iter<'a, Slot>>,
     floats: &'a Section<'a>,
     integers: &'a Section<'a>,
     next_float: usize,
     next_integer: usize,
+    runs: std::slice::Iter<'a, Run>,
+    sections: &'a [Section<'a>],
 }
 
 impl Kind {
     /// The source of this kind's numbers, if the sections hold `records` records of them.
     fn source<'a>(&'a self, sections: &'a [Section<'a>], records: usize) -> Option<Source<'a>> {
-        let Self { entity, numbers, floats, integers } = self;
-        let section = |index: &usize, element| {
-            sections.get(*index).filter(|section| section.holds(element, count(numbers, element), records))
+        let Self { entity, numbers, floats, integers, runs } = self;
+        let section = |index: &usize, element, slot| {
+            sections.get(*index).filter(|section| section.holds(element, count(numbers, slot), records))
         };
-        let (floats, integers) = (section(floats, Element::F64)?, section(integers, Element::U32)?);
-        let source = Source { numbers: numbers.iter().cycle(), floats, integers, next_float: 0, next_integer: 0 };
-        (nulls(entity) == numbers.len()).then_some(source)
+        let floats = section(floats, Element::F64, Slot::F64)?;
+        let integers = section(integers, Element::U32, Slot::U32)?;
+        let fits = nulls(entity) == numbers.len() && count(numbers, Slot::Run).checked_mul(records) == Some(runs.len());
+        let (slots, runs) = (numbers.iter().cycle(), runs.iter());
+        fits.then_some(Source { slots, floats, integers, next_float: 0, next_integer: 0, runs, sections })
     }
 }
 
@@ -164,7 +210,7 @@ fn nulls(tree: &Value) -> usize {
     }
 }
 
-/// Replaces each null by the next number.
+/// Replaces each null by what it stands for.
 fn put(tree: &mut Value, source: &mut Source) {
     match tree {
         Value::Bool(_) | Value::String(_) | Value::Number(_) => {}
@@ -176,15 +222,18 @@ fn put(tree: &mut Value, source: &mut Source) {
 
 impl Source<'_> {
     fn next(&mut self) -> Value {
-        match self.numbers.next().expect("there are as many numbers as nulls: checked in `Kind::source`") {
-            Element::F64 => {
+        match self.slots.next().expect("there are as many slots as nulls: checked in `Kind::source`") {
+            Slot::F64 => {
                 self.next_float += 1;
-                let number = Number::from_f64(self.floats.f64(self.next_float - 1));
-                Value::Number(number.expect("sections hold finite numbers: checked on opening"))
+                run::number(self.floats, self.next_float - 1)
             }
-            Element::U32 => {
+            Slot::U32 => {
                 self.next_integer += 1;
-                Value::from(self.integers.u32(self.next_integer - 1))
+                run::number(self.integers, self.next_integer - 1)
+            }
+            Slot::Run => {
+                let run = self.runs.next().expect("there are as many runs as slots: checked in `Kind::source`");
+                run.value(&self.sections[run.section])
             }
         }
     }

@@ -1,12 +1,13 @@
 //! The IR as bytes: a compact JSON text and a binary container with checksums, both with a version.
 //!
 //! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both forms hold the same
-//! tree of JSON values, so a step of [`upgrade`] is written once and serves both.
+//! tree of JSON values, so a step of `upgrade.rs` is written once and serves both.
 
 mod binary;
 mod columns;
 mod locate;
 mod print;
+mod run;
 mod schema;
 mod section;
 mod text;

@@ -1,4 +1,4 @@
-//! Sections: runs of little-endian numbers, each aligned to 64 bytes and guarded by a hash, with a table of them all.
+//! Sections: runs of little-endian numbers or of text, each aligned to 64 bytes and guarded by a hash, with a table of them all.
 //!
 //! There is one layout: in the order of the table, each at the next aligned byte, zeros between, nothing behind the
 //! last. So every bit of the file is in the header, in a section or a known zero, and a change of any is found.
@@ -18,6 +18,8 @@ pub(super) const ALIGNMENT: usize = 64;
 pub(super) enum Element {
     F64,
     U32,
+    /// Bytes of text.
+    U8,
 }
 
 impl Element {
@@ -25,6 +27,7 @@ impl Element {
         match self {
             Self::F64 => 8,
             Self::U32 => 4,
+            Self::U8 => 1,
         }
     }
 }
@@ -69,8 +72,9 @@ fn hash(bytes: &[u8]) -> String {
 /// A section whose place, hash and numbers are checked.
 pub(super) struct Section<'a> {
     bytes: &'a [u8],
-    element: Element,
-    stride: usize,
+    pub(super) element: Element,
+    /// Elements of one record.
+    pub(super) stride: usize,
 }
 
 impl Section<'_> {
@@ -86,9 +90,14 @@ impl Section<'_> {
         u32::from_le_bytes(*bytes)
     }
 
+    /// The text of a section of [`Element::U8`], if it is UTF-8.
+    pub(super) fn text(&self) -> Option<&str> {
+        std::str::from_utf8(self.bytes).ok().filter(|_| self.element == Element::U8)
+    }
+
     /// True if it is `records` records of `stride` elements.
     pub(super) fn holds(&self, element: Element, stride: usize, records: usize) -> bool {
-        self.element == element && self.stride == stride && self.len() == stride * records
+        self.element == element && self.stride == stride && Some(self.len()) == stride.checked_mul(records)
     }
 
     /// The count of elements.

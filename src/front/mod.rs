@@ -1,17 +1,21 @@
 //! Front ends: what people and tools write, lowered to the IR. One folder a language, and one for the files they name.
 
+pub mod assets;
 pub mod course;
 
 use crate::ir::{ImageId, MeshId};
 use crate::source::Span;
+use std::path::PathBuf;
 
-/// What a front end lets pass.
-#[derive(Clone, Copy, Debug, Default)]
+/// What a front end lets pass, and where it may look.
+#[derive(Clone, Debug, Default)]
 pub struct Options {
     /// Unknown keys are errors.
     pub strict: bool,
     /// Mistakes with one sensible repair are repaired, with a warning that says what was done.
     pub lenient: bool,
+    /// A folder beside that of the scene below which files named by the scene may lie.
+    pub asset_root: Option<PathBuf>,
 }
 
 /// A file that a scene names, for a place in the IR that waits for it.

@@ -1,7 +1,11 @@
-//! Pixels and pixel files: a picture as PNG (8 or 16 bit) or EXR, in memory; the same picture gives the same bytes.
+//! Pixels and pixel files, in memory: a picture written as PNG (8 or 16 bit) or EXR, the same bytes every time; PNG,
+//! JPEG and WebP read.
 
+mod decode;
 mod exr;
 mod png;
+
+pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode};
 
 use std::fmt;
 

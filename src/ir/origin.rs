@@ -24,6 +24,11 @@ pub enum Noun {
     Surface,
 }
 
+impl Noun {
+    /// How many kinds there are.
+    const COUNT: usize = Self::Surface as usize + 1;
+}
+
 /// A value of an entity, or all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each names the field of the IR it stands for")]
@@ -124,6 +129,7 @@ impl fmt::Display for Place {
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "a table, one line a field")]
 fn pointer_tail(noun: Noun, field: Field) -> &'static str {
     match field {
         Field::Whole => "",
@@ -189,34 +195,52 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 }
 
 /// The places of a scene and the spans they were written at; empty for a scene that was never text.
+///
+/// Each kind of entity has its own list: a front end meets the entities of a kind in order, but the kinds in turns, and
+/// so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
-    spans: Vec<(Place, Span)>,
-    sorted: bool,
+    lists: [List; Noun::COUNT],
+}
+
+#[derive(Clone, Debug, Default)]
+struct List {
+    spans: Vec<(u32, Field, Span)>,
+    unsorted: bool,
+}
+
+impl List {
+    fn find(&self, index: u32, field: Field) -> Option<Span> {
+        let found = self.spans.binary_search_by_key(&(index, field), |(index, field, _)| (*index, *field));
+        found.ok().map(|at| self.spans[at].2)
+    }
 }
 
 impl Origins {
     /// Remembers where the value at `place` was written; without a span nothing happens.
     pub fn record(&mut self, place: Place, span: impl Into<Option<Span>>) {
+        let Place { noun, index, field } = place;
         if let Some(span) = span.into() {
-            self.sorted = self.spans.last().is_none_or(|(last, _)| self.sorted && *last < place);
-            self.spans.push((place, span));
+            let list = &mut self.lists[noun as usize];
+            list.unsorted |= list.spans.last().is_some_and(|(last, before, _)| (*last, *before) >= (index, field));
+            list.spans.push((index, field, span));
         }
     }
 
     /// Brings the places into order; call it once, after the last `record`.
     pub fn finish(&mut self) {
-        if !self.sorted {
-            self.spans.sort_by_key(|(place, _)| *place);
-            self.sorted = true;
+        for list in self.lists.iter_mut().filter(|list| list.unsorted) {
+            list.spans.sort_by_key(|(index, field, _)| (*index, *field));
+            list.unsorted = false;
         }
     }
 
     /// The span the value was written at; a value that was a default has that of its entity.
     #[must_use]
     pub fn span(&self, place: Place) -> Option<Span> {
-        let find = |place| self.spans.binary_search_by_key(&place, |(place, _)| *place).ok().map(|at| self.spans[at].1);
-        find(place).or_else(|| find(Place { field: Field::Whole, ..place }))
+        let Place { noun, index, field } = place;
+        let list = &self.lists[noun as usize];
+        list.find(index, field).or_else(|| list.find(index, Field::Whole))
     }
 }
 

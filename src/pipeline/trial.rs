@@ -31,9 +31,9 @@ pub fn lower(bytes: &[u8]) {
 /// # Panics
 /// If there is neither a proof nor an error, or both, or a proven scene is another one after encoding and decoding.
 pub fn check(bytes: &[u8]) {
-    let (map, file) = source(bytes);
+    let (mut map, file) = source(bytes);
     let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = load(file, &map, &options, &mut sink);
+    let lowered = load(file, &mut map, &options, &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| prove(lowered, &options, &mut sink));
     assert_eq!(proven.is_none(), sink.has_errors(), "a proof or an error, never both");
     if let (Some(Lowered { scene, origins: _ }), Some(_)) = (lowered, proven) {
@@ -71,9 +71,9 @@ pub fn validate(bytes: &[u8]) {
 /// # Panics
 /// If a pixel is not in [0, 1].
 pub fn picture(bytes: &[u8]) {
-    let (map, file) = source(bytes);
+    let (mut map, file) = source(bytes);
     let (mut sink, options) = (Sink::default(), Options::default());
-    let Some(mut lowered) = load(file, &map, &options, &mut sink) else { return };
+    let Some(mut lowered) = load(file, &mut map, &options, &mut sink) else { return };
     make_tiny(&mut lowered.scene);
     let Some(proven) = prove(&lowered, &options, &mut sink) else { return };
     let film = render(&proven, &Job::default(), 1, &|_| true).expect("the system gives one thread");

@@ -4,13 +4,12 @@ use super::ray::Ray;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
 use crate::valid::{Camera, Lens};
 
-/// The point of the image plane that sub-sample (i, j) of pixel (x, y) looks at, `factor` sub-samples a side:
-/// `center + (x + (i+½)/factor − width/2)·right + (height/2 − y − (j+½)/factor)·up`.
+/// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1] from its left and
+/// upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y − place₁)·up`.
 #[must_use]
-pub fn image_point(camera: &Camera, [x, y]: [u32; 2], [i, j]: [u32; 2], factor: u32) -> Vec3 {
-    let factor = f64::from(factor);
-    let across = f64::from(x) + (f64::from(i) + 0.5) / factor - f64::from(camera.width.get()) / 2.0;
-    let upward = f64::from(camera.height.get()) / 2.0 - f64::from(y) - (f64::from(j) + 0.5) / factor;
+pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
+    let across = f64::from(x) + place[0] - f64::from(camera.width.get()) / 2.0;
+    let upward = f64::from(camera.height.get()) / 2.0 - f64::from(y) - place[1];
     camera.center + camera.right * across + camera.up * upward
 }
 

@@ -7,7 +7,7 @@ use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
-use crate::valid::Mode;
+use crate::valid::{Mode, Pattern};
 use rayon::prelude::*;
 
 impl World {
@@ -71,7 +71,9 @@ impl Tracer<'_> {
         let mut sample = 0_u64;
         for j in 0..factor {
             for i in 0..factor {
-                let target = image_point(camera, pixel, [i, j], factor);
+                let cell = u64::from(j) * u64::from(factor) + u64::from(i);
+                let place = place_in_pixel(scene.settings().pattern, [i, j], factor, Key::new(pixel, cell));
+                let target = image_point(camera, pixel, place);
                 for k in 0..points {
                     let ray = camera_ray(lens_point(camera, k), target);
                     let radiance = self.radiance(ray, Key::new(pixel, sample));
@@ -89,10 +91,25 @@ impl Tracer<'_> {
     /// The distance to what the middle of a pixel shows.
     fn depth(&mut self, pixel: [u32; 2]) -> Option<f64> {
         let camera = self.scene().camera();
-        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0, 0], 1));
+        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)
     }
 }
+
+/// Where in its pixel a sub-sample lies, each coordinate in [0, 1].
+fn place_in_pixel(pattern: Pattern, cell: [u32; 2], factor: u32, key: Key) -> [f64; 2] {
+    let key = key.child(PATTERN);
+    let random = || [key.uniform(0), key.uniform(1)];
+    let within = |offset: [f64; 2]| [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(factor));
+    match pattern {
+        Pattern::Grid => within([0.5; 2]),
+        Pattern::Jitter => within(random()),
+        Pattern::Random => random(),
+    }
+}
+
+/// Keeps the numbers of sub-samples apart from those of the paths through them.
+const PATTERN: u64 = u64::MAX;
 
 /// Turns distances into brightness: `(t_max − t)/(t_max − t_min)` over all that was hit.
 fn normalize_depths(depths: &mut [Option<f64>]) {

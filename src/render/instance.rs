@@ -112,6 +112,11 @@ impl Instance {
         Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
     }
 
+    /// Whether the mesh has normals of its own.
+    pub(super) fn has_shading_normals(&self) -> bool {
+        !self.mesh.mesh.normals.is_empty()
+    }
+
     /// What the mesh says about a point of triangle `part`: shading normal, uv and the direction of growing u.
     pub(super) fn details(&self, point: Vec3, part: u32) -> Details {
         let triangle = &self.mesh.triangles[part as usize];

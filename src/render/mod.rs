@@ -19,6 +19,7 @@ mod sampler;
 mod shade;
 mod shape;
 mod sphere;
+mod texture;
 mod torus;
 mod triangle;
 mod whitted;

@@ -13,6 +13,7 @@ const FLAT: f64 = 64.0;
 
 /// A quadrilateral ready to be hit.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "nearly all are flat")]
 pub enum Quad {
     /// A flat one.
     Flat {

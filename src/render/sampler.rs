@@ -25,7 +25,7 @@ impl Key {
     }
 
     /// A number in [0, 1) for one dimension of this point.
-    fn uniform(self, dimension: u64) -> f64 {
+    pub(super) fn uniform(self, dimension: u64) -> f64 {
         /// 2⁻⁵³.
         const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
         (self.bits(dimension) >> 11) as f64 * UNIT
@@ -38,6 +38,30 @@ fn mix(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     x ^ (x >> 31)
+}
+
+/// Points spread evenly over a disc of radius 1: a golden spiral, turned by a number of the key.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct DiscPoints {
+    count: u32,
+    /// In units of 2⁻⁶⁴ turns.
+    rotation: u64,
+}
+
+impl DiscPoints {
+    /// A set of `count` points.
+    #[must_use]
+    pub(super) fn new(count: u32, key: Key) -> Self {
+        Self { count, rotation: key.bits(2) }
+    }
+
+    /// Point k.
+    #[must_use]
+    pub(super) fn point(&self, k: u32) -> [f64; 2] {
+        let r = ((f64::from(k) + 0.5) / f64::from(self.count)).sqrt();
+        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        [r * x, r * y]
+    }
 }
 
 /// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.

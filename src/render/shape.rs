@@ -26,7 +26,7 @@ pub enum Shape {
     /// A triangle, and the texture coordinates of its corners.
     Triangle(Triangle, Option<[[f64; 2]; 3]>),
     /// A quadrilateral.
-    Quad(Quad),
+    Quad(Box<Quad>),
     /// A disc.
     Disc(Disc),
     /// A cylinder.
@@ -50,7 +50,7 @@ impl Shape {
             valid::Shape::Triangle(valid::Triangle { vertices, uvs }) => {
                 Self::Triangle(Triangle::new(*vertices)?, *uvs)
             }
-            valid::Shape::Quad(valid::Quad { vertices }) => Self::Quad(Quad::new(*vertices)),
+            valid::Shape::Quad(valid::Quad { vertices }) => Self::Quad(Box::new(Quad::new(*vertices))),
             valid::Shape::Disc(valid::Disc { center, normal, radius }) => {
                 Self::Disc(Disc::new(*center, *normal, radius.get()))
             }
@@ -99,6 +99,21 @@ impl Shape {
             Self::Cone(cone) => cone.interaction(ray, t),
             Self::Torus(torus) => torus.interaction(ray, t),
             Self::Instance(instance) => instance.interaction(ray, t, part),
+        }
+    }
+
+    /// Whether its shading normals are not the geometric ones.
+    pub(super) fn has_shading_normals(&self) -> bool {
+        match self {
+            Self::Instance(instance) => instance.has_shading_normals(),
+            Self::Sphere(..)
+            | Self::Plane(_)
+            | Self::Triangle(..)
+            | Self::Quad(_)
+            | Self::Disc(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_)
+            | Self::Torus(_) => false,
         }
     }
 

@@ -31,6 +31,11 @@ impl Sphere {
         let a = d.dot(d);
         let b = -f.dot(d);
 
+        // Leave spheres behind the origin: both roots have the sign of `b` where `c` is surely above 0.
+        if b < 0.0 && f2 > r2 * (1.0 + 32.0 * U) {
+            return None;
+        }
+
         // Compute the discriminant from the foot of the perpendicular.
         let foot = f + d * (b / a);
         let foot2 = foot.dot(foot);

@@ -7,7 +7,7 @@
 
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
-use crate::math::{Vec3, cross, dot};
+use crate::math::{Vec3, cross, dot, ldexp};
 
 /// Steps of a bracketed search: bisection alone would need 60.
 const MAX_STEPS: usize = 100;
@@ -24,7 +24,7 @@ pub struct Torus {
     minor: f64,
 }
 
-/// A ray near the torus, in units of its outer radius.
+/// A ray near the torus, in units of about its outer radius.
 struct Line {
     from: Vec3,
     step: Vec3,
@@ -34,12 +34,15 @@ struct Line {
 }
 
 impl Line {
-    /// The signed distance of the point at `s` from the surface.
+    /// The signed distance of the point at `s` from the surface, from the factored difference of squares: its digits
+    /// survive where the ray only grazes.
     fn distance(&self, s: f64) -> f64 {
         let p = self.from + self.step * s;
-        let z = p.dot(self.axis);
-        let off = cross(p, self.axis).length() - self.major;
-        (off * off + z * z).sqrt() - self.minor
+        let z = p.dot(self.axis).abs();
+        let off = (cross(p, self.axis).length() - self.major).abs();
+        let (large, small) = if z > off { (z, off) } else { (off, z) };
+        let square = small * small + (large - self.minor) * (large + self.minor);
+        square / ((off * off + z * z).sqrt() + self.minor)
     }
 
     /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no square term, as
@@ -110,14 +113,23 @@ fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> [f64; 3] {
         if a >= b || (value(a) < 0.0) == (value(b) < 0.0) {
             continue;
         }
+        let mut at = 0.5 * (a + b);
         for _ in 0..MAX_STEPS {
-            let middle = 0.5 * (a + b);
-            if middle <= a || middle >= b {
+            let height = value(at);
+            if (height > 0.0) == rises {
+                b = at
+            } else {
+                a = at
+            }
+            // A Newton step, or half the bracket where it leaves it.
+            let newton = at - height / (3.0 * at * at + linear);
+            let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+            if next == at || next <= a || next >= b {
                 break;
             }
-            if (value(middle) > 0.0) == rises { b = middle } else { a = middle }
+            at = next;
         }
-        roots[count] = b;
+        roots[count] = at;
         count += 1;
     }
     roots
@@ -143,22 +155,23 @@ impl Torus {
         if half2 < 0.0 || half2.is_nan() {
             return None;
         }
-        // Measure in units of the outer radius.
+        // Measure in a power of two near the outer radius: that rounds nothing.
+        let unit = ldexp(1.0, libm::ilogb(outer));
         let length = length2.sqrt();
         let line = Line {
-            from: foot / outer,
+            from: foot / unit,
             step: d / length,
             axis: self.axis,
-            major: self.major / outer,
-            minor: self.minor / outer,
+            major: self.major / unit,
+            minor: self.minor / unit,
         };
-        let half = half2.sqrt() / outer;
-        let start = -nearest * length / outer;
+        let half = half2.sqrt() / unit;
+        let start = -nearest * length / unit;
         let low = if start > -half { start } else { -half };
         if low >= half {
             return None;
         }
-        let t = nearest + line.first_root(low, half)? * (outer / length);
+        let t = nearest + line.first_root(low, half)? * (unit / length);
         (t > 0.0).then_some(t)
     }
 

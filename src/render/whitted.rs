@@ -2,10 +2,12 @@
 //! for shaded display", CACM 23 (1980)), as a loop with a throughput: a long path takes no call stack.
 
 use super::film::Counts;
+use super::instance::Details;
 use super::optics::{reflect, refract};
 use super::ray::{Interaction, Ray};
 use super::sampler::{Key, Lobe};
 use super::shade::View;
+use super::texture::{Frame, look_up};
 use super::world::World;
 use crate::math::Vec3;
 use crate::valid::{Mode, Phong, ValidScene};
@@ -65,7 +67,7 @@ impl<'world> Tracer<'world> {
         let depth = self.scene().settings().max_depth;
         let mut sum = Vec3::ZERO;
         let first = Path { ray, beta: 1.0, bounces_left: depth, key };
-        if let Some(view) = self.view(&first.ray) {
+        if let Some(view) = self.view(&first.ray, first.key) {
             self.counts.hits += 1;
             sum += self.local(&view);
             if let Mode::Phong = self.scene().settings().mode {
@@ -73,7 +75,7 @@ impl<'world> Tracer<'world> {
             }
         }
         while let Some(path) = self.next_path() {
-            if let Some(view) = self.view(&path.ray) {
+            if let Some(view) = self.view(&path.ray, path.key) {
                 sum += self.local(&view) * path.beta;
                 self.branch(&path, &view);
             }
@@ -89,17 +91,48 @@ impl<'world> Tracer<'world> {
         Some(hit.t)
     }
 
-    fn view(&self, ray: &Ray) -> Option<View<'world>> {
+    /// What a ray sees, with the maps of its material applied.
+    fn view(&self, ray: &Ray, key: Key) -> Option<View<'world>> {
         let hit = self.world.nearest(ray)?;
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
-        let faces_away = ray.direction.dot(interaction.normal) > 0.0;
-        Some(View {
+        let material = &self.scene().materials()[surface.material];
+        let mut view = View {
             interaction,
-            normal: if faces_away { -interaction.normal } else { interaction.normal },
+            normal: interaction.normal,
             to_viewer: -ray.direction,
-            material: &self.world.scene.materials()[surface.material],
-        })
+            material,
+            color: material.color,
+            ks: material.ks.get(),
+            key,
+        };
+        if material.has_maps() || surface.shape.has_shading_normals() {
+            let details = surface.shape.details(ray, &interaction, hit.part);
+            self.apply_maps(&mut view, &details);
+        }
+        if ray.direction.dot(interaction.normal) > 0.0 {
+            view.normal = -view.normal;
+        }
+        Some(view)
+    }
+
+    /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps its own.
+    fn apply_maps(&self, view: &mut View<'_>, details: &Details) {
+        let scene = self.scene();
+        view.normal = details.normal.unwrap_or(view.normal);
+        let Some(uv) = details.uv else { return };
+        if let Some(map) = view.material.color_map {
+            view.color = look_up(scene, map, uv);
+        }
+        if let Some(map) = view.material.specular_map {
+            view.ks *= look_up(scene, map, uv).x;
+        }
+        let Some(frame) = details.tangent.and_then(|tangent| Frame::new(view.normal, tangent)) else { return };
+        if let Some(map) = view.material.normal_map {
+            view.normal = frame.mapped(scene, map, uv);
+        } else if let Some(bump) = view.material.bump {
+            view.normal = frame.bumped(scene, bump, uv);
+        }
     }
 
     fn local(&mut self, view: &View<'_>) -> Vec3 {
@@ -118,10 +151,10 @@ impl<'world> Tracer<'world> {
         let direction = path.ray.direction;
         let refracted = transmit(direction, view);
         let mirror_weight = match refracted {
-            Some(_) => view.material.ks.get(),
-            None => view.material.ks.get() + view.material.kt.get(),
+            Some(_) => view.ks,
+            None => view.ks + view.material.kt.get(),
         };
-        let mirror = reflect(direction, view.normal);
+        let mirror = mirror_direction(direction, view);
         self.put_off_mirror(path, view, mirror, mirror_weight);
         if let Some(refracted) = refracted {
             self.put_off(path, &view.interaction, refracted, view.material.kt.get(), 1);
@@ -181,6 +214,13 @@ impl Fan {
         }
         None
     }
+}
+
+/// The mirror direction at the shading normal, or at the geometric one where that would lead into the surface.
+fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
+    let mirror = reflect(direction, view.normal);
+    let leads_inside = mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
+    if leads_inside { reflect(direction, view.interaction.normal) } else { mirror }
 }
 
 /// The refracted direction, if the material lets light through and the angle does.

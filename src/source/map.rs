@@ -1,5 +1,7 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
+use std::path::{Path, PathBuf};
+
 /// Names one file of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileId(u32);
@@ -40,6 +42,8 @@ pub struct LineColumn {
 
 struct SourceFile {
     name: String,
+    /// Where it was read from, unless it came through a stream.
+    path: Option<PathBuf>,
     bytes: Vec<u8>,
     line_starts: Vec<u32>,
 }
@@ -56,10 +60,28 @@ impl SourceMap {
     /// # Panics
     /// If the file holds 4 GiB or more; [`super::Loader`] refuses such files before.
     pub fn add(&mut self, name: impl Into<String>, bytes: Vec<u8>) -> FileId {
+        self.push(name.into(), None, bytes)
+    }
+
+    /// Adds a file that was read from `path`, which is its name too.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_from(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
+        self.push(path.display().to_string(), Some(path.to_owned()), bytes)
+    }
+
+    fn push(&mut self, name: String, path: Option<PathBuf>, bytes: Vec<u8>) -> FileId {
         assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(SourceFile { name: name.into(), line_starts: line_starts(&bytes), bytes });
+        self.files.push(SourceFile { name, path, line_starts: line_starts(&bytes), bytes });
         id
+    }
+
+    /// The folder the file was read from; none for what came through a stream.
+    #[must_use]
+    pub fn folder(&self, file: FileId) -> Option<&Path> {
+        self.file(file).path.as_deref().map(|path| path.parent().unwrap_or(Path::new("")))
     }
 
     /// The name the user gave the file.
@@ -115,8 +137,7 @@ impl SourceMap {
 }
 
 fn line_starts(bytes: &[u8]) -> Vec<u32> {
-    let after = |(index, _)| to_u32(index + 1);
-    std::iter::once(0).chain(bytes.iter().enumerate().filter(|(_, b)| **b == b'\n').map(after)).collect()
+    std::iter::once(0).chain(memchr::memchr_iter(b'\n', bytes).map(|index| to_u32(index + 1))).collect()
 }
 
 fn to_u32(count: usize) -> u32 {

@@ -2,6 +2,8 @@
 
 mod loader;
 mod map;
+mod search;
 
 pub use loader::{LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
+pub use search::{Found, Missing, Search};

@@ -36,7 +36,7 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
         refuse("the pixels of an image are not Base64".to_owned());
         return None;
     };
-    let wanted = u64::from(*width) * u64::from(*height) * 3;
+    let wanted = (u64::from(*width) * u64::from(*height)).saturating_mul(3);
     if wanted == 0 || bytes.len() as u64 != wanted {
         refuse(format!("an image of {width} × {height} pixels has {} bytes of {wanted}", bytes.len()));
         return None;

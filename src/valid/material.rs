@@ -35,6 +35,15 @@ pub struct Phong {
     pub bump: Option<Bump>,
 }
 
+impl Phong {
+    /// Whether any value is looked up by uv.
+    #[must_use]
+    pub fn has_maps(&self) -> bool {
+        let maps = [self.color_map, self.specular_map, self.normal_map];
+        self.bump.is_some() || maps.iter().any(Option::is_some)
+    }
+}
+
 /// A height field over a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Bump {

@@ -275,8 +275,8 @@ impl Proof<'_, '_> {
         let mesh = self.check.handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
         let columns = world_from_object.map(|column| self.point(column, Field::InstanceTransform));
         let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
-        let axes = [0, 1, 2].map(|k| unit_scale(columns[k]).map(|(axis, _)| axis.normalize()));
-        let volume = axes[0]?.dot(axes[1]?.cross(axes[2]?)).abs();
+        let axes = [0, 1, 2].map(|k| unit_scale(columns[k]).map_or(Vec3::ZERO, |(axis, _)| axis.normalize()));
+        let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
         let smallest = columns[..3].iter().map(|axis| axis.abs().max_element()).fold(f64::INFINITY, f64::min);
         if volume < 1e-9 || smallest < SMALLEST {
             let finding = Diagnostic::new(&codes::BAD_ROTATION, "a mesh is placed by a map that flattens it");

@@ -39,7 +39,7 @@ fn intersection(case: &Value, world: &World) -> (bool, String) {
     }
     let Some(hit) = hit else { return (true, "miss".to_owned()) };
     let t_error = relative_error(hit.t, &expect["t"]);
-    let interaction = world.surfaces[hit.surface].shape.interaction(&ray, hit.t);
+    let interaction = world.surfaces[hit.surface].shape.interaction(&ray, hit.t, hit.part);
     let flip = |n: Vec3| vector_error(n, &expect["n"]);
     let n_error = match tolerance["n_sign"].as_str().unwrap() {
         "either" => flip(interaction.normal).min(flip(-interaction.normal)),
@@ -61,7 +61,7 @@ fn chains() {
         };
         let first = ray(&case["input"]["ray"]);
         let hit = world.nearest(&first).unwrap();
-        let interaction = world.surfaces[hit.surface].shape.interaction(&first, hit.t);
+        let interaction = world.surfaces[hit.surface].shape.interaction(&first, hit.t, hit.part);
         let tolerance = number(&case["tol"]["t2_abs_u"]) * U;
         let directions = case["input"]["secondary_dirs"].as_array().unwrap();
         for (k, (direction, expect)) in

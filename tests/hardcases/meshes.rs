@@ -149,11 +149,9 @@ fn rays_through_shared_edges_hit() {
 
 fn brute_force(world: &World, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray);
-    let hits = world
-        .surfaces
-        .iter()
-        .enumerate()
-        .filter_map(|(surface, s)| s.shape.intersect(ray, &shear).map(|t| Hit { t, surface }));
+    let hits = world.surfaces.iter().enumerate().filter_map(|(surface, s)| {
+        s.shape.intersect(ray, &shear, f64::INFINITY).map(|(t, part)| Hit { t, surface, part })
+    });
     hits.reduce(|best, hit| if hit.t < best.t { hit } else { best })
 }
 

@@ -59,7 +59,7 @@ fn a_mirror_box_keeps_its_rays() {
                 report.line(id(&case), false, &format!("escaped at bounce {bounce}"));
                 break;
             };
-            let interaction = world.surfaces[hit.surface].shape.interaction(&ray, hit.t);
+            let interaction = world.surfaces[hit.surface].shape.interaction(&ray, hit.t, hit.part);
             if let Some(expect) = expected.iter().find(|expect| number(&expect["bounce"]) as u64 == bounce) {
                 let error = vector_error(interaction.point, &expect["p"]);
                 let passed = error <= 2.2e-15 * bounce as f64;

@@ -13,7 +13,7 @@ fn film(scene: &ir::Scene) -> Film {
 }
 
 fn light(position: [f64; 3], color: [f64; 3]) -> Light {
-    Light::Point(PointLight { position, color })
+    Light::Point(PointLight { position, color, radius: 0.0 })
 }
 
 /// cam-02, cam-05, cam-06.

@@ -18,6 +18,10 @@ pub(crate) fn white() -> ir::Material {
         kt: 0.0,
         eta: 1.0,
         glossy_samples: 1,
+        color_map: None,
+        specular_map: None,
+        normal_map: None,
+        bump: None,
     })
 }
 
@@ -33,7 +37,17 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             size: [1, 1],
             lens: ir::Lens { radius: 0.0, samples: 1 },
         },
-        settings: ir::Settings { mode: ir::Mode::Phong, shadows: true, max_depth: 0, supersampling: 1 },
+        settings: ir::Settings {
+            mode: ir::Mode::Phong,
+            shadows: true,
+            max_depth: 0,
+            supersampling: 1,
+            pattern: ir::Pattern::Grid,
+            light_samples: 1,
+        },
+        images: Vec::new(),
+        textures: Vec::new(),
+        meshes: Vec::new(),
         lights: Vec::new(),
         materials: vec![white()],
         surfaces: shapes.into_iter().map(surface).collect(),
@@ -57,7 +71,7 @@ pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {
-    ir::Shape::Sphere(ir::Sphere { center, radius })
+    ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: None })
 }
 
 pub(crate) fn plane(center: [f64; 3], normal: [f64; 3]) -> ir::Shape {
@@ -65,16 +79,47 @@ pub(crate) fn plane(center: [f64; 3], normal: [f64; 3]) -> ir::Shape {
 }
 
 pub(crate) fn triangle(vertices: [[f64; 3]; 3]) -> ir::Shape {
-    ir::Shape::Triangle(ir::Triangle { vertices })
+    ir::Shape::Triangle(ir::Triangle { vertices, uvs: None })
 }
 
 /// The shape of a case, or `None` for one that this version does not have.
 pub(crate) fn shape(value: &Value) -> Option<ir::Shape> {
     let point = |key: &str| vector(&value[key]).to_array();
-    match value["type"].as_str().unwrap() {
-        "sphere" => Some(sphere(point("center"), number(&value["radius"]))),
-        "plane" => Some(plane(point("center"), point("normal"))),
-        "triangle" => Some(triangle([0, 1, 2].map(|k| vector(&value["v"][k]).to_array()))),
-        _ => None,
-    }
+    let length = |key: &str| number(&value[key]);
+    let vertices = |k: usize| vector(&value["v"][k]).to_array();
+    Some(match value["type"].as_str().unwrap() {
+        "sphere" => sphere(point("center"), length("radius")),
+        "plane" => plane(point("center"), point("normal")),
+        "triangle" => triangle([0, 1, 2].map(vertices)),
+        "disc" => disc(point("center"), point("normal"), length("radius")),
+        "cylinder" => cylinder(point("base"), point("axis"), length("height"), length("radius")),
+        "cone" => {
+            let axis = vector(&value["axis"]);
+            cone(point("base"), (axis * (length("height") / axis.length())).to_array(), length("radius"))
+        }
+        "torus" => torus(point("center"), point("axis"), length("R"), length("r")),
+        "quad" => {
+            let (origin, u, v) = (vector(&value["origin"]), vector(&value["u"]), vector(&value["v"]));
+            ir::Shape::Quad(ir::Quad {
+                vertices: [origin, origin + u, origin + u + v, origin + v].map(|p| p.to_array()),
+            })
+        }
+        _ => return None,
+    })
+}
+
+pub(crate) fn disc(center: [f64; 3], normal: [f64; 3], radius: f64) -> ir::Shape {
+    ir::Shape::Disc(ir::Disc { center, normal, radius })
+}
+
+pub(crate) fn cylinder(base: [f64; 3], axis: [f64; 3], height: f64, radius: f64) -> ir::Shape {
+    ir::Shape::Cylinder(ir::Cylinder { base, axis, height, radius })
+}
+
+pub(crate) fn cone(base: [f64; 3], up: [f64; 3], radius: f64) -> ir::Shape {
+    ir::Shape::Cone(ir::Cone { base, up, radius })
+}
+
+pub(crate) fn torus(center: [f64; 3], axis: [f64; 3], major: f64, minor: f64) -> ir::Shape {
+    ir::Shape::Torus(ir::Torus { center, axis, major, minor })
 }

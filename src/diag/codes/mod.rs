@@ -1,12 +1,13 @@
 //! The table of codes, one row each, in families that are the passes; a code is stable for ever.
 //!
-//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `VA` values, `IR` the container, `RD` what a render found.
+//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values, `IR` the container, `RD` what a render found.
 
 use std::fmt;
 
 mod container;
 mod files;
 mod picture;
+mod references;
 mod shape;
 mod syntax;
 mod values;
@@ -14,6 +15,7 @@ mod values;
 pub use container::*;
 pub use files::*;
 pub use picture::*;
+pub use references::*;
 pub use shape::*;
 pub use syntax::*;
 pub use values::*;
@@ -68,7 +70,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, VA, IR, RD].into_iter().flatten().copied()
+    [IO, SY, SC, RE, VA, IR, RD].into_iter().flatten().copied()
 }
 
 /// The code with the id given, in any case.

@@ -18,6 +18,11 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     format!("::{command} file={file}{at},title={}::{}\n", diagnostic.code, data(&body(diagnostic)))
 }
 
+/// That `count` findings of the file `name` were left out.
+pub(super) fn more(name: &str, count: usize) -> String {
+    format!("::notice file={}::and {count} more\n", property(name))
+}
+
 fn position(start: Point, end: Point) -> String {
     let lines = format!(",line={},endLine={}", start.line, end.line);
     // Columns are understood only within one line.

@@ -80,12 +80,8 @@ impl Printer {
         let hidden = found.len() - shown.len() + sink.dropped();
         self.omitted += hidden;
         let each = |one: &dyn Fn(&Diagnostic) -> String| shown.iter().map(|diagnostic| one(diagnostic)).collect();
-        match self.format {
-            Format::Human if found.is_empty() => String::new(),
-            Format::Human => {
-                let findings: String = each(&|diagnostic| human::finding(diagnostic, map, &self.options));
-                findings + &human::summary(name, &found, hidden)
-            }
+        let text: String = match self.format {
+            Format::Human => each(&|diagnostic| human::finding(diagnostic, map, &self.options)),
             Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
             Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),
             Format::Github => each(&|diagnostic| github::finding(name, diagnostic, map)),
@@ -93,6 +89,17 @@ impl Printer {
                 self.results.extend(shown.iter().map(|diagnostic| sarif::result(name, diagnostic, map)));
                 String::new()
             }
+        };
+        text + &self.after(name, &found, hidden)
+    }
+
+    /// The text after the findings of one file.
+    fn after(&self, name: &str, found: &[&Diagnostic], hidden: usize) -> String {
+        match self.format {
+            Format::Human if !found.is_empty() => human::summary(name, found, hidden),
+            Format::Short if hidden > 0 => format!("{}: and {hidden} more\n", text::clean(name)),
+            Format::Github if hidden > 0 => github::more(name, hidden),
+            Format::Human | Format::Short | Format::Github | Format::Json | Format::Sarif => String::new(),
         }
     }
 
@@ -102,8 +109,6 @@ impl Printer {
         match self.format {
             Format::Sarif => sarif::log(&self.results, self.omitted),
             Format::Json if self.omitted > 0 => json::omitted(self.omitted),
-            Format::Short if self.omitted > 0 => format!("and {} more\n", self.omitted),
-            Format::Github if self.omitted > 0 => format!("::notice::and {} more\n", self.omitted),
             Format::Human | Format::Short | Format::Json | Format::Github => String::new(),
         }
     }

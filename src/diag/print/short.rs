@@ -13,6 +13,5 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         (None, Some(pointer)) => format!("{}: {}", clean(name), clean(pointer)),
         (None, None) => clean(name).into_owned(),
     };
-    let Diagnostic { code, severity: level, message, .. } = diagnostic;
-    format!("{place}: {}[{code}]: {}\n", severity(*level), clean(message))
+    format!("{place}: {}[{}]: {}\n", severity(diagnostic.severity), diagnostic.code, clean(&diagnostic.message))
 }

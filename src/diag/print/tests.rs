@@ -201,7 +201,7 @@ fn errors_come_before_warnings_when_not_all_fit() {
     assert_snapshot!(print(Format::Short, options, b"0123456789", flood), @r#"
     a b.yaml:1:1: warning[SC001]: warning 0
     a b.yaml:1:3: error[VA001]: error
-    and 4 more
+    a b.yaml: and 4 more
     "#);
     assert!(print(Format::Human, options, b"0123456789", flood).contains("and 4 more\na b.yaml: 1 error, 5 warnings;"));
     assert!(print(Format::Json, options, b"0123456789", flood).ends_with("\n{\"omitted\":4}\n"));

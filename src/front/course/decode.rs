@@ -43,17 +43,21 @@ impl<T> Spanned<T> {
     }
 }
 
-/// A value that may be shared: the node it was read from, if that has an anchor.
+/// A value that aliases and merge keys may bring us to again: its node, and the value the first time.
 pub(super) struct Shared<T> {
-    pub(super) value: T,
-    pub(super) anchor: Option<NodeId>,
+    pub(super) node: NodeId,
+    pub(super) value: Option<T>,
 }
 
 impl<T: Value> Value for Shared<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let target = context.tree.target(node);
-        let anchor = context.tree.anchored(target).then_some(target);
-        Some(Self { value: T::decode(node, context)?, anchor })
+        if context.decoded.contains(&target) {
+            return Some(Self { node: target, value: None });
+        }
+        let value = T::decode(node, context)?;
+        context.decoded.insert(target);
+        Some(Self { node: target, value: Some(value) })
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
@@ -131,7 +135,7 @@ pub(super) struct Entry<'a> {
 const REMEMBERED: usize = 10_000;
 
 /// Aliases and merge keys may make a reader look at this many entries more than the text has nodes.
-const MAX_REPEATED: usize = 4_000_000;
+const MAX_REPEATED: usize = 1_500_000;
 
 /// One pass over a tree: the findings, and what the pass remembers.
 pub(super) struct Context<'a> {
@@ -143,6 +147,8 @@ pub(super) struct Context<'a> {
     /// Other spellings met, once each, with the first place.
     pub(super) spellings: Vec<(&'static str, &'static str, Span)>,
     sink: &'a mut Sink,
+    /// The shared values decoded so far.
+    decoded: BTreeSet<NodeId>,
     /// What has been said about which bytes: an alias brings a reader to the same place again.
     said: BTreeSet<(Span, &'static str)>,
     steps: usize,
@@ -157,6 +163,7 @@ impl<'a> Context<'a> {
             entries: Vec::new(),
             spellings: Vec::new(),
             sink,
+            decoded: BTreeSet::new(),
             said: BTreeSet::new(),
             steps: 0,
         }
@@ -178,6 +185,11 @@ impl<'a> Context<'a> {
             self.said.insert((span, code.id));
         }
         self.sink.push(make(Diagnostic::new(code, message()).at(span, "")));
+    }
+
+    /// How many different findings there were so far.
+    pub(super) fn findings(&self) -> usize {
+        self.said.len()
     }
 
     /// Reports a value of the wrong type. Always `None`.
@@ -211,7 +223,7 @@ impl<'a> Context<'a> {
     /// A span that stands for a node as a whole: its first pair if it is a map, else its first line.
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
-            Some((key, value)) if self.tree.shape(node) == Shape::Map => match self.tree.shape(value) {
+            Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {
                 Shape::Word(_) | Shape::Text(_) => self.tree.span(key).to(self.tree.span(value)),
                 Shape::List | Shape::Map => self.tree.span(key),
             },
@@ -221,7 +233,7 @@ impl<'a> Context<'a> {
 
     /// The node, or only its head if it is a map or list in block form.
     fn first_line(&self, node: NodeId) -> Span {
-        if self.tree.shape(node) == Shape::Map { self.head(node) } else { self.tree.span(node) }
+        if self.tree.is_map(node) { self.head(node) } else { self.tree.span(node) }
     }
 
     /// Counts work that aliases can repeat. False once there was too much of it, which is reported once.

@@ -4,7 +4,6 @@ use super::decode::{Shared, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::record::{Found, keys, record};
-use super::tree::NodeId;
 use super::value::{Color, FileName};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
@@ -59,11 +58,11 @@ const GREY: ir::Phong = ir::Phong {
 impl Lowering {
     /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
     pub(super) fn material(&mut self, material: &Spanned<Shared<Material>>) -> Option<MaterialId> {
-        let Shared { value, anchor } = &material.value;
-        let known = |(node, _): &&(NodeId, MaterialId)| Some(*node) == *anchor;
-        if let Some((_, id)) = self.shared.iter().find(known) {
+        let Shared { node, value } = &material.value;
+        if let Some(id) = self.shared.get(node) {
             return Some(*id);
         }
+        let value = value.as_ref()?;
         let color = match (&value.color, &value.texture) {
             (Found::Read(color), _) => *color,
             (Found::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
@@ -71,8 +70,8 @@ impl Lowering {
         };
         let phong = self.phong(value, color.value);
         let id = self.add_material(phong);
-        self.material_origins(id, material, color.span);
-        self.shared.extend(anchor.map(|node| (node, id)));
+        self.material_origins(id, value, material.span, color.span);
+        self.shared.insert(*node, id);
         Some(id)
     }
 
@@ -100,12 +99,12 @@ impl Lowering {
         if let Found::Read(file) = file { Some(self.files.texture(&mut self.scene, file)) } else { None }
     }
 
-    fn material_origins(&mut self, id: MaterialId, material: &Spanned<Shared<Material>>, color: Option<Span>) {
+    fn material_origins(&mut self, id: MaterialId, material: &Material, whole: Option<Span>, color: Option<Span>) {
         let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
-            &material.value.value;
+            material;
         let map = |file: &Found<Spanned<FileName>>| if let Found::Read(file) = file { file.span } else { None };
         for (field, span) in [
-            (Field::Whole, material.span),
+            (Field::Whole, whole),
             (Field::Color, color),
             (Field::Ka, ka.span),
             (Field::Kd, kd.span),

@@ -20,6 +20,9 @@ enum Reading {
 
 /// Reads a word by the core schema.
 fn read(word: &str) -> Reading {
+    if let Some(value) = short_decimal(word) {
+        return Reading::Number(value);
+    }
     let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
     if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(word, ".nan" | ".NaN" | ".NAN") {
         return Reading::NotFinite;
@@ -34,6 +37,31 @@ fn read(word: &str) -> Reading {
         Some(_) => Reading::NotFinite,
         None => Reading::NoNumber,
     }
+}
+
+/// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the power of ten are exact
+/// in 64 bits, so their quotient is the nearest number.
+fn short_decimal(word: &str) -> Option<f64> {
+    const TENS: [f64; 15] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14];
+    let (sign, digits) = match word.as_bytes() {
+        [b'-', digits @ ..] => (-1.0, digits),
+        [b'+', digits @ ..] | digits => (1.0, digits),
+    };
+    let mut point = None;
+    let mut whole = 0_u64;
+    for (at, byte) in digits.iter().take(16).enumerate() {
+        match byte {
+            b'0'..=b'9' => whole = whole * 10 + u64::from(byte - b'0'),
+            b'.' if point.is_none() => point = Some(at),
+            _ => return None,
+        }
+    }
+    if digits.len() > 15 || digits.len() == usize::from(point.is_some()) {
+        return None;
+    }
+    let decimals = point.map_or(0, |at| digits.len() - at - 1);
+    #[expect(clippy::cast_precision_loss, reason = "15 digits are below 2^53")]
+    Some(sign * (whole as f64 / TENS[decimals]))
 }
 
 fn in_base(digits: &str, radix: u32) -> Option<f64> {
@@ -208,6 +236,11 @@ mod tests {
         }
         for word in ["+1.5E-3", "0o17"] {
             assert!(value(word).is_some_and(f64::is_finite), "{word}");
+        }
+        for word in
+            ["0.1", "-123456789.12345", ".99999999999999", "-0", "+7.", "0.30000000000000004", "123456789012345678"]
+        {
+            assert_eq!(value(word).map(f64::to_bits), word.parse().ok().map(f64::to_bits), "{word}");
         }
         for word in ["1e400", ".inf", "-.INF", ".nan"] {
             assert_eq!(value(word), Some(f64::INFINITY), "{word}");

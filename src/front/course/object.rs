@@ -15,7 +15,7 @@ use super::solid::{Cuboid, Prism, Tetrahedron};
 use super::spelling::{clip, list, nearest};
 use super::sphere::Sphere;
 use super::torus::Torus;
-use super::tree::{NodeId, Shape};
+use super::tree::NodeId;
 use super::triangle::Triangle;
 use super::value::Text;
 use crate::diag::{Severity, codes};
@@ -67,7 +67,7 @@ kinds! {
 
 impl Value for Object {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        if context.tree.shape(node) != Shape::Map {
+        if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
         let Some(kind) = look_up("type", node, context) else {

@@ -7,10 +7,11 @@ use super::decode::{Context, Entry, Key, Spanned, Value, describe};
 use super::form;
 use super::schema::Definitions;
 use super::spelling::{clip, list, nearest};
-use super::tree::{NodeId, Shape};
+use super::tree::NodeId;
 use crate::diag::codes;
 use crate::source::Span;
 use serde_json::Value as Json;
+use std::collections::BTreeSet;
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
 pub(super) type Rows = &'static [&'static [&'static str]];
@@ -142,18 +143,21 @@ impl<T> Found<T> {
 
 /// What a field holds: one value, or a group of them.
 pub(super) trait Slot: Sized {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self>;
+    /// Reads the values of the entries at the places given; `None` if one can't be read, and then the sink has an error.
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self>;
+
+    /// The schema of each value.
     fn schema(definitions: &mut Definitions) -> Json;
 }
 
 impl<T: Value> Slot for Spanned<T> {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
-        let entry = entries.first()?;
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
+        let Entry { key: text, key_node, value: node, claimed: _ } = context.entries[*places.first()?];
         let tree = context.tree;
-        let key = tree.span(entry.key_node);
-        context.key = Key { text: tree.text(entry.key_node)?, span: Some(key) };
-        let value = T::decode(entry.value, context)?;
-        let span = if tree.shape(entry.value) == Shape::Map { key } else { tree.span(entry.value) };
+        let key = tree.span(key_node);
+        context.key = Key { text, span: Some(key) };
+        let value = T::decode(node, context)?;
+        let span = if tree.is_map(node) { key } else { tree.span(node) };
         Some(Self { value, span: Some(span) })
     }
 
@@ -163,9 +167,9 @@ impl<T: Value> Slot for Spanned<T> {
 }
 
 impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
-    fn take(entries: &[Entry<'_>], context: &mut Context<'_>) -> Option<Self> {
+    fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
         // Collected first, so that a mistake in one value does not hide those in the others.
-        let read: Vec<_> = entries.chunks(1).map(|entry| Spanned::take(entry, context)).collect();
+        let read: Vec<_> = places.chunks(1).map(|place| Spanned::take(place, context)).collect();
         let read: Option<Vec<_>> = read.into_iter().collect();
         read?.try_into().ok()
     }
@@ -175,15 +179,17 @@ impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
     }
 }
 
+/// So many findings get a suggestion.
+const ADVISED: usize = 100;
+
 /// The longest row of any field.
 const MAX_ROW: usize = 4;
 
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct Reader {
     record: &'static Record,
-    next: usize,
-    /// The fields that were there, one bit each.
-    present: u32,
+    /// The row of keys under which each field so far was there, if it was.
+    rows: Vec<Option<&'static [&'static str]>>,
     /// Where the map's entries start among those of the context.
     from: usize,
     /// Stands for the map in findings.
@@ -193,37 +199,34 @@ pub(super) struct Reader {
 impl Reader {
     /// Opens a map; anything else is reported.
     pub(super) fn open(record: &'static Record, node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        if context.tree.shape(node) != Shape::Map {
+        if !context.tree.is_map(node) {
             return context.expected(node, "a map");
         }
         let head = context.key.span.unwrap_or_else(|| context.head(node));
         let from = context.entries.len();
         gather(node, context);
-        Some(Self { record, next: 0, present: 0, from, head })
+        Some(Self { record, rows: Vec::with_capacity(record.fields.len()), from, head })
     }
 
     /// The next field of the declaration.
     pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> Found<S> {
-        let field = &self.record.fields[self.next];
-        let bit = 1 << self.next;
-        self.next += 1;
-        let Some((row, entries)) = self.row(field, context) else { return Found::Absent };
-        self.present |= bit;
-        for (key, canonical) in row.iter().zip(field.rows[0]) {
-            for entry in context.entries[self.from..].iter_mut().filter(|entry| entry.key == *key) {
-                entry.claimed = true;
-            }
-            if let Some(entry) = entries.iter().find(|entry| entry.key == *key) {
-                context.note_spelling(key, canonical, context.tree.span(entry.key_node));
+        let field = &self.record.fields[self.rows.len()];
+        let found = self.row(field, context);
+        self.rows.push(found.map(|(row, _)| row));
+        let Some((row, found)) = found else { return Found::Absent };
+        for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
+            context.entries[at].claimed = true;
+            if key != canonical {
+                context.note_spelling(key, canonical, context.tree.span(context.entries[at].key_node));
             }
         }
-        S::take(&entries[..row.len()], context).map_or(Found::Broken, Found::Read)
+        S::take(&found[..row.len()], context).map_or(Found::Broken, Found::Read)
     }
 
-    /// The first row of the field whose keys are all there and not yet used.
-    fn row<'a>(&self, field: &Field, context: &Context<'a>) -> Option<(&'static [&'static str], [Entry<'a>; MAX_ROW])> {
+    /// The first row of the field whose keys are all there and not yet used, and where.
+    fn row(&self, field: &Field, context: &Context<'_>) -> Option<(&'static [&'static str], [usize; MAX_ROW])> {
         let entries = &context.entries[self.from..];
-        let find = |key: &str| entries.iter().find(|entry| entry.key == key && !entry.claimed).copied();
+        let find = |key: &str| Some(self.from + entries.iter().position(|entry| entry.key == key && !entry.claimed)?);
         field.rows.iter().find_map(|row| {
             let mut found = [find(row[0])?; MAX_ROW];
             for (slot, key) in found.iter_mut().zip(*row).skip(1) {
@@ -235,7 +238,7 @@ impl Reader {
 
     /// Reports what was left unread and what is missing. False if the map has none of the forms it may have.
     pub(super) fn close(self, context: &mut Context<'_>) -> bool {
-        let mut partial = 0;
+        let mut partial = 0_u32;
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed {
@@ -244,7 +247,7 @@ impl Reader {
         }
         context.entries.truncate(self.from);
         let required = |field: &Field| matches!(field.need, Need::Required);
-        let absent = |at: &usize| (self.present | partial) & (1 << at) == 0;
+        let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();
         let missing = fields.filter(|(at, field)| absent(at) && required(field));
         let missing: Vec<_> = missing.flat_map(|(_, field)| field.rows[0].iter().copied()).collect();
@@ -252,7 +255,7 @@ impl Reader {
             missing_keys(self.record.word, self.head, &missing, context);
         }
         // Which form was meant is unclear while a group is incomplete, which was reported.
-        partial != 0 || form::check(self.record, self.head, |at| self.present & (1 << at) != 0, context)
+        partial != 0 || form::check(self.record, self.head, |at| self.rows[at].is_some(), context)
     }
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is incomplete.
@@ -260,7 +263,11 @@ impl Reader {
         let Record { word, fields, .. } = self.record;
         let span = context.tree.span(entry.key_node);
         let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
-        let has = |at: usize| self.present & (1 << at) != 0;
+        // Another of the same key was used: a duplicate, which is reported already, or hidden by what merges it.
+        if self.rows.iter().flatten().any(|row| row.contains(&entry.key)) {
+            return 0;
+        }
+        let has = |at: usize| self.rows[at].is_some();
         let used = fields.iter().enumerate().find(|(at, field)| has(*at) && part_of(field));
         if let Some((_, field)) = used {
             let message = || format!("`{}` says again what another key of the {word} says", entry.key);
@@ -278,7 +285,9 @@ impl Reader {
                 .report(&codes::MISSING_KEY, span, message, |d| d.at(span, "one of a group").hint("give all of them"));
             return 1 << at;
         }
-        let open = fields.iter().enumerate().filter(|(at, _)| !has(*at)).map(|(_, field)| field);
+        // Who made so many mistakes does not look for advice on each, and each costs a comparison with every key.
+        let advise = context.findings() < ADVISED;
+        let open = fields.iter().enumerate().filter(|_| advise).filter(|(at, _)| !has(*at)).map(|(_, field)| field);
         let meant = nearest(entry.key, open.flat_map(|field| field.rows.iter().copied().flatten().copied()));
         unknown_key(word, meant, entry, context);
         0
@@ -312,6 +321,8 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut 
 fn gather(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
     let mut open = vec![map];
+    // Merging a map again changes nothing; without this, merges of merges would grow without bound.
+    let mut seen = BTreeSet::new();
     while let Some(map) = open.pop() {
         if !context.step(map) {
             return;
@@ -319,10 +330,10 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
         let mut merged = Vec::new();
         for (key_node, value) in tree.pairs(map) {
             if !context.step(key_node) {
-                return;
+                break;
             }
             match tree.text(key_node) {
-                Some("<<") if tree.shape(value) == Shape::List => merged.extend(tree.items(value)),
+                Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),
                 Some("<<") => merged.push(value),
                 Some(key) => context.entries.push(Entry { key, key_node, value, claimed: false }),
                 None => {
@@ -333,8 +344,8 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
             }
         }
         for map in merged.into_iter().rev() {
-            if tree.shape(map) == Shape::Map {
-                open.push(map);
+            if tree.is_map(map) {
+                open.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
                 context.key = Key { text: "<<", span: Some(tree.span(map)) };
                 context.expected::<()>(map, "a map or a list of maps");

@@ -16,7 +16,7 @@ fn tuple<T, const N: usize>(
     mut item: impl FnMut(NodeId, &mut Context<'_>) -> Option<T>,
 ) -> Option<[T; N]> {
     let tree = context.tree;
-    if tree.shape(node) != Shape::List {
+    if !tree.is_list(node) {
         return context.expected(node, what);
     }
     // An alias may bring us to a very long list very often: look no further than needed.

@@ -19,7 +19,6 @@ pub(in super::super) fn parse<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink
     let tree = Tree { source, base, file, nodes: Vec::new(), cooked: Vec::new() };
     let mut build = Build { tree, open: Vec::new(), anchors: Vec::new(), ended: false, last_end: 0, sink };
     let options = granit_parser::options! {
-        emit_comments: false,
         flow_nesting_limit: MAX_DEPTH,
         block_nesting_limit: MAX_DEPTH,
     };
@@ -112,7 +111,7 @@ impl<'s> Build<'s, '_> {
             (Kind::Cooked, to_u32(self.tree.cooked.len() - 1))
         };
         self.last_end = end;
-        self.push(Node { start, end, link, kind, anchored: anchor != 0 }, anchor);
+        self.push(Node { start, end, link, kind }, anchor);
         Ok(())
     }
 
@@ -127,7 +126,7 @@ impl<'s> Build<'s, '_> {
             ));
         }
         self.last_end = end;
-        self.push(Node { start, end, link: target.0, kind: Kind::Alias, anchored: false }, 0);
+        self.push(Node { start, end, link: target.0, kind: Kind::Alias }, 0);
         Ok(())
     }
 
@@ -136,7 +135,7 @@ impl<'s> Build<'s, '_> {
             return Err(Box::new(fault::too_deep(self.span(start, end.max(start + 1)))));
         }
         self.last_end = end;
-        let node = self.push(Node { start, end, link: 0, kind, anchored: anchor != 0 }, anchor);
+        let node = self.push(Node { start, end, link: 0, kind }, anchor);
         self.open.push(Open { node, flow: style == StructureStyle::Flow });
         Ok(())
     }

@@ -37,7 +37,6 @@ struct Node {
     end: u32,
     link: u32,
     kind: Kind,
-    anchored: bool,
 }
 
 /// What a node is, aliases followed.
@@ -84,11 +83,6 @@ impl Tree<'_> {
         if node.kind == Kind::Alias { NodeId(node.link) } else { id }
     }
 
-    /// Whether the node carries an anchor, so that aliases may share it.
-    pub(super) fn anchored(&self, id: NodeId) -> bool {
-        self.node(id).anchored
-    }
-
     /// Where the node was written; for an alias, where the alias stands.
     pub(super) fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);
@@ -107,6 +101,16 @@ impl Tree<'_> {
             Kind::Map => Shape::Map,
             Kind::Alias => unreachable!("`target` follows aliases, and an alias can't carry an anchor"),
         }
+    }
+
+    /// Whether the node is a map, aliases followed.
+    pub(super) fn is_map(&self, id: NodeId) -> bool {
+        self.node(self.target(id)).kind == Kind::Map
+    }
+
+    /// Whether the node is a list, aliases followed.
+    pub(super) fn is_list(&self, id: NodeId) -> bool {
+        self.node(self.target(id)).kind == Kind::List
     }
 
     /// The text of a word, quoted or not.
@@ -167,7 +171,6 @@ mod tests {
             let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
             assert_eq!(words, [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]);
             assert_eq!(tree.target(pairs[1].1), pairs[0].1);
-            assert!(tree.anchored(pairs[0].1));
             let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
             assert_eq!((list.start, list.end, alias.start, alias.end), (9, 27, 31, 33));
         });

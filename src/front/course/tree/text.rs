@@ -82,17 +82,22 @@ const fn classes() -> [Class; 256] {
 fn unfit(file: FileId, text: &str, base: usize) -> Option<Diagnostic> {
     let bytes = text.as_bytes();
     let mut word_start = 0;
-    for (at, byte) in bytes.iter().enumerate() {
-        match CLASSES[usize::from(*byte)] {
-            Class::Ordinary if at - word_start > MAX_WORD => return Some(too_long(file, base + word_start)),
-            Class::Ordinary => {}
-            Class::Separator => word_start = at + 1,
-            Class::Control => return Some(control(file, base + at, 1, u32::from(*byte))),
-            Class::MaybeControl => match bytes.get(at + 1).copied() {
-                Some(0x85) | None => {}
-                Some(second) if second >= 0xa0 => {}
-                Some(second) => return Some(control(file, base + at, 2, u32::from(second))),
-            },
+    // In pieces, so that a word of many pieces is seen after two of them.
+    for (piece, start) in bytes.chunks(MAX_WORD).zip((0..).step_by(MAX_WORD)) {
+        for (at, byte) in (start..).zip(piece) {
+            match CLASSES[usize::from(*byte)] {
+                Class::Ordinary => {}
+                Class::Separator => word_start = at + 1,
+                Class::Control => return Some(control(file, base + at, 1, u32::from(*byte))),
+                Class::MaybeControl => match bytes.get(at + 1).copied() {
+                    Some(0x85) | None => {}
+                    Some(second) if second >= 0xa0 => {}
+                    Some(second) => return Some(control(file, base + at, 2, u32::from(second))),
+                },
+            }
+        }
+        if word_start + MAX_WORD < start + piece.len() {
+            return Some(too_long(file, base + word_start));
         }
     }
     None

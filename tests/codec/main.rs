@@ -6,14 +6,14 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and reads what it checks"
 )]
+mod scenes;
+
 use proptest::prelude::*;
 use rtc::codec::{self, Form};
 use rtc::diag::{Diagnostic, Sink};
-use rtc::ir::{
-    Camera, Gooch, Lens, Light, Material, MaterialId, Mode, Phong, Plane, PointLight, Scene, Settings, Shape, Sphere,
-    Surface, Triangle,
-};
+use rtc::ir::{Scene, Shape, Texture};
 use rtc::source::SourceMap;
+use scenes::scene;
 use std::path::{Path, PathBuf};
 
 fn frozen(name: &str) -> PathBuf {
@@ -37,64 +37,6 @@ fn decode(form: Form, bytes: &[u8]) -> Result<Scene, Box<(Diagnostic, String)>> 
 fn fault(form: Form, bytes: &[u8]) -> (&'static str, String, String) {
     let (finding, place) = *decode(form, bytes).unwrap_err();
     (finding.code.id, place, finding.pointer.unwrap_or_default())
-}
-
-fn number() -> impl Strategy<Value = f64> {
-    let odd = prop::sample::select(vec![0.0, -0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, -2.2e-308, 0.1, 1e22, 4.0]);
-    prop_oneof![odd, any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite())]
-}
-
-fn triple() -> impl Strategy<Value = [f64; 3]> {
-    [number(), number(), number()]
-}
-
-fn camera() -> impl Strategy<Value = Camera> {
-    let lens = (number(), any::<u32>()).prop_map(|(radius, samples)| Lens { radius, samples });
-    (triple(), triple(), triple(), triple(), any::<[u32; 2]>(), lens)
-        .prop_map(|(eye, center, right, up, size, lens)| Camera { eye, center, right, up, size, lens })
-}
-
-fn settings() -> impl Strategy<Value = Settings> {
-    let gooch = [number(), number(), number(), number()]
-        .prop_map(|[b, y, alpha, beta]| Mode::Gooch(Gooch { b, y, alpha, beta }));
-    let mode = prop_oneof![Just(Mode::Phong), Just(Mode::Zbuffer), Just(Mode::Normal), gooch];
-    (mode, any::<bool>(), any::<u32>(), any::<u32>()).prop_map(|(mode, shadows, max_depth, supersampling)| Settings {
-        mode,
-        shadows,
-        max_depth,
-        supersampling,
-    })
-}
-
-fn light() -> impl Strategy<Value = Light> {
-    (triple(), triple()).prop_map(|(position, color)| Light::Point(PointLight { position, color }))
-}
-
-fn material() -> impl Strategy<Value = Material> {
-    (triple(), triple(), triple(), any::<u32>()).prop_map(|(color, [ka, kd, ks], [n, kt, eta], glossy_samples)| {
-        Material::Phong(Phong { color, ka, kd, ks, n, kt, eta, glossy_samples })
-    })
-}
-
-fn surface() -> impl Strategy<Value = Surface> {
-    let shape = prop_oneof![
-        (triple(), number()).prop_map(|(center, radius)| Shape::Sphere(Sphere { center, radius })),
-        (triple(), triple()).prop_map(|(center, normal)| Shape::Plane(Plane { center, normal })),
-        [triple(), triple(), triple()].prop_map(|vertices| Shape::Triangle(Triangle { vertices })),
-    ];
-    (shape, any::<u32>()).prop_map(|(shape, material)| Surface { shape, material: MaterialId(material) })
-}
-
-prop_compose! {
-    fn scene()(
-        camera in camera(),
-        settings in settings(),
-        lights in prop::collection::vec(light(), 0..4),
-        materials in prop::collection::vec(material(), 0..4),
-        surfaces in prop::collection::vec(surface(), 0..9),
-    ) -> Scene {
-        Scene { camera, settings, lights, materials, surfaces }
-    }
 }
 
 proptest! {
@@ -131,6 +73,11 @@ fn small() -> Scene {
     decode(Form::Text, &std::fs::read(frozen("v1/scene.json")).unwrap()).unwrap()
 }
 
+/// A scene with an image and a mesh, both long.
+fn large() -> Scene {
+    decode(Form::Text, &std::fs::read(frozen("v2/scene.json")).unwrap()).unwrap()
+}
+
 #[test]
 fn a_number_that_is_not_finite_is_not_stored() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -140,7 +87,7 @@ fn a_number_that_is_not_finite_is_not_stored() {
     }
 }
 
-/// The files of version 1 as they were written when it was new. They are never rewritten.
+/// The files of each version as they were written when it was new. They are never rewritten.
 #[test]
 fn frozen_files_decode() {
     let text = small();
@@ -148,13 +95,22 @@ fn frozen_files_decode() {
     assert_eq!(decode(Form::Text, &std::fs::read(frozen("v0/scene.json")).unwrap()).unwrap(), text);
     let Shape::Sphere(sphere) = &text.surfaces[0].shape else { panic!("the first surface is a sphere") };
     assert_eq!((sphere.radius, text.settings.supersampling, text.surfaces.len()), (59.9, 4, 3));
+    let text = large();
+    assert_eq!(decode(Form::Binary, &std::fs::read(frozen("v2/scene.rtir")).unwrap()).unwrap(), text);
+    assert_eq!((text.meshes[0].positions[35], text.meshes[0].triangles.len()), ([0.5, 0.5, 0.125], 50));
+    assert_eq!((text.images[0].pixels.len(), &text.textures[1]), (512, &Texture::Uv));
 }
 
 #[test]
 fn every_flipped_bit_of_a_container_is_found() {
-    let file = codec::encode(Form::Binary, &small()).unwrap();
+    for scene in [small(), large()] {
+        flip_every_bit(&codec::encode(Form::Binary, &scene).unwrap());
+    }
+}
+
+fn flip_every_bit(file: &[u8]) {
     for bit in 0..8 * file.len() {
-        let mut bytes = file.clone();
+        let mut bytes = file.to_vec();
         bytes[bit / 8] ^= 1 << (bit % 8);
         assert_eq!(codec::recognise(&bytes), Some(Form::Binary), "bit {bit}");
         let (id, _, _) = fault(Form::Binary, &bytes);
@@ -169,7 +125,7 @@ fn every_flipped_bit_of_a_container_is_found() {
 
 #[test]
 fn every_truncation_of_a_container_is_found() {
-    let file = codec::encode(Form::Binary, &small()).unwrap();
+    let file = codec::encode(Form::Binary, &large()).unwrap();
     for length in 1..file.len() {
         assert_eq!(codec::recognise(&file[..length]), Some(Form::Binary), "length {length}");
         assert_eq!(fault(Form::Binary, &file[..length]).0, "IR005", "length {length}");
@@ -232,8 +188,8 @@ fn parts_that_do_not_fit_together_are_refused() {
         (r#""radius":null"#, r#""radius":[null,null]"#, "IR007"),
         (r#""radius":null"#, r#""radios":null"#, "IR003"),
         (r#""shadows":true"#, r#""shadows":"yes""#, "IR003"),
-        (r#"{"irVersion":1"#, r#"{"irVersion":2"#, "IR001"),
-        (r#"{"irVersion":1"#, r#"{"irVersion":-2"#, "IR007"),
+        (r#"{"irVersion":2"#, r#"{"irVersion":3"#, "IR001"),
+        (r#"{"irVersion":2"#, r#"{"irVersion":-2"#, "IR007"),
     ];
     for (old, new, expected) in cases {
         let bad = with_header(&file, |header| {
@@ -242,6 +198,33 @@ fn parts_that_do_not_fit_together_are_refused() {
         });
         assert_eq!(fault(Form::Binary, &bad).0, expected, "{new}");
     }
+}
+
+#[test]
+fn long_lists_and_texts_have_sections_of_their_own() {
+    let mut scene = large();
+    let file = codec::encode(Form::Binary, &scene).unwrap();
+    let cases = [
+        (r#""nested":true"#, r#""nested":false"#, "IR007"),
+        (r#""nested":false"#, r#""nested":true"#, "IR007"),
+        (r#"{"section":12,"#, r#"{"section":13,"#, "IR007"),
+        (r#"{"section":12,"#, r#"{"section":99,"#, "IR007"),
+        (r#""runs":["#, r#""runs":[{"section":3,"nested":false},"#, "IR007"),
+    ];
+    for (old, new, expected) in cases {
+        let bad = with_header(&file, |header| {
+            assert!(header.contains(old), "{old} is not in {header}");
+            header.replacen(old, new, 1)
+        });
+        assert_eq!(fault(Form::Binary, &bad).0, expected, "{new}");
+    }
+    let header = |file: &[u8]| u32::from_le_bytes(file[12..16].try_into().unwrap());
+    let before = header(&file);
+    scene.meshes[0].positions = vec![[0.5; 3]; 10_000];
+    scene.images[0].pixels = "A".repeat(30_000);
+    let file = codec::encode(Form::Binary, &scene).unwrap();
+    assert!(header(&file) < before + 100, "the header does not grow with what is in sections");
+    assert_eq!(decode(Form::Binary, &file).unwrap(), scene);
 }
 
 /// A short file can't ask for much memory: here each of 2 000 records would repeat 30 KB of text.
@@ -261,7 +244,7 @@ fn newer_files_say_so_where_the_version_stands() {
     let text = "{\"irVersion\": 7, \"spectra\": []}";
     let (finding, place) = *decode(Form::Text, text.as_bytes()).unwrap_err();
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
-    assert_eq!(finding.message, "IR version 7 is newer than 1, the newest this rtc reads");
+    assert_eq!(finding.message, "IR version 7 is newer than 2, the newest this rtc reads");
     let mut file = codec::encode(Form::Binary, &small()).unwrap();
     file[8] = 2;
     let file = with_header(&file, |header| header);
@@ -280,11 +263,11 @@ fn faults_of_a_text_are_located() {
         ("59.9", "NaN", "IR002", "N", ""),
         ("\"radius\": 59.9", "\"size\": 59.9", "IR003", "\"size\"", "/surfaces/0/shape/sphere/size"),
         ("\"shadows\": true", "\"shadows\": true, \"shadows\": true", "IR003", "\"shadows\"", "/settings/shadows"),
-        ("\"irVersion\": 1", "\"irVersion\": 1, \"irVersion\": 1", "IR003", "\"irVersion\"", "/irVersion"),
+        ("\"irVersion\": 2", "\"irVersion\": 2, \"irVersion\": 2", "IR003", "\"irVersion\"", "/irVersion"),
         ("\"maxDepth\": 2", "\"maxDepth\": -2", "IR003", "-2", "/settings/maxDepth"),
         ("\"supersampling\": 4", "\"supersampling\": null", "IR003", "null", "/settings/supersampling"),
         ("\"mode\": \"phong\"", "\"mode\": \"ü\"", "IR003", "\"ü\"", "/settings/mode"),
-        ("\"irVersion\": 1", "\"irVersion\": \"1\"", "IR003", "\"1\"", "/irVersion"),
+        ("\"irVersion\": 2", "\"irVersion\": \"2\"", "IR003", "\"2\"", "/irVersion"),
     ];
     for (old, new, code, place, pointer) in cases {
         assert!(file.contains(old), "{old} is not in {file}");
@@ -296,7 +279,7 @@ fn faults_of_a_text_are_located() {
 
 #[test]
 fn hostile_texts_are_errors() {
-    let deep = format!("{{\"irVersion\": 1, \"camera\": {}", "[".repeat(100_000));
+    let deep = format!("{{\"irVersion\": 2, \"camera\": {}", "[".repeat(100_000));
     let deep_old = format!("{{\"irVersion\": 0, \"camera\": {}{}}}", "[".repeat(100_000), "]".repeat(100_000));
     for text in [deep.as_str(), &deep_old, "", "{", "\u{feff}", "null", "[]", "{\"irVersion\": 1e400}"] {
         assert!(decode(Form::Text, text.as_bytes()).is_err());

@@ -1,0 +1,87 @@
+//! Checks a made-up scene of as many spheres as asked for and prints the size of its text and the peak of memory above
+//! it. `benches/check-cost.sh` runs it under callgrind.
+
+#![expect(
+    clippy::unwrap_used,
+    unsafe_code,
+    reason = "a measurement stops at the first surprise; an allocator is unsafe"
+)]
+use rtc::diag::Sink;
+use rtc::pipeline;
+use rtc::source::SourceMap;
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::fmt::Write as _;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+struct Watching;
+
+static LIVE: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: everything is passed on to the system's allocator as it came.
+unsafe impl GlobalAlloc for Watching {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        PEAK.fetch_max(LIVE.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        LIVE.fetch_sub(layout.size(), Relaxed);
+        PEAK.fetch_max(LIVE.fetch_add(size, Relaxed) + size, Relaxed);
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.fetch_sub(layout.size(), Relaxed);
+        // SAFETY: the caller's promise is passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Watching = Watching;
+
+/// Spheres on a winding line, in the layout of the course's files, about 180 bytes each.
+fn text(spheres: u32) -> String {
+    let mut text =
+        "Eye: [200, 200, 1000]\nLights:\n- position: [-200, 600, 1500]\n  color: [1, 1, 1]\nObjects:\n".to_owned();
+    for number in 0..spheres {
+        let step = |period: u32| f64::from(number % period) * 1.25;
+        writeln!(
+            text,
+            "- type: sphere\n  position: [{:.7}, {:.7}, {:.7}]\n  radius: {:.4}\n  material:\n    color: [{:.4}, 0.5000, 0.2500]\n    \
+             ka: 0.2\n    kd: 0.7\n    ks: 0.5\n    n: 64",
+            step(401) + 0.125,
+            step(397) - 0.125,
+            -step(5003),
+            step(16) + 0.5,
+            step(7) / 10.0,
+        )
+        .unwrap();
+    }
+    text
+}
+
+#[inline(never)]
+fn text_to_proof(bytes: Vec<u8>) -> bool {
+    let mut map = SourceMap::default();
+    let file = map.add("spheres", bytes);
+    let mut sink = Sink::default();
+    let options = pipeline::Options::default();
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink);
+    lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink)).is_some()
+}
+
+#[expect(clippy::print_stdout, reason = "it prints what it measured")]
+fn main() {
+    let spheres = std::env::args().nth(1).map_or(5_000, |number| number.parse().unwrap());
+    let mut bytes = text(spheres).into_bytes();
+    bytes.shrink_to_fit();
+    let size = bytes.len();
+    PEAK.store(LIVE.load(Relaxed), Relaxed);
+    let before = LIVE.load(Relaxed);
+    assert!(text_to_proof(bytes), "the scene is sound");
+    println!("{spheres} spheres, {size} bytes of text: {} bytes above it at the peak", PEAK.load(Relaxed) - before);
+}

@@ -1,0 +1,107 @@
+//! Long lists of numbers and long texts, each in a section of its own: the corners of a mesh, the pixels of an image.
+//!
+//! Which they are is seen from the values alone; no entity of the IR is named here.
+
+use super::section::{Body, Element, Section};
+use serde::{Deserialize, Serialize};
+use serde_json::{Number, Value};
+
+/// Lists of more elements than this have a section of their own.
+const LONG_LIST: usize = 32;
+
+/// Texts of more bytes than this have a section of their own.
+const LONG_TEXT: usize = 256;
+
+/// A section that is one value: a text, a list of numbers, or a list of lists of as many numbers as a record has.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Run {
+    pub(super) section: usize,
+    /// Each record is a list.
+    nested: bool,
+}
+
+/// Puts the value into a section if it is long and regular.
+pub(super) fn store(value: &Value, body: &mut Body) -> Option<Run> {
+    match value {
+        Value::String(text) if text.len() > LONG_TEXT => {
+            Some(Run { section: body.push(Element::U8, 1, text.as_bytes()), nested: false })
+        }
+        Value::Array(items) if items.len() > LONG_LIST => {
+            let stride = items[0].as_array().map(Vec::len);
+            let (element, bytes) = numbers(items, stride)?;
+            Some(Run { section: body.push(element, stride.unwrap_or(1), &bytes), nested: stride.is_some() })
+        }
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => None,
+    }
+}
+
+/// The bytes of all numbers, if each item is one, or a list of `stride` of them, and all are of one element.
+fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)> {
+    let mut flat = Vec::with_capacity(items.len());
+    for item in items {
+        match (item, stride) {
+            (Value::Number(number), None) => flat.push(number),
+            (Value::Array(inner), Some(stride)) if inner.len() == stride && stride > 0 => {
+                for number in inner {
+                    flat.push(as_number(number)?);
+                }
+            }
+            (_, _) => return None,
+        }
+    }
+    let integers: Option<Vec<u32>> = flat.iter().map(|number| as_u32(number)).collect();
+    if let Some(integers) = integers {
+        return Some((Element::U32, integers.iter().flat_map(|number| number.to_le_bytes()).collect()));
+    }
+    let floats: Option<Vec<f64>> = flat.iter().map(|number| number.as_f64().filter(|_| number.is_f64())).collect();
+    floats.map(|floats| (Element::F64, floats.iter().flat_map(|number| number.to_le_bytes()).collect()))
+}
+
+fn as_number(value: &Value) -> Option<&Number> {
+    match value {
+        Value::Number(number) => Some(number),
+        Value::Null | Value::Bool(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => None,
+    }
+}
+
+/// The number, if it is an integer of 32 bits and not a float.
+pub(super) fn as_u32(number: &Number) -> Option<u32> {
+    number.as_u64().and_then(|integer| u32::try_from(integer).ok())
+}
+
+/// Element `at` of a section of numbers.
+pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
+    match section.element {
+        Element::F64 => Number::from_f64(section.f64(at))
+            .map(Value::Number)
+            .expect("sections hold finite numbers: checked on opening"),
+        Element::U32 => Value::from(section.u32(at)),
+        Element::U8 => {
+            unreachable!("a section of text is a run or is refused, in `Run::is_sound` and `Section::holds`")
+        }
+    }
+}
+
+impl Run {
+    /// True if the section holds what this run says.
+    pub(super) fn is_sound(&self, section: &Section<'_>) -> bool {
+        match section.element {
+            Element::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
+            Element::F64 | Element::U32 => section.stride > 0 && (self.nested || section.stride == 1),
+        }
+    }
+
+    /// The value, of a section that is sound for it.
+    pub(super) fn value(&self, section: &Section<'_>) -> Value {
+        if let Some(text) = section.text() {
+            return Value::from(text);
+        }
+        let numbers = |range: std::ops::Range<usize>| range.map(|at| number(section, at)).collect::<Value>();
+        if !self.nested {
+            return numbers(0..section.len());
+        }
+        let stride = section.stride;
+        (0..section.len() / stride).map(|record| numbers(record * stride..(record + 1) * stride)).collect()
+    }
+}

@@ -1,0 +1,33 @@
+//! `RE`: files that a scene names, and what is in them.
+
+super::codes! { RE:
+    FILE_NOT_FOUND = "RE001", Error, "a file named by the scene can't be found",
+        "Textures and meshes are looked for beside the scene file, in the folder given by `--asset-root`, and in the \
+         folder above the scene's. If they are at none of these places, the last components of the name alone are looked \
+         for there, and last a name that differs in upper and lower case only. With `--lenient` the texture falls back \
+         to the colour, or the object is left out, with a warning.";
+    FILE_OUTSIDE = "RE002", Error, "a file named by the scene lies where scenes may not read",
+        "A scene may come from anywhere, so it may not read any file: only those below its own folder, the folder above \
+         for the same name, and the folder given by `--asset-root`. A path from the root, from a Windows drive or \
+         through `..`, and a link that leads out, are not followed; only a file of that name inside is taken. Put the \
+         file beside the scene, or allow its folder by `--asset-root`.";
+    FILE_ELSEWHERE = "RE003", Note, "a file was found under another name than the scene gives",
+        "The path leads to another machine or folder, or has another case or white space at its end, but a file of that \
+         name is beside the scene or in the folder above. The note says which was taken.";
+    BAD_PICTURE = "RE004", Error, "a texture can't be read as a picture",
+        "Pictures are PNG, JPEG or WebP, recognised by their content and not by their name. A damaged file shows itself \
+         by the words of its decoder. With `--lenient` the texture falls back to the colour, with a warning.";
+    HUGE_PICTURE = "RE005", Error, "a texture has too many pixels",
+        "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
+         16384 pixels, and 1 GiB while it is decoded. Scale the picture down.";
+    BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
+        "Meshes are Wavefront OBJ or OFF. The label is at the first place that can't be: a number that is missing or not \
+         finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \
+         again. With `--lenient` the object is left out, with a warning.";
+    NOT_DRAWN = "RE007", Warning, "a mesh file holds elements that don't show",
+        "Points and lines have no surface, and free-form curves and surfaces are not supported; only faces show. Convert \
+         the others to faces when exporting.";
+    NORMALS_AS_BUMP = "RE008", Note, "a bump map holds normals and is used as a normal map",
+        "A bump map is grey, its brightness the height of the surface. This one is coloured as normal maps are: blue \
+         along the normal, red and green across. It is used as one; `normalMap` says so from the start.";
+}

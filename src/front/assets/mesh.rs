@@ -1,0 +1,90 @@
+//! The meshes: OBJ or OFF, told apart by content.
+
+use super::scan::{Fault, Lines, Word};
+use super::{Porter, Wanted, Without, obj, off};
+use crate::diag::{Diagnostic, codes};
+use crate::ir::{Lowered, Mesh, MeshId};
+use crate::source::{FileId, Found};
+
+/// The largest mesh file read, in bytes: some two million triangles.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// So many faults of one file are told.
+pub(super) const MAX_FAULTS: usize = 10;
+
+/// A mesh file as read.
+#[derive(Debug, Default)]
+pub(super) struct Parsed {
+    pub(super) mesh: Geometry,
+    /// Elements that don't show: the first, and how many.
+    pub(super) not_drawn: Option<(Fault, usize)>,
+}
+
+/// A mesh without a name.
+#[derive(Debug, Default)]
+pub(super) struct Geometry {
+    pub(super) positions: Vec<[f64; 3]>,
+    pub(super) normals: Vec<[f64; 3]>,
+    pub(super) uvs: Vec<[f64; 2]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// Brings one mesh; without its file it stays empty, and nothing shows of it.
+pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
+    let Some(found) = porter.find(wish, Without::Object) else { return };
+    let Some(file) = read(&found, wish, porter) else { return };
+    match parse(porter.map.bytes(file)) {
+        Ok(Parsed { mesh, not_drawn }) => {
+            if let Some((first, count)) = not_drawn {
+                let message = format!("{} of this file don't show: {}", count_of(count), first.message);
+                let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
+                porter.sink.push(finding.also(wish.span, "the file is named here"));
+            }
+            if let Some(place) = lowered.scene.meshes.get_mut(id.0 as usize) {
+                let Geometry { positions, normals, uvs, triangles } = mesh;
+                *place = Mesh { name: std::mem::take(&mut place.name), positions, normals, uvs, triangles };
+            }
+        }
+        // Lenient, the object is left out once.
+        Err(faults) => {
+            let told = if porter.lenient { 1 } else { MAX_FAULTS };
+            for fault in faults.into_iter().take(told) {
+                let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
+                let finding = finding.at(fault.span(file), fault.label).also(wish.span, "the file is named here");
+                porter.refuse(finding, Without::Object);
+            }
+        }
+    }
+}
+
+fn count_of(count: usize) -> String {
+    if count == 1 { "an element".to_owned() } else { format!("{count} elements") }
+}
+
+fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
+    match porter.loader.bytes(&found.path, MAX_BYTES) {
+        Ok(bytes) => Some(porter.map.add(found.shown.display().to_string(), bytes)),
+        Err(error) => {
+            porter.unreadable(found, &error.to_string(), wish.span, Without::Object);
+            None
+        }
+    }
+}
+
+/// Reads a mesh file of either format; the faults are in the order of the file, at least one.
+pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
+    let mut words = Vec::new();
+    let has_words = Lines::new(bytes).next(&mut words);
+    let parsed = match words.first() {
+        Some(head) if off::is_head(head) => off::parse(bytes)?,
+        Some(_) | None => obj::parse(bytes)?,
+    };
+    if parsed.mesh.triangles.is_empty() {
+        let (message, label) = match words.first().filter(|_| has_words) {
+            Some(_) => ("the mesh has no faces", "neither OFF nor OBJ with faces"),
+            None => ("the mesh file is empty", "nothing here"),
+        };
+        return Err(vec![words.first().unwrap_or(&Word::START).fault(message, label)]);
+    }
+    Ok(parsed)
+}

@@ -1,0 +1,149 @@
+//! The files a scene names, brought into its IR: textures and meshes.
+//!
+//! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what is wrong there. A
+//! lenient run goes on without the file and says what is missing.
+
+mod image;
+mod mesh;
+mod obj;
+mod off;
+mod scan;
+
+use super::{Asset, Options, Wanted};
+use crate::diag::{Diagnostic, Severity, Sink, codes};
+use crate::ir::Lowered;
+use crate::source::{FileId, Found, Loader, Missing, Search, SourceMap, Span};
+use std::path::PathBuf;
+
+/// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
+///
+/// Mesh files come into the source map, so that findings can point into them.
+pub fn bring(
+    lowered: &mut Lowered,
+    wanted: Vec<Wanted>,
+    scene: FileId,
+    options: &Options,
+    map: &mut SourceMap,
+    sink: &mut Sink,
+) {
+    if wanted.is_empty() {
+        return;
+    }
+    let search = Search::new(map.folder(scene), options.asset_root.as_deref());
+    let mut porter = Porter { search, lenient: options.lenient, loader: Loader, map, sink };
+    for wish in wanted {
+        match wish.asset {
+            Asset::Image(id) => image::bring(id, &wish, lowered, &mut porter),
+            Asset::Mesh(id) => mesh::bring(id, &wish, lowered, &mut porter),
+        }
+    }
+    image::find_normal_maps(lowered, porter.sink);
+}
+
+/// Finds files, reads them, and reports on them.
+struct Porter<'run> {
+    search: Search,
+    lenient: bool,
+    loader: Loader,
+    map: &'run mut SourceMap,
+    sink: &'run mut Sink,
+}
+
+/// What a lenient run does without a file.
+#[derive(Clone, Copy)]
+enum Without {
+    Color,
+    Object,
+}
+
+impl Without {
+    fn consequence(self) -> &'static str {
+        match self {
+            Self::Color => "the texture is left out",
+            Self::Object => "the object is left out",
+        }
+    }
+}
+
+impl Porter<'_> {
+    /// The file, unless there is none: that is reported.
+    fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
+        let extensions: &[&str] = match without {
+            Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
+            Without::Object | Without::Color => &[""],
+        };
+        let mut first_fault = None;
+        for extension in extensions {
+            match self.search.find(&format!("{}{extension}", wish.path)) {
+                Ok(found) => {
+                    self.tell_where(wish, &found, found.elsewhere || !extension.is_empty());
+                    return Some(found);
+                }
+                Err(fault) => drop(first_fault.get_or_insert(fault)),
+            }
+        }
+        if let Some(fault) = first_fault {
+            self.refuse(missing(wish, &fault), without);
+        }
+        None
+    }
+
+    fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
+        if elsewhere {
+            let message = format!("`{}` is taken from `{}`", wish.path.escape_debug(), found.shown.display());
+            self.sink.push(Diagnostic::new(&codes::FILE_ELSEWHERE, message).at(wish.span, "found under another name"));
+        }
+    }
+
+    /// Reports a file that can't be used; lenient, as a warning with what is done instead.
+    fn refuse(&mut self, mut finding: Diagnostic, without: Without) {
+        if self.lenient {
+            finding.message = format!("{}; {}", finding.message, without.consequence());
+            finding.severity = Severity::Warning;
+        }
+        self.sink.push(finding);
+    }
+
+    /// Reports a file that was found and can't be read.
+    fn unreadable(&mut self, found: &Found, why: &str, span: Option<Span>, without: Without) {
+        let message = format!("can't read `{}`: {why}", found.shown.display());
+        self.refuse(Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"), without);
+    }
+}
+
+/// True if the last component has a dot within: `cat.obj`, and `cat` has not.
+fn has_extension(path: &str) -> bool {
+    let name = path.trim().rsplit(['/', '\\']).next().unwrap_or_default();
+    name.trim_start_matches('.').contains('.')
+}
+
+fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
+    let name = wish.path.escape_debug();
+    match fault {
+        Missing::NoFolder => {
+            let message = format!("`{name}` can't be looked for: a scene from a stream has no folder");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "no folder to look in")
+                .hint("name the folder of its files by `--asset-root`")
+        }
+        Missing::Absent(looked) => Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
+            .at(wish.span, "not found")
+            .hint(places(looked)),
+        Missing::Outside(looked) => {
+            let message = format!("`{name}` leads out of the folder of the scene");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "not followed")
+                .hint(places(looked))
+                .hint("put the file beside the scene, or allow its folder by `--asset-root`")
+        }
+    }
+}
+
+/// The places a file was looked for, the most telling ones if there are many.
+fn places(looked: &[PathBuf]) -> String {
+    const SHOWN: usize = 6;
+    let shown: Vec<String> = looked.iter().take(SHOWN).map(|path| format!("`{}`", path.display())).collect();
+    let more = looked.len().saturating_sub(SHOWN);
+    let tail = if more > 0 { format!(" and {more} more places") } else { String::new() };
+    if shown.is_empty() { "name a file".to_owned() } else { format!("looked for it at {}{tail}", shown.join(", ")) }
+}

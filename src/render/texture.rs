@@ -1,0 +1,91 @@
+//! Textures: values looked up by uv, and what maps do to the shading normal.
+
+use crate::math::{Vec3, cross};
+use crate::valid::{Bump, Image, Texture, ValidScene};
+
+/// What texture `index` shows at `uv`, each channel in [0, 1].
+pub(super) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
+    match scene.textures()[index] {
+        Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
+        Texture::Image(image) => bilinear(&scene.images()[image], uv),
+    }
+}
+
+/// The mean of the four texels around `uv`, weighted by nearness. The unit square spans from the middle of the first
+/// texel to that of the last in each direction, v = 1 at the top row, and repeats.
+fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
+    let (column, x) = split(repeated(u) * f64::from(image.width - 1), image.width);
+    let (row, y) = split((1.0 - repeated(v)) * f64::from(image.height - 1), image.height);
+    let texel = |column: usize, row: usize| {
+        let [r, g, b] = image.pixels[row * image.width as usize + column];
+        Vec3::new(f64::from(r), f64::from(g), f64::from(b))
+    };
+    let (right, below) = ((column + 1).min(image.width as usize - 1), (row + 1).min(image.height as usize - 1));
+    let top = texel(column, row).lerp(texel(right, row), x);
+    let bottom = texel(column, below).lerp(texel(right, below), x);
+    top.lerp(bottom, y) / 255.0
+}
+
+/// The coordinate within [0, 1]; 1 stays 1, what is further repeats.
+fn repeated(coordinate: f64) -> f64 {
+    if (0.0..=1.0).contains(&coordinate) { coordinate } else { coordinate - coordinate.floor() }
+}
+
+/// The texel at or before a place, and how far towards the next the place is.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the place is within the image")]
+fn split(place: f64, count: u32) -> (usize, f64) {
+    let texel = place.floor().clamp(0.0, f64::from(count - 1));
+    (texel as usize, place - texel)
+}
+
+/// A frame on a surface: directions of growing u and v, and the unit normal.
+pub(super) struct Frame {
+    pub(super) along_u: Vec3,
+    pub(super) along_v: Vec3,
+    pub(super) normal: Vec3,
+}
+
+impl Frame {
+    /// The frame around a unit normal with a direction of growing u; `None` if that runs along the normal.
+    pub(super) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
+        let along_u = (tangent - normal * normal.dot(tangent)).try_normalize()?;
+        Some(Self { along_u, along_v: cross(normal, along_u), normal })
+    }
+
+    /// The normal a normal map gives at `uv`.
+    pub(super) fn mapped(&self, scene: &ValidScene, map: usize, uv: [f64; 2]) -> Vec3 {
+        let local = look_up(scene, map, uv) * 2.0 - 1.0;
+        (self.along_u * local.x + self.along_v * local.y + self.normal * local.z).normalize_or(self.normal)
+    }
+
+    /// The normal of a height field: it leans away from where the height grows, by central differences of a texel.
+    pub(super) fn bumped(&self, scene: &ValidScene, bump: Bump, [u, v]: [f64; 2]) -> Vec3 {
+        let [du, dv] = match scene.textures()[bump.texture] {
+            Texture::Uv => [1e-3; 2],
+            Texture::Image(image) => {
+                let image = &scene.images()[image];
+                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
+            }
+        };
+        let height = |u: f64, v: f64| look_up(scene, bump.texture, [u, v]).element_sum() / 3.0;
+        let slope_u = 0.5 * (height(u + du, v) - height(u - du, v)) * bump.height;
+        let slope_v = 0.5 * (height(u, v + dv) - height(u, v - dv)) * bump.height;
+        (self.normal - self.along_u * slope_u - self.along_v * slope_v).normalize_or(self.normal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_corners_of_the_unit_square_are_the_middles_of_the_corner_texels() {
+        let image = Image { width: 2, height: 2, pixels: vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]] };
+        assert_eq!(bilinear(&image, [0.0, 1.0]), Vec3::X);
+        assert_eq!(bilinear(&image, [1.0, 1.0]), Vec3::Y);
+        assert_eq!(bilinear(&image, [0.0, 0.0]), Vec3::Z);
+        assert_eq!(bilinear(&image, [1.0, 0.0]), Vec3::ONE);
+        assert_eq!(bilinear(&image, [0.5, 1.0]), Vec3::new(0.5, 0.5, 0.0));
+        assert_eq!(bilinear(&image, [2.5, 1.0]), Vec3::new(0.5, 0.5, 0.0));
+    }
+}

@@ -1,0 +1,135 @@
+//! Scenes of every kind, for the laws: odd numbers, long and short lists and texts.
+
+use proptest::prelude::*;
+use rtc::ir::{
+    Bump, Camera, Gooch, Image, ImageId, Instance, Lens, Light, Material, MaterialId, Mesh, MeshId, Mode, Pattern,
+    Phong, Plane, PointLight, Scene, Settings, Shape, Sphere, Surface, Texture, TextureId, Triangle,
+};
+
+fn number() -> impl Strategy<Value = f64> {
+    let odd = prop::sample::select(vec![0.0, -0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, -2.2e-308, 0.1, 1e22, 4.0]);
+    prop_oneof![odd, any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite())]
+}
+
+fn triple() -> impl Strategy<Value = [f64; 3]> {
+    [number(), number(), number()]
+}
+
+fn pair() -> impl Strategy<Value = [f64; 2]> {
+    [number(), number()]
+}
+
+/// A text with characters of every length, on both sides of what is long.
+fn text() -> impl Strategy<Value = String> {
+    prop::collection::vec(prop::sample::select(vec!['a', '"', 'ü', '\u{1f408}', '\0']), 0..400)
+        .prop_map(|characters| characters.into_iter().collect())
+}
+
+fn image() -> impl Strategy<Value = Image> {
+    (text(), any::<[u32; 2]>(), text()).prop_map(|(name, [width, height], pixels)| Image {
+        name,
+        width,
+        height,
+        pixels,
+    })
+}
+
+/// A mesh with lists on both sides of what is long.
+fn mesh() -> impl Strategy<Value = Mesh> {
+    let list = || prop::collection::vec(triple(), 0..60);
+    let uvs = prop::collection::vec(pair(), 0..60);
+    let triangles = prop::collection::vec(any::<[u32; 3]>(), 0..60);
+    (text(), list(), list(), uvs, triangles).prop_map(|(name, positions, normals, uvs, triangles)| Mesh {
+        name,
+        positions,
+        normals,
+        uvs,
+        triangles,
+    })
+}
+
+fn texture() -> impl Strategy<Value = Texture> {
+    prop_oneof![Just(Texture::Uv), any::<u32>().prop_map(|image| Texture::Image(ImageId(image)))]
+}
+
+fn camera() -> impl Strategy<Value = Camera> {
+    let lens = (number(), any::<u32>()).prop_map(|(radius, samples)| Lens { radius, samples });
+    (triple(), triple(), triple(), triple(), any::<[u32; 2]>(), lens)
+        .prop_map(|(eye, center, right, up, size, lens)| Camera { eye, center, right, up, size, lens })
+}
+
+fn settings() -> impl Strategy<Value = Settings> {
+    let gooch = [number(), number(), number(), number()]
+        .prop_map(|[b, y, alpha, beta]| Mode::Gooch(Gooch { b, y, alpha, beta }));
+    let mode = prop_oneof![Just(Mode::Phong), Just(Mode::Zbuffer), Just(Mode::Normal), gooch];
+    let pattern = prop::sample::select(vec![Pattern::Grid, Pattern::Jitter, Pattern::Random]);
+    (mode, any::<bool>(), any::<[u32; 3]>(), pattern).prop_map(
+        |(mode, shadows, [max_depth, supersampling, light_samples], pattern)| Settings {
+            mode,
+            shadows,
+            max_depth,
+            supersampling,
+            pattern,
+            light_samples,
+        },
+    )
+}
+
+fn light() -> impl Strategy<Value = Light> {
+    (triple(), triple(), number())
+        .prop_map(|(position, color, radius)| Light::Point(PointLight { position, color, radius }))
+}
+
+fn material() -> impl Strategy<Value = Material> {
+    let map = || prop::option::of(any::<u32>().prop_map(TextureId));
+    let bump = prop::option::of((any::<u32>(), number()))
+        .prop_map(|bump| bump.map(|(texture, height)| Bump { texture: TextureId(texture), height }));
+    (triple(), triple(), triple(), any::<u32>(), [map(), map(), map()], bump).prop_map(
+        |(color, [ka, kd, ks], [n, kt, eta], glossy_samples, [color_map, specular_map, normal_map], bump)| {
+            Material::Phong(Phong {
+                color,
+                ka,
+                kd,
+                ks,
+                n,
+                kt,
+                eta,
+                glossy_samples,
+                color_map,
+                specular_map,
+                normal_map,
+                bump,
+            })
+        },
+    )
+}
+
+fn surface() -> impl Strategy<Value = Surface> {
+    let shape = prop_oneof![
+        (triple(), number(), prop::option::of([triple(), triple(), triple()])).prop_map(
+            |(center, radius, texture_from_world)| Shape::Sphere(Sphere { center, radius, texture_from_world })
+        ),
+        (triple(), triple()).prop_map(|(center, normal)| Shape::Plane(Plane { center, normal })),
+        ([triple(), triple(), triple()], prop::option::of([pair(), pair(), pair()]))
+            .prop_map(|(vertices, uvs)| Shape::Triangle(Triangle { vertices, uvs })),
+        (any::<u32>(), [triple(), triple(), triple(), triple()]).prop_map(|(mesh, world_from_object)| {
+            Shape::Instance(Instance { mesh: MeshId(mesh), world_from_object })
+        }),
+    ];
+    (shape, any::<u32>()).prop_map(|(shape, material)| Surface { shape, material: MaterialId(material) })
+}
+
+prop_compose! {
+    pub(crate) fn scene()(
+        camera in camera(),
+        settings in settings(),
+        lights in prop::collection::vec(light(), 0..4),
+        images in prop::collection::vec(image(), 0..3),
+        textures in prop::collection::vec(texture(), 0..3),
+        meshes in prop::collection::vec(mesh(), 0..3),
+        materials in prop::collection::vec(material(), 0..4),
+        surfaces in prop::collection::vec(surface(), 0..9),
+    ) -> Scene {
+        Scene { camera, settings, lights, images, textures, meshes, materials, surfaces }
+    }
+}
