@@ -8,12 +8,13 @@ use super::settings::Scene;
 use super::texture::Files;
 use super::tree::{self, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{Options, Wanted};
-use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
+use crate::front::{Asset, Options, Wanted};
+use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
-/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at all; every mistake is in the sink.
+/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at all; every mistake is
+/// in the sink.
 ///
 /// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so that the proof can
 /// find the mistakes of the rest; the sink has an error for each.
@@ -99,14 +100,8 @@ impl Lowering {
             materials: Vec::new(),
             surfaces: Vec::new(),
         };
-        Self {
-            scene,
-            shared: BTreeMap::new(),
-            grey: None,
-            files: Files::default(),
-            fitted: Vec::new(),
-            origins: Origins::default(),
-        }
+        let (shared, files, fitted) = (BTreeMap::new(), Files::default(), Vec::new());
+        Self { scene, shared, grey: None, files, fitted, origins: Origins::default() }
     }
 
     /// Remembers where a value was written; a default was written nowhere.
@@ -147,6 +142,13 @@ impl Lowering {
 
     fn finish(self) -> Draft {
         let Self { scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
+        for Wanted { asset, path: _, span } in &wanted {
+            let (noun, index) = match asset {
+                Asset::Image(ImageId(index)) => (Noun::Image, *index),
+                Asset::Mesh(MeshId(index)) => (Noun::Mesh, *index),
+            };
+            origins.record(Place { noun, index, field: Field::Whole }, *span);
+        }
         origins.finish();
         Draft { lowered: Lowered { scene, origins }, wanted, fitted }
     }
