@@ -8,7 +8,7 @@
 )]
 use proptest::prelude::*;
 use rtc::diag::Sink;
-use rtc::front::{Options, course};
+use rtc::front::{Asset, Options, course};
 use rtc::ir::{self, Scene};
 use rtc::math::{Vec3, camera_basis};
 use rtc::source::SourceMap;
@@ -26,7 +26,7 @@ fn scene(text: &str) -> Option<Scene> {
 
 fn texts() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut open = vec![root.join("scenes"), root.join("tests/diagnostics")];
+    let mut open = vec![root.join("scenes"), root.join("tests/diagnostics"), root.join("tests/ir/shapes")];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {
         if path.is_dir() {
@@ -119,6 +119,131 @@ fn spellings_and_merge_keys_mean_the_same() {
     );
     assert!(canonical.is_some());
     assert_eq!(canonical, wild);
+}
+
+const CLAY: &str = "material: {color: [1, 1, 1], ka: 1, kd: 1, ks: 0, n: 1}";
+
+/// The lowered scene of one object; its keys stand in braces.
+fn object(keys: &str) -> Scene {
+    scene(&format!("Eye: [200, 200, 1000]\nObjects:\n- {{{keys}, {CLAY}}}\n")).unwrap()
+}
+
+/// The volume that triangles enclose, counted from their windings; and the sum of their area vectors, which is 0 for a
+/// closed surface.
+fn enclosed(scene: &Scene) -> (f64, Vec3) {
+    let mut sums = (0.0, Vec3::ZERO);
+    for ir::Surface { shape, .. } in &scene.surfaces {
+        let ir::Shape::Triangle(ir::Triangle { vertices, .. }) = shape else { panic!("{shape:?}") };
+        let [a, b, c] = vertices.map(Vec3::from_array);
+        sums.0 += a.dot(b.cross(c)) / 6.0;
+        sums.1 += (b - a).cross(c - a);
+    }
+    sums
+}
+
+#[test]
+fn solids_are_closed_and_face_outwards() {
+    for (keys, count, volume) in [
+        ("type: box, min: [1, 2, 3], max: [2, 4, 6]", 12, 6.0),
+        ("type: box, min: [2, 2, 6], max: [1, 4, 3]", 12, 6.0),
+        ("type: box, position: [5, 5, 5], dimension: [1, 2, 3]", 12, 6.0),
+        ("type: box, position: [5, 5, 5], dimension: [1, 2, 3], rotation: [1, 2, 3]", 12, 6.0),
+        ("type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, 1]", 12, 6.0),
+        ("type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, -1]", 12, 6.0),
+        ("type: tetrahedron, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 4, 1], v3: [1, 1, 2]", 4, 1.0),
+        ("type: tetrahedron, v0: [1, 1, 1], v1: [1, 4, 1], v2: [3, 1, 1], v3: [1, 1, 2]", 4, 1.0),
+        ("type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, 3]", 8, 6.0),
+        ("type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, -3]", 8, 6.0),
+    ] {
+        let scene = object(keys);
+        let (found, open) = enclosed(&scene);
+        assert!((found - volume).abs() < 1e-12, "{keys}: {found}");
+        assert!(open.length() < 1e-12 && scene.surfaces.len() == count, "{keys}: {open}");
+        assert_eq!(scene.materials.len(), 1, "all faces have the one material");
+    }
+}
+
+#[test]
+fn a_box_is_turned_about_x_then_y_then_z() {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let keys = format!("type: box, position: [0, 0, 0], dimension: [2, 4, 6], rotation: [{quarter}, 0, {quarter}]");
+    let scene = object(&keys);
+    let corners = scene.surfaces.iter().flat_map(|surface| match &surface.shape {
+        ir::Shape::Triangle(triangle) => triangle.vertices.map(Vec3::from_array),
+        other => panic!("{other:?}"),
+    });
+    let far = corners.fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
+    assert!(far.distance(Vec3::new(3.0, 1.0, 2.0)) < 1e-15, "y goes to z, then x to y and z to −x: {far}");
+}
+
+#[test]
+fn other_ways_to_say_the_same() {
+    for (wild, canonical) in [
+        (
+            "type: quadrilateral, a: [0, 0, 0], b: [2, 0, 0], c: [2, 1, 0], d: [0, 1, 0]",
+            "type: quad, position: [0, 0, 0], up: [0, 1, 0], side: [2, 0, 0]",
+        ),
+        (
+            "type: cylinder, center1: [0, 0, 1], center2: [0, 0, 4], r: 2",
+            "type: cylinder, position: [0, 0, 1], direction: [0, 0, 3], height: 3, radius: 2",
+        ),
+        (
+            "type: disk, position: [0, 0, 1], N: [0, 0, 4], r: 2",
+            "type: circle, center: [0, 0, 1], normal: [0, 0, 4], radius: 2",
+        ),
+        (
+            "type: bplane, typ: QUAD, center: [0, 0, 5], normal: [0, 0, 9], radius: 1",
+            "type: quad, v0: [-1, -1, 5], v1: [1, -1, 5], v2: [1, 1, 5], v3: [-1, 1, 5]",
+        ),
+        (
+            "type: sphere, position: [0, 0, 0], radius: 3, rotation: [0, 2, 0], angle: 5",
+            "type: sphere, position: [0, 0, 0], radius: [3, [0, 1, 0]], angle: 5",
+        ),
+        (
+            "type: torus, position: [0, 0, 0], radius: 3, alpha: 1",
+            "type: torus, position: [0, 0, 0], radius: 3, alpha: 1, direction: [0, 0, 1]",
+        ),
+        ("type: OBJModel, path: 'a\\b.obj', size: 2", "type: mesh, file: a/b.obj, position: [0, 0, 0], scale: 2"),
+    ] {
+        assert_eq!(object(wild), object(canonical), "{wild}");
+    }
+    let settings = |text: &str| scene(&format!("Eye: [200, 200, 1000]\n{text}")).unwrap().settings;
+    assert_eq!(settings("renderMode: 1"), settings("RenderMode: zbuffer"));
+    assert_eq!(settings("renderMode: 2"), settings("RenderMode: normal"));
+    assert_eq!(
+        settings("Reflections: true\nAA: 3\nShadows: 1"),
+        settings("MaxRecursionDepth: 2\nSuperSampling: 3\nShadows: true")
+    );
+    assert_eq!(settings("Reflections: true\nMaxRecursionDepth: 5").max_depth, 5);
+    assert_eq!(settings("Reflections: false\nMaxRecursionDepth: 5").max_depth, 0);
+    assert_eq!(settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]").light_samples, 1);
+    assert_eq!(settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1], size: 2}]").light_samples, 16);
+    let look = scene("CameraEye: [1, 2, 30]\nCameraLookPoint: [1, 2, 3]\nCameraUpVector: [0, 0.5, 0]\n").unwrap();
+    let camera = "Camera: {eye: [1, 2, 30], center: [1, 2, 3], up: [0, 0.5, 0], viewSize: [400, 400]}\n";
+    assert_eq!(Some(look), scene(camera));
+}
+
+#[test]
+fn files_are_wanted_once_and_their_places_wait() {
+    let text = "Eye: [200, 200, 1000]\nObjects:\n\
+        - {type: sphere, position: [0, 0, 0], radius: 1, material: {texture: a.png, bump: 'b\\b.png', ka: 1, kd: 1, ks: 0, n: 1}}\n\
+        - {type: sphere, position: [0, 0, 0], radius: 1, material: {texture: uv, specularMap: b/b.png, ka: 1, kd: 1, ks: 0, n: 1}}\n\
+        - {type: mesh, file: a.png}\n- {type: mesh, file: a.png, scale: 2}\n";
+    let mut map = SourceMap::default();
+    let file = map.add("text", text.as_bytes().to_vec());
+    let mut sink = Sink::default();
+    let draft = course::lower(file, &map, &Options::default(), &mut sink).unwrap();
+    let wanted: Vec<_> = draft.wanted.iter().map(|wanted| (wanted.asset, wanted.path.as_str())).collect();
+    let (image, mesh) = (|id| Asset::Image(ir::ImageId(id)), |id| Asset::Mesh(ir::MeshId(id)));
+    assert_eq!(wanted, [(image(0), "a.png"), (image(1), "b\\b.png"), (mesh(0), "a.png")]);
+    let scene = draft.finish().scene;
+    assert_eq!(scene.images[1].name, "b/b.png");
+    assert_eq!(
+        scene.textures,
+        [ir::Texture::Image(ir::ImageId(0)), ir::Texture::Image(ir::ImageId(1)), ir::Texture::Uv]
+    );
+    assert_eq!(scene.materials.len(), 3, "both meshes have the one grey material");
+    comes_back(&scene);
 }
 
 fn vector() -> impl Strategy<Value = Vec3> {

@@ -1,4 +1,4 @@
-//! The IR text of every scene in `scenes/`, beside the last one approved; and laws that hold for each of them.
+//! The IR text of every scene in `scenes/`, and of one for each shape, beside the last one approved; and laws that hold for each of them.
 
 #![expect(
     clippy::unwrap_used,
@@ -9,27 +9,34 @@ use rtc::codec::{self, Form};
 use rtc::diag::Sink;
 use rtc::ir::Scene;
 use rtc::pipeline::{self, Options};
-use rtc::source::SourceMap;
+use rtc::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
-/// The scenes, by name.
+/// The scenes, by name: those of `scenes/`, and one for each shape.
 fn scenes() -> Vec<(String, PathBuf)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let mut found: Vec<_> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|extension| extension == "yaml"))
-        .map(|path| (path.file_stem().unwrap().to_string_lossy().into_owned(), path))
-        .collect();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut found = Vec::new();
+    for (prefix, folder) in [("", "scenes"), ("shape-", "tests/ir/shapes")] {
+        let paths = std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
+        let paths = paths.filter(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+        found.extend(paths.map(|path| (format!("{prefix}{}", path.file_stem().unwrap().to_string_lossy()), path)));
+    }
     found.sort();
-    assert!(found.len() >= 16, "the scenes are gone: {found:?}");
+    assert!(found.len() >= 32, "the scenes are gone: {found:?}");
     found
 }
 
-/// The proven scene of a text. A scene of ours has no finding at all.
+/// The proven scene of a text.
 fn scene(name: &str, text: Vec<u8>) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let mut map = SourceMap::default();
     let file = map.add(name, text);
+    scene_in(file, map)
+}
+
+/// The proven scene of a file. A scene of ours has no finding at all.
+fn scene_in(file: FileId, mut map: SourceMap) -> Scene {
+    let mut sink = Sink::default();
+    let name = map.name(file).to_owned();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| pipeline::prove(lowered, &Options::default(), &mut sink));
     assert!(proven.is_some() && sink.kept().is_empty(), "{name}: {:#?}", sink.kept());
@@ -37,7 +44,9 @@ fn scene(name: &str, text: Vec<u8>) -> Scene {
 }
 
 fn scene_of(path: &Path) -> Scene {
-    scene(&path.display().to_string(), std::fs::read(path).unwrap())
+    let mut map = SourceMap::default();
+    let file = Loader.file(path, &mut map).unwrap();
+    scene_in(file, map)
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn every_property_says_what_it_is() {
 
 /// The scenes of the repository and all fixtures that a YAML reader takes, as JSON.
 fn documents() -> Vec<(String, Value)> {
-    let mut open = vec![root().join("scenes"), root().join("tests/diagnostics")];
+    let mut open = vec![root().join("scenes"), root().join("tests/diagnostics"), root().join("tests/ir/shapes")];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {
         if path.is_dir() {

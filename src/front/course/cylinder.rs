@@ -1,6 +1,6 @@
 //! The cylinder.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{Numbers, Shared, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::Positive;
@@ -50,7 +50,7 @@ impl Lowering {
 }
 
 /// The centre of the base, the direction to the top, and the height.
-fn axis(cylinder: &Cylinder) -> Option<(Spanned<[f64; 3]>, Spanned<[f64; 3]>, Spanned<f64>)> {
+fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
     let Cylinder { kind: _, position, direction, height, ends, radius: _, material: _ } = cylinder;
     match (position, direction, height, ends) {
         (Found::Read(position), Found::Read(direction), Found::Read(height), _) => {

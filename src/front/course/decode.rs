@@ -43,6 +43,9 @@ impl<T> Spanned<T> {
     }
 }
 
+/// Three numbers and where they were written.
+pub(super) type Numbers = Spanned<[f64; 3]>;
+
 /// A value that aliases and merge keys may bring us to again: its node, and the value the first time.
 pub(super) struct Shared<T> {
     pub(super) node: NodeId,

@@ -1,6 +1,6 @@
 //! The planes: infinite ones, and the bounded ones of some files.
 
-use super::decode::{Context, Shared, Spanned, Value};
+use super::decode::{Context, Numbers, Shared, Spanned, Value};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::{Positive, Real};
@@ -134,7 +134,7 @@ fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
 }
 
 /// A plane by the one form it is given in.
-fn center_and_normal(plane: &Plane) -> Option<(Spanned<[f64; 3]>, Spanned<[f64; 3]>)> {
+fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
     let Plane { kind: _, corners, position, normal, distance, edges, material: _ } = plane;
     match (corners, position, normal, distance, edges) {
         (Found::Read(corners), ..) => Some(through(corners)),
@@ -152,14 +152,14 @@ fn center_and_normal(plane: &Plane) -> Option<(Spanned<[f64; 3]>, Spanned<[f64; 
     }
 }
 
-fn through(corners: &[Spanned<Point>; 3]) -> (Spanned<[f64; 3]>, Spanned<[f64; 3]>) {
+fn through(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
     let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
     let span = corners[0].span.zip(corners[2].span).map(|(first, last)| first.to(last));
     let normal = (b - a).cross(c - a).to_array();
     (corners[0].map(|point| point.0), Spanned { value: normal, span })
 }
 
-fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Spanned<[f64; 3]>, Spanned<[f64; 3]>) {
+fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
     // A normal of length 0 is left for the proof to refuse.
     let direction = Vec3::from_array(normal.value.0).normalize_or_zero();
     (distance.map(|distance| (direction * distance.0).to_array()), normal.map(|vector| vector.0))

@@ -1,13 +1,12 @@
 //! The quadrilateral.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{Numbers, Shared, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::record::{Found, Rows, keys, record};
 use super::value::{Point, Text, Vector};
 use crate::ir::{self, Field};
 use crate::math::Vec3;
-use crate::source::Span;
 
 /// How people name four corners.
 pub(super) const FOUR_CORNERS: Rows = &[
@@ -46,23 +45,25 @@ impl Lowering {
     /// Lowers a quadrilateral.
     pub(super) fn quad(&mut self, quad: &Quad) {
         let clothes = self.clothe(&quad.kind, &quad.material);
-        if let (Some(clothes), Some((vertices, spans))) = (clothes, corners(quad)) {
+        if let (Some(clothes), Some(corners)) = (clothes, corners(quad)) {
             let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
-            let places = [0, 1, 2, 3].map(|k| (fields[k], spans[k]));
+            let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
+            let vertices = corners.map(|corner| corner.value);
             self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
         }
     }
 }
 
-/// The corners in order around it, and where each was written.
-fn corners(quad: &Quad) -> Option<([[f64; 3]; 4], [Option<Span>; 4])> {
+/// The corners in order around it.
+fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
     let Quad { kind: _, corners, position, edges, material: _ } = quad;
     match (corners, position, edges) {
-        (Found::Read(corners), ..) => Some((corners.map(|corner| corner.value.0), corners.map(|corner| corner.span))),
+        (Found::Read(corners), ..) => Some(corners.map(|corner| corner.map(|point| point.0))),
         (_, Found::Read(position), Found::Read([up, side])) => {
             let [corner, v, u] = [position.value.0, up.value.0, side.value.0].map(Vec3::from_array);
-            let vertices = [corner, corner + u, corner + u + v, corner + v].map(|vertex| vertex.to_array());
-            Some((vertices, [position.span, side.span, side.span, up.span]))
+            let second = side.map(|_| (corner + u).to_array());
+            let third = side.map(|_| (corner + u + v).to_array());
+            Some([position.map(|point| point.0), second, third, up.map(|_| (corner + v).to_array())])
         }
         _ => None,
     }
