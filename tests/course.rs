@@ -168,9 +168,9 @@ fn a_box_is_turned_about_x_then_y_then_z() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let keys = format!("type: box, position: [0, 0, 0], dimension: [2, 4, 6], rotation: [{quarter}, 0, {quarter}]");
     let scene = object(&keys);
-    let corners = scene.surfaces.iter().flat_map(|surface| match &surface.shape {
-        ir::Shape::Triangle(triangle) => triangle.vertices.map(Vec3::from_array),
-        other => panic!("{other:?}"),
+    let corners = scene.surfaces.iter().flat_map(|surface| {
+        let ir::Shape::Triangle(triangle) = &surface.shape else { panic!("{:?}", surface.shape) };
+        triangle.vertices.map(Vec3::from_array)
     });
     let far = corners.fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
     assert!(far.distance(Vec3::new(3.0, 1.0, 2.0)) < 1e-15, "y goes to z, then x to y and z to −x: {far}");
