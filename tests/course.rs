@@ -128,13 +128,20 @@ fn object(keys: &str) -> Scene {
     scene(&format!("Eye: [200, 200, 1000]\nObjects:\n- {{{keys}, {CLAY}}}\n")).unwrap()
 }
 
+/// The corners of the triangles that a scene is made of.
+fn triangles(scene: &Scene) -> Vec<[Vec3; 3]> {
+    let corners = scene.surfaces.iter().map(|ir::Surface { shape, material: _ }| {
+        let ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) = shape else { panic!("{shape:?}") };
+        vertices.map(Vec3::from_array)
+    });
+    corners.collect()
+}
+
 /// The volume that triangles enclose, counted from their windings; and the sum of their area vectors, which is 0 for a
 /// closed surface.
 fn enclosed(scene: &Scene) -> (f64, Vec3) {
     let mut sums = (0.0, Vec3::ZERO);
-    for ir::Surface { shape, .. } in &scene.surfaces {
-        let ir::Shape::Triangle(ir::Triangle { vertices, .. }) = shape else { panic!("{shape:?}") };
-        let [a, b, c] = vertices.map(Vec3::from_array);
+    for [a, b, c] in triangles(scene) {
         sums.0 += a.dot(b.cross(c)) / 6.0;
         sums.1 += (b - a).cross(c - a);
     }
@@ -167,12 +174,8 @@ fn solids_are_closed_and_face_outwards() {
 fn a_box_is_turned_about_x_then_y_then_z() {
     let quarter = std::f64::consts::FRAC_PI_2;
     let keys = format!("type: box, position: [0, 0, 0], dimension: [2, 4, 6], rotation: [{quarter}, 0, {quarter}]");
-    let scene = object(&keys);
-    let corners = scene.surfaces.iter().flat_map(|surface| {
-        let ir::Shape::Triangle(triangle) = &surface.shape else { panic!("{:?}", surface.shape) };
-        triangle.vertices.map(Vec3::from_array)
-    });
-    let far = corners.fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
+    let corners = triangles(&object(&keys));
+    let far = corners.iter().flatten().fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
     assert!(far.distance(Vec3::new(3.0, 1.0, 2.0)) < 1e-15, "y goes to z, then x to y and z to −x: {far}");
 }
 
