@@ -44,13 +44,14 @@ impl Shape {
     pub(super) fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
         Some(match shape {
             valid::Shape::Sphere(valid::Sphere { center, radius, texture_from_world }) => {
-                Self::Sphere(Sphere { center: *center, radius: radius.get() }, *texture_from_world)
+                let rows = texture_from_world.as_deref().copied().unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
+                Self::Sphere(Sphere { center: *center, radius: radius.get() }, rows)
             }
             valid::Shape::Plane(valid::Plane { center, normal }) => Self::Plane(Plane::new(*center, *normal)),
             valid::Shape::Triangle(valid::Triangle { vertices, uvs }) => {
-                Self::Triangle(Triangle::new(*vertices)?, *uvs)
+                Self::Triangle(Triangle::new(*vertices)?, uvs.as_deref().copied())
             }
-            valid::Shape::Quad(valid::Quad { vertices }) => Self::Quad(Box::new(Quad::new(*vertices))),
+            valid::Shape::Quad(quad) => Self::Quad(Box::new(Quad::new(quad.vertices))),
             valid::Shape::Disc(valid::Disc { center, normal, radius }) => {
                 Self::Disc(Disc::new(*center, *normal, radius.get()))
             }
@@ -61,8 +62,8 @@ impl Shape {
             valid::Shape::Torus(valid::Torus { center, axis, major, minor }) => {
                 Self::Torus(Torus::new(*center, *axis, major.get(), minor.get()))
             }
-            valid::Shape::Instance(valid::Instance { mesh, world_from_object }) => {
-                Self::Instance(Box::new(Instance::new(&meshes[*mesh], *world_from_object)))
+            valid::Shape::Instance(instance) => {
+                Self::Instance(Box::new(Instance::new(&meshes[instance.mesh], instance.world_from_object)))
             }
         })
     }

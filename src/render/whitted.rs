@@ -106,7 +106,7 @@ impl<'world> Tracer<'world> {
             ks: material.ks.get(),
             key,
         };
-        if material.has_maps() || surface.shape.has_shading_normals() {
+        if material.maps.is_some() || surface.shape.has_shading_normals() {
             let details = surface.shape.details(ray, &interaction, hit.part);
             self.apply_maps(&mut view, &details);
         }
@@ -120,17 +120,17 @@ impl<'world> Tracer<'world> {
     fn apply_maps(&self, view: &mut View<'_>, details: &Details) {
         let scene = self.scene();
         view.normal = details.normal.unwrap_or(view.normal);
-        let Some(uv) = details.uv else { return };
-        if let Some(map) = view.material.color_map {
+        let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else { return };
+        if let Some(map) = maps.color {
             view.color = look_up(scene, map, uv);
         }
-        if let Some(map) = view.material.specular_map {
+        if let Some(map) = maps.specular {
             view.ks *= look_up(scene, map, uv).x;
         }
         let Some(frame) = details.tangent.and_then(|tangent| Frame::new(view.normal, tangent)) else { return };
-        if let Some(map) = view.material.normal_map {
+        if let Some(map) = maps.normal {
             view.normal = frame.mapped(scene, map, uv);
-        } else if let Some(bump) = view.material.bump {
+        } else if let Some(bump) = maps.bump {
             view.normal = frame.bumped(scene, bump, uv);
         }
     }

@@ -25,23 +25,21 @@ pub struct Phong {
     pub eta: Positive,
     /// Rays of the glossy lobe.
     pub glossy_samples: NonZeroU32,
-    /// The texture that gives the colour: an index into [`super::ValidScene::textures`].
-    pub color_map: Option<usize>,
-    /// The texture whose red channel multiplies ks.
-    pub specular_map: Option<usize>,
-    /// The texture of the shading normal.
-    pub normal_map: Option<usize>,
-    /// The height field.
-    pub bump: Option<Bump>,
+    /// What is looked up by uv, if anything is.
+    pub maps: Option<Box<Maps>>,
 }
 
-impl Phong {
-    /// Whether any value is looked up by uv.
-    #[must_use]
-    pub fn has_maps(&self) -> bool {
-        let maps = [self.color_map, self.specular_map, self.normal_map];
-        self.bump.is_some() || maps.iter().any(Option::is_some)
-    }
+/// Textures of a material, as indices into [`super::ValidScene::textures`].
+#[derive(Clone, Copy, Debug)]
+pub struct Maps {
+    /// The texture that gives the colour.
+    pub color: Option<usize>,
+    /// The texture whose red channel multiplies ks.
+    pub specular: Option<usize>,
+    /// The texture of the shading normal.
+    pub normal: Option<usize>,
+    /// The height field.
+    pub bump: Option<Bump>,
 }
 
 /// A height field over a surface.
@@ -55,7 +53,7 @@ pub struct Bump {
 
 pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, check: &mut Check<'_>) -> Option<Phong> {
     let ir::Material::Phong(phong) = material;
-    let ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, color_map, specular_map, normal_map, bump } = phong;
+    let ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, .. } = phong;
     let at = |field| place(Noun::Material, index, field);
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
@@ -65,11 +63,7 @@ pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, c
     let kt = check.non_negative(*kt, "refract", at(Field::Kt));
     let eta = check.length(*eta, at(Field::Eta), &codes::ETA, "index of refraction");
     let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
-    let mut map = |id: &Option<TextureId>, field| texture(id.as_ref(), counts, at(field), check);
-    let color_map = map(color_map, Field::ColorMap);
-    let specular_map = map(specular_map, Field::SpecularMap);
-    let normal_map = map(normal_map, Field::NormalMap);
-    let bump = height_field(bump.as_ref(), counts, at(Field::Bump), check);
+    let maps = maps(phong, counts, index, check);
     Some(Phong {
         color: color?,
         ka: ka?,
@@ -79,11 +73,23 @@ pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, c
         kt: kt?,
         eta: eta?,
         glossy_samples: glossy_samples?,
-        color_map: color_map?,
-        specular_map: specular_map?,
-        normal_map: normal_map?,
-        bump: bump?,
+        maps: maps?,
     })
+}
+
+/// The maps that a material may have: the outer `None` is an error, the inner one absence.
+#[expect(clippy::option_option, reason = "an error and an absence are two things")]
+fn maps(phong: &ir::Phong, counts: &Counts, index: usize, check: &mut Check<'_>) -> Option<Option<Box<Maps>>> {
+    let ir::Phong { color_map, specular_map, normal_map, bump, .. } = phong;
+    if color_map.is_none() && specular_map.is_none() && normal_map.is_none() && bump.is_none() {
+        return Some(None);
+    }
+    let at = |field| place(Noun::Material, index, field);
+    let color = texture(color_map.as_ref(), counts, at(Field::ColorMap), check);
+    let specular = texture(specular_map.as_ref(), counts, at(Field::SpecularMap), check);
+    let normal = texture(normal_map.as_ref(), counts, at(Field::NormalMap), check);
+    let bump = height_field(bump.as_ref(), counts, at(Field::Bump), check);
+    Some(Some(Box::new(Maps { color: color?, specular: specular?, normal: normal?, bump: bump? })))
 }
 
 /// A texture that may be absent: the outer `None` is an error, the inner one absence.

@@ -15,7 +15,7 @@ mod shape;
 pub use camera::{Camera, Lens};
 pub use image::{Image, Texture};
 pub use light::Light;
-pub use material::{Bump, Phong};
+pub use material::{Bump, Maps, Phong};
 pub use mesh::Mesh;
 pub use settings::{Gooch, Mode, Pattern, Settings};
 pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};

@@ -25,7 +25,7 @@ pub enum Shape {
     /// A triangle with an area.
     Triangle(Triangle),
     /// A quadrilateral with an area.
-    Quad(Quad),
+    Quad(Box<Quad>),
     /// A disc.
     Disc(Disc),
     /// A cylinder.
@@ -35,18 +35,18 @@ pub enum Shape {
     /// A torus.
     Torus(Torus),
     /// A mesh, placed.
-    Instance(Instance),
+    Instance(Box<Instance>),
 }
 
 /// A sphere.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Sphere {
     /// Its centre.
     pub center: Vec3,
     /// Its radius.
     pub radius: Positive,
-    /// The rows of the rotation from directions of the world to those of the texture.
-    pub texture_from_world: [Vec3; 3],
+    /// The rows of the rotation from directions of the world to those of the texture; none for the identity.
+    pub texture_from_world: Option<Box<[Vec3; 3]>>,
 }
 
 /// An infinite plane.
@@ -59,12 +59,12 @@ pub struct Plane {
 }
 
 /// A triangle whose corners are not in line.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Triangle {
     /// The corners; the normal is (v1 − v0) × (v2 − v0).
     pub vertices: [Vec3; 3],
     /// The texture coordinates of the corners.
-    pub uvs: Option<[[f64; 2]; 3]>,
+    pub uvs: Option<Box<[[f64; 2]; 3]>>,
 }
 
 /// A quadrilateral.
@@ -183,9 +183,8 @@ impl Proof<'_, '_> {
         let ir::Sphere { center, radius, texture_from_world } = sphere;
         let center = self.point(*center, Field::SphereCenter);
         let radius = self.length(*radius, "radius", Field::SphereRadius);
-        let rows = texture_from_world.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-        let rows = rows.map(Vec3::from_array);
-        if !is_rotation(rows) {
+        let rows = texture_from_world.map(|rows| Box::new(rows.map(Vec3::from_array)));
+        if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
             let finding = Diagnostic::new(&codes::BAD_ROTATION, "the texture of a sphere is turned by no rotation");
             self.check.report(self.at(Field::Whole), "", finding);
             return None;
@@ -208,7 +207,7 @@ impl Proof<'_, '_> {
             self.check.number(*uv, self.at(Field::Whole))?;
         }
         let vertices = [corners[0]?, corners[1]?, corners[2]?];
-        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle { vertices, uvs: *uvs }));
+        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle { vertices, uvs: uvs.map(Box::new) }));
         Some(self.face(sound, "triangle"))
     }
 
@@ -218,7 +217,7 @@ impl Proof<'_, '_> {
         let corners = [0, 1, 2, 3].map(|k| self.point(vertices[k], FIELDS[k]));
         let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
         let area = has_area([a, b, c]) || has_area([a, c, d]);
-        let sound = area.then_some(Shape::Quad(Quad { vertices: [a, b, c, d] }));
+        let sound = area.then_some(Shape::Quad(Box::new(Quad { vertices: [a, b, c, d] })));
         Some(self.face(sound, "quad"))
     }
 
@@ -283,7 +282,7 @@ impl Proof<'_, '_> {
             self.check.report(self.at(Field::InstanceTransform), "", finding);
             return None;
         }
-        Some(Shape::Instance(Instance { mesh: mesh?, world_from_object: columns }))
+        Some(Shape::Instance(Box::new(Instance { mesh: mesh?, world_from_object: columns })))
     }
 }
 

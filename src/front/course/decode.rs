@@ -82,6 +82,11 @@ impl<T> Each<T> {
 }
 
 impl<T: Value> Each<T> {
+    /// How many items there are, sound or not.
+    pub(super) fn len(&self, context: &Context<'_>) -> usize {
+        self.list.map_or(0, |list| context.tree.items(list).count())
+    }
+
     /// Decodes every item and hands it on with its span; those that fail are left out.
     pub(super) fn decode_each(
         &self,

@@ -117,7 +117,14 @@ impl Lowering {
         self.settings(&scene, context);
         scene.lights.value.decode_each(context, "Lights", |_, light| self.light(&light));
         self.soften(&scene);
-        scene.objects.value.decode_each(context, "Objects", |context, object| self.object(&object.value, context));
+        let count = scene.objects.value.len(context);
+        scene.objects.value.decode_each(context, "Objects", |context, object| {
+            if self.scene.surfaces.is_empty() {
+                // Growing by doubling would move and hold many surfaces twice.
+                self.scene.surfaces.reserve_exact(count);
+            }
+            self.object(&object.value, context);
+        });
     }
 
     /// Chooses between the two cameras.

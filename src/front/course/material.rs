@@ -102,7 +102,6 @@ impl Lowering {
     fn material_origins(&mut self, id: MaterialId, material: &Material, whole: Option<Span>, color: Option<Span>) {
         let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
             material;
-        let map = |file: &Found<Spanned<FileName>>| if let Found::Read(file) = file { file.span } else { None };
         for (field, span) in [
             (Field::Whole, whole),
             (Field::Color, color),
@@ -113,12 +112,18 @@ impl Lowering {
             (Field::Kt, kt.span),
             (Field::Eta, eta.span),
             (Field::GlossySamples, glossy_samples.span),
-            (Field::ColorMap, map(texture)),
-            (Field::SpecularMap, map(specular_map)),
-            (Field::NormalMap, map(normal_map)),
-            (Field::Bump, map(bump)),
         ] {
             self.origin(Noun::Material, id.0 as usize, field, span);
+        }
+        for (field, file) in [
+            (Field::ColorMap, texture),
+            (Field::SpecularMap, specular_map),
+            (Field::NormalMap, normal_map),
+            (Field::Bump, bump),
+        ] {
+            if let Found::Read(file) = file {
+                self.origin(Noun::Material, id.0 as usize, field, file.span);
+            }
         }
     }
 
