@@ -22,7 +22,8 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
     let given = fields.iter().enumerate().filter(|(at, field)| given(*at, field) && in_forms(field));
     // Nearly every record has one of its forms: the way there allocates nothing.
     let is_it = |form: &&[&str]| {
-        given.clone().count() == form.len() && given.clone().all(|(_, field)| form.contains(&field.name))
+        let within = given.clone().try_fold(0, |count, (_, field)| form.contains(&field.name).then_some(count + 1));
+        within == Some(form.len())
     };
     if forms.iter().any(is_it) {
         return true;

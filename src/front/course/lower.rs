@@ -141,10 +141,7 @@ impl Lowering {
     }
 
     fn finish(self) -> Draft {
-        let Self { mut scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
-        // What growing lists hold in reserve would count in the peak, which is the proof.
-        scene.surfaces.shrink_to_fit();
-        scene.materials.shrink_to_fit();
+        let Self { scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
         for Wanted { asset, path: _, span } in &wanted {
             let (noun, index) = match asset {
                 Asset::Image(ImageId(index)) => (Noun::Image, *index),
