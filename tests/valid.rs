@@ -73,9 +73,10 @@ fn each_fault_is_named_at_its_place() {
         let mut document = sound();
         let (parent, key) = place.rsplit_once('/').unwrap();
         let parent = document.pointer_mut(parent).unwrap();
-        match parent {
-            Value::Array(items) => items[key.parse::<usize>().unwrap()] = value,
-            other => other[key] = value,
+        if let Value::Array(items) = parent {
+            items[key.parse::<usize>().unwrap()] = value;
+        } else {
+            parent[key] = value;
         }
         assert_eq!(errors(&document), [(code, pointer.to_owned())], "{place}");
     }

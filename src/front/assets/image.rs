@@ -77,7 +77,11 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
             phong.bump = None;
             let message = format!("`{}` holds normals, so it is used as a normal map", images[image].name);
             let span = lowered.origins.span(Place::new(Noun::Material, index, Field::Bump));
-            sink.push(Diagnostic::new(&codes::NORMALS_AS_BUMP, message).at(span, "write `normalMap`"));
+            sink.push(
+                Diagnostic::new(&codes::NORMALS_AS_BUMP, message)
+                    .at(span, "holds normals")
+                    .hint("name it by `normalMap`"),
+            );
         }
     }
 }

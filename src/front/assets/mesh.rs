@@ -36,7 +36,7 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
     match parse(porter.map.bytes(file)) {
         Ok(Parsed { mesh, not_drawn }) => {
             if let Some((first, count)) = not_drawn {
-                let message = format!("{} of this file don't show: {}", count_of(count), first.message);
+                let message = format!("{} show: {}", count_of(count), first.message);
                 let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
                 porter.sink.push(finding.also(wish.span, "the file is named here"));
             }
@@ -58,7 +58,11 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
 }
 
 fn count_of(count: usize) -> String {
-    if count == 1 { "an element".to_owned() } else { format!("{count} elements") }
+    if count == 1 {
+        "an element of this file does not".to_owned()
+    } else {
+        format!("{count} elements of this file don't")
+    }
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {

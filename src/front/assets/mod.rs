@@ -90,7 +90,7 @@ impl Porter<'_> {
 
     fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
         if elsewhere {
-            let message = format!("`{}` is taken from `{}`", wish.path.escape_debug(), found.shown.display());
+            let message = format!("`{}` is taken from `{}`", as_written(&wish.path), found.shown.display());
             self.sink.push(Diagnostic::new(&codes::FILE_ELSEWHERE, message).at(wish.span, "found under another name"));
         }
     }
@@ -111,6 +111,12 @@ impl Porter<'_> {
     }
 }
 
+/// The path as the scene writes it, but for control characters.
+fn as_written(path: &str) -> String {
+    let visible = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    path.chars().map(visible).collect()
+}
+
 /// True if the last component has a dot within: `cat.obj`, and `cat` has not.
 fn has_extension(path: &str) -> bool {
     let name = path.trim().rsplit(['/', '\\']).next().unwrap_or_default();
@@ -118,7 +124,7 @@ fn has_extension(path: &str) -> bool {
 }
 
 fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
-    let name = wish.path.escape_debug();
+    let name = as_written(&wish.path);
     match fault {
         Missing::NoFolder => {
             let message = format!("`{name}` can't be looked for: a scene from a stream has no folder");
