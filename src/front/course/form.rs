@@ -1,7 +1,7 @@
 //! The forms of a record: the sets of fields of which exactly one must be there.
 
 use super::decode::Context;
-use super::record::{Need, Record};
+use super::record::{Field, Need, Record};
 use super::spelling::list;
 use crate::diag::codes;
 use crate::source::Span;
@@ -12,35 +12,47 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
     if forms.is_empty() || *forms_are_lowered {
         return true;
     }
-    let in_forms = fields.iter().enumerate().filter(|(_, field)| forms.iter().any(|form| form.contains(&field.name)));
-    // A required field that is missing was reported as such.
-    let given = in_forms.filter(|(at, field)| is_there(*at) || matches!(field.need, Need::Required));
-    let given: Vec<_> = given.map(|(_, field)| field.name).collect();
-    let holds = |form: &&&[&str]| given.iter().all(|name| form.contains(name));
-    if forms.iter().any(|form| form.len() == given.len() && holds(&form)) {
+    // A required field that is missing was reported as such; one with a default is part of no form.
+    let given = |at: usize, field: &Field| match field.need {
+        Need::Required => true,
+        Need::Optional => is_there(at),
+        Need::Default(_) => false,
+    };
+    let in_forms = |field: &Field| forms.iter().any(|form| form.contains(&field.name));
+    let given = fields.iter().enumerate().filter(|(at, field)| given(*at, field) && in_forms(field));
+    // Nearly every record has one of its forms: the way there allocates nothing.
+    let is_it = |form: &&[&str]| {
+        let within = given.clone().try_fold(0, |count, (_, field)| form.contains(&field.name).then_some(count + 1));
+        within == Some(form.len())
+    };
+    if forms.iter().any(is_it) {
         return true;
     }
-    let hint = || {
-        let forms: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
-        format!("a {word} takes {}", forms.join("; or "))
-    };
-    let possible: Vec<_> = forms.iter().filter(holds).collect();
-    // A form with more keys than another is not worth recommending.
-    let larger = |form: &[&str]| {
-        possible.iter().any(|other| other.len() < form.len() && other.iter().all(|name| form.contains(name)))
-    };
-    let missing = possible.iter().filter(|form| !larger(form)).map(|form| {
-        let missing: Vec<_> = form.iter().copied().filter(|name| !given.contains(name)).collect();
-        keys(record, &missing)
-    });
-    // With nothing given, the first form is the one to recommend.
-    let missing: Vec<_> = missing.take(if given.is_empty() { 1 } else { usize::MAX }).collect();
+    let given: Vec<_> = given.map(|(_, field)| field.name).collect();
+    let missing = missing(record, &given);
     let (code, message) = match missing.as_slice() {
         [] => (&codes::CONFLICTING_KEYS, format!("the {word} is given in more than one way")),
         _ => (&codes::MISSING_KEY, format!("the {word} has no {}", missing.join(" or "))),
     };
-    context.report(code, head, || message, |d| d.at(head, format!("this {word}")).hint(hint()));
+    let ways: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
+    let hint = format!("a {word} takes {}", ways.join("; or "));
+    context.report(code, head, || message, |d| d.at(head, format!("this {word}")).hint(hint));
     false
+}
+
+/// What each form that has all that is given has besides, in words.
+fn missing(record: &Record, given: &[&str]) -> Vec<String> {
+    let has_all = |form: &&&[&str]| given.iter().all(|name| form.contains(name));
+    let possible: Vec<_> = record.forms.iter().filter(has_all).collect();
+    // A form with more keys than another is not worth recommending; with nothing given, the first one is.
+    let within =
+        |small: &[&str], large: &[&str]| small.len() < large.len() && small.iter().all(|name| large.contains(name));
+    let smallest = possible.iter().filter(|form| !possible.iter().any(|other| within(other, form)));
+    let missing = smallest.map(|form| {
+        let missing: Vec<_> = form.iter().copied().filter(|name| !given.contains(name)).collect();
+        keys(record, &missing)
+    });
+    missing.take(if given.is_empty() { 1 } else { usize::MAX }).collect()
 }
 
 /// The canonical keys of some fields, in words.

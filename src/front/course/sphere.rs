@@ -109,6 +109,9 @@ fn texture_axis(radius: &Spanned<Radius>, axis: &Found<Spanned<Vector>>, context
 /// The rows of the rotation from the world to the texture: the shortest one that takes the unit vector `axis` to +z,
 /// then one that lowers φ by `angle` degrees. `None` if nothing turns.
 pub(super) fn texture_from_world(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]> {
+    if axis == Vec3::Z && angle == 0.0 {
+        return None;
+    }
     let [x, y, z] = shortest_to_z(axis);
     let (c, s) = cos_sin_degrees(angle);
     let rows = [x * c + y * s, y * c - x * s, z];
