@@ -4,7 +4,7 @@
 //! the cone; each root is then refined by one Newton step on the distance ρ − g from the side.
 
 use super::bounds::Bounds;
-use super::interval::{Interval, roots};
+use super::interval::{Interval, between_planes, roots};
 use super::ray::{Interaction, Ray};
 use crate::math::{Vec3, cross, difference_of_products, dot};
 
@@ -104,18 +104,8 @@ impl Cone {
             tau: slope * rise,
         };
         let inside = profile.inside()?.map(|t| t + nearest);
-        inside.and(self.between_ends(start, d)?)?.first_in_front()
-    }
-
-    /// The stretch between the planes of base and apex.
-    fn between_ends(&self, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
-        let (above, rise) = (dot(self.axis, f), dot(self.axis, d));
-        if rise == 0.0 {
-            let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Base), leave: (f64::INFINITY, Part::Apex) };
-            return (0.0..=self.height).contains(&above).then_some(everywhere);
-        }
-        let (base, apex) = ((-above / rise, Part::Base), ((self.height - above) / rise, Part::Apex));
-        Some(if rise > 0.0 { Interval { enter: base, leave: apex } } else { Interval { enter: apex, leave: base } })
+        let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
+        inside.and(ends)?.first_in_front()
     }
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.

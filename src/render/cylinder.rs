@@ -4,7 +4,7 @@
 //! and not of the distance from the origin; the discriminant comes from the point nearest to the axis, as the sphere's.
 
 use super::bounds::Bounds;
-use super::interval::{Interval, roots};
+use super::interval::{Interval, between_planes, roots};
 use super::ray::{Interaction, Ray};
 use crate::math::{Vec3, cross, dot};
 
@@ -40,7 +40,8 @@ impl Cylinder {
 
     fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
         let f = ray.origin - self.base;
-        self.inside_side(f, ray.direction)?.and(caps(self.axis, self.height, f, ray.direction)?)?.first_in_front()
+        let caps = between_planes(self.axis, self.height, f, ray.direction, [Part::Base, Part::Top])?;
+        self.inside_side(f, ray.direction)?.and(caps)?.first_in_front()
     }
 
     /// The stretch inside the infinite cylinder.
@@ -87,15 +88,4 @@ impl Cylinder {
         let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
         disc(self.base).union(disc(self.base + self.axis * self.height))
     }
-}
-
-/// The stretch between the planes through 0 and `height` along the axis.
-fn caps(axis: Vec3, height: f64, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
-    let (low, slope) = (dot(axis, f), dot(axis, d));
-    if slope == 0.0 {
-        let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Base), leave: (f64::INFINITY, Part::Top) };
-        return (0.0..=height).contains(&low).then_some(everywhere);
-    }
-    let (base, top) = ((-low / slope, Part::Base), ((height - low) / slope, Part::Top));
-    Some(if slope > 0.0 { Interval { enter: base, leave: top } } else { Interval { enter: top, leave: base } })
 }

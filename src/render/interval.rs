@@ -1,5 +1,7 @@
 //! Stretches of a ray inside a convex region: solids as intersections have no crack between their sides and caps.
 
+use crate::math::{Vec3, dot};
+
 /// The parameters between which a ray is inside, with what it crosses at either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval<Part> {
@@ -24,6 +26,24 @@ impl<Part: Copy> Interval<Part> {
     pub(super) fn first_in_front(self) -> Option<(f64, Part)> {
         [self.enter, self.leave].into_iter().find(|(t, _)| *t > 0.0 && t.is_finite())
     }
+}
+
+/// The stretch of the ray from `f` along `d` between the planes through 0 and `height` on the axis, which is a unit
+/// vector, with the part at either plane.
+pub(super) fn between_planes<Part>(
+    axis: Vec3,
+    height: f64,
+    f: Vec3,
+    d: Vec3,
+    [base, top]: [Part; 2],
+) -> Option<Interval<Part>> {
+    let (above, rise) = (dot(axis, f), dot(axis, d));
+    if rise == 0.0 {
+        let everywhere = Interval { enter: (f64::NEG_INFINITY, base), leave: (f64::INFINITY, top) };
+        return (0.0..=height).contains(&above).then_some(everywhere);
+    }
+    let (base, top) = ((-above / rise, base), ((height - above) / rise, top));
+    Some(if rise > 0.0 { Interval { enter: base, leave: top } } else { Interval { enter: top, leave: base } })
 }
 
 /// The roots of `a·t² − 2·b·t + c`, in order, from `discriminant = b² − a·c > 0` computed with care: neither cancels.
