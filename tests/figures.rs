@@ -8,6 +8,7 @@
 use rtc::color::quantize8;
 use rtc::diag::Sink;
 use rtc::pipeline::{self, Options, Overrides};
+use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
@@ -83,7 +84,8 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
         lowered.scene.camera.lens.samples = samples;
     }
     let scene = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    let film = pipeline::render(&scene, &Job::default(), 0, &|_| true).unwrap().unwrap();
+    let film =
+        pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap();
     film.image.pixels.iter().map(|pixel| pixel.map(quantize8)).collect()
 }
 
