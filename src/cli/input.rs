@@ -90,7 +90,7 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;
-    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
+    proven.ok_or_else(|| Failure::Input(format!("`{}` is sound, but glTF can't be lowered yet", input.name())))
 }
 
 fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
