@@ -81,9 +81,15 @@ pub(super) struct Render {
     /// Sub-samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) supersampling: Option<u32>,
+    /// Points of the lens each sub-sample takes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) aperture_samples: Option<u32>,
     /// Points of each soft light
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) light_samples: Option<u32>,
+    /// Rays of each glossy lobe; what is a mirror stays one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) glossy_samples: Option<u32>,
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,

@@ -10,8 +10,8 @@ use super::talk::{self, Talk};
 use crate::codec::{self, Form};
 use crate::diag::{Diagnostic, codes};
 use crate::image;
-use crate::ir::{Field, Noun, Place, Scene};
-use crate::pipeline::{self, Overrides};
+use crate::ir::{Field, Noun, Overrides, Place, Scene};
+use crate::pipeline;
 use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -56,7 +56,9 @@ impl Plan {
             overrides: Overrides {
                 size: args.size,
                 supersampling: args.supersampling,
+                aperture_samples: args.aperture_samples,
                 light_samples: args.light_samples,
+                glossy_samples: args.glossy_samples,
                 depth: args.depth,
             },
             crop: args.crop,
@@ -103,7 +105,7 @@ impl Plan {
         quiet: bool,
     ) -> Result<(Film, Duration), Failure> {
         let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
-        let job = Job { crop: Some(window), values };
+        let job = Job { crop: Some(window), values, ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
