@@ -1,6 +1,6 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{camera_ray, image_point, lens_point, lens_samples};
+use super::camera::{Twist, camera_ray, image_point, lens_point, lens_samples};
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::sampler::Key;
 use super::whitted::Tracer;
@@ -28,7 +28,7 @@ impl World {
                 Some(Film { image, counts })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) => {
-                let (pixels, counts) = self.tiles(crop, proceed, |tracer, pixel| tracer.pixel(pixel, job.values))?;
+                let (pixels, counts) = self.tiles(crop, proceed, |tracer, pixel| tracer.pixel(pixel, job))?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
             }
         }
@@ -61,8 +61,11 @@ impl World {
 }
 
 impl Tracer<'_> {
-    /// The mean of all sub-samples and points of the lens.
-    fn pixel(&mut self, pixel: [u32; 2], values: Values) -> [f64; 3] {
+    /// The mean of all sub-samples and points of the lens; black outside the tiles.
+    fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> [f64; 3] {
+        if job.tiles.is_some_and(|tiles| !tiles.contain(pixel)) {
+            return [0.0; 3];
+        }
         let scene = self.scene();
         let camera = scene.camera();
         let factor = scene.settings().supersampling.get();
@@ -72,12 +75,14 @@ impl Tracer<'_> {
         for j in 0..factor {
             for i in 0..factor {
                 let cell = u64::from(j) * u64::from(factor) + u64::from(i);
-                let place = place_in_pixel(scene.settings().pattern, [i, j], factor, Key::new(pixel, cell));
+                let key = Key::new(pixel, cell);
+                let place = place_in_pixel(scene.settings().pattern, [i, j], factor, key.seeded(job.seeds.pixel));
                 let target = image_point(camera, pixel, place);
+                let twist = Twist::new(job.seeds.lens, key);
                 for k in 0..points {
-                    let ray = camera_ray(lens_point(camera, k), target);
-                    let radiance = self.radiance(ray, Key::new(pixel, sample));
-                    sum += match values {
+                    let ray = camera_ray(lens_point(camera, k, twist), target);
+                    let radiance = self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path));
+                    sum += match job.values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
                         Values::Linear => radiance,
                     };

@@ -25,11 +25,11 @@ mod triangle;
 mod whitted;
 mod world;
 
-pub use camera::{camera_ray, image_point, lens_point, vogel};
+pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
-pub use film::{Counts, Crop, Film, Job, Values};
+pub use film::{Counts, Crop, Film, Job, Seeds, Tiles, Values};
 pub use instance::{Instance, PreparedMesh};
 pub use optics::{highlight, reflect, refract};
 pub use plane::Plane;

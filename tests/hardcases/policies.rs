@@ -8,7 +8,7 @@ use rtc::math::{BasisFault, Vec3, camera_basis, fallback_up};
 use rtc::render::{Film, Job, Ray, Values, World};
 
 fn film(scene: &ir::Scene) -> Film {
-    let job = Job { crop: None, values: Values::Linear };
+    let job = Job { values: Values::Linear, ..Job::default() };
     World::prepare(&proven(scene)).render(&job, &|_| true).unwrap()
 }
 
