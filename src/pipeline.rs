@@ -5,7 +5,8 @@ pub mod trial;
 use crate::diag::Sink;
 use crate::front::{assets, course};
 use crate::ir::{Lowered, Origins};
-use crate::render::{Film, Job, World};
+use crate::plan::Plan;
+use crate::render::{Film, Job, render as render_planned};
 use crate::source::{FileId, SourceMap};
 use crate::valid::{self, ValidScene};
 use crate::{codec, front};
@@ -50,10 +51,11 @@ pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Va
 /// If the system gives no threads.
 pub fn render(
     scene: &ValidScene,
+    plan: &Plan,
     job: &Job,
     threads: usize,
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| World::prepare(scene).render(job, proceed)))
+    Ok(pool.install(|| render_planned(scene, plan, job, proceed)))
 }

@@ -9,6 +9,7 @@ use rtc::color::quantize8;
 use rtc::diag::Sink;
 use rtc::ir::Overrides;
 use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
@@ -82,7 +83,8 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
     let Figure { name: _, supersampling, aperture_samples, bar: _ } = *figure;
     Overrides { supersampling, aperture_samples, ..Overrides::default() }.apply(&mut lowered.scene);
     let scene = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    let film = pipeline::render(&scene, &Job::default(), 0, &|_| true).unwrap().unwrap();
+    let film =
+        pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap();
     film.image.pixels.iter().map(|pixel| pixel.map(quantize8)).collect()
 }
 

@@ -7,6 +7,7 @@ use rtc::diag::Sink;
 use rtc::ir::{self, Lowered, Origins, Overrides, Scene};
 use rtc::math::ldexp;
 use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
 use rtc::render::{Crop, Film, Job, Seeds, Tiles, Values};
 use rtc::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
@@ -39,7 +40,7 @@ fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
     let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    pipeline::render(&valid, job, threads, &|_| true).unwrap().unwrap()
+    pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), job, threads, &|_| true).unwrap().unwrap()
 }
 
 /// The bits of every value.
@@ -221,5 +222,5 @@ fn a_render_that_is_stopped_leaves_nothing() {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered { scene: small(&paths()[0]), origins: Origins::default() };
     let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
-    assert!(pipeline::render(&valid, &WHOLE, 2, &|_| false).unwrap().is_none());
+    assert!(pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), &WHOLE, 2, &|_| false).unwrap().is_none());
 }

@@ -11,6 +11,7 @@
 use rtc::diag::{Severity, Sink};
 use rtc::ir::Overrides;
 use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
 use std::fs;
@@ -67,7 +68,8 @@ fn outcome(path: &Path) -> Result<Vec<String>, Vec<(&'static str, String)>> {
         }
         return Err(errors.map(|error| (error.code.id, error.message.clone())).collect());
     };
-    let film = pipeline::render(&scene, &Job::default(), 1, &|_| true).unwrap().unwrap();
+    let film =
+        pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 1, &|_| true).unwrap().unwrap();
     drop(film);
     let warnings = sink.kept().iter().filter(|finding| finding.severity == Severity::Warning);
     Ok(warnings.map(|warning| format!("{} {}", warning.code, warning.message)).collect())

@@ -111,7 +111,8 @@ impl Plan {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let film = pipeline::render(&proven.scene, &job, self.threads, &proceed);
+        let plan = crate::plan::Plan::new(&proven.scene, crate::plan::Rules::ALL);
+        let film = pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed);
         let elapsed = progress.finish();
         let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
         Ok((film.ok_or(Failure::Interrupted)?, elapsed))

@@ -7,6 +7,7 @@ use crate::codec::{self, Form};
 use crate::diag::Sink;
 use crate::front::course;
 use crate::ir::{Lowered, Origins, Scene};
+use crate::plan::{Plan, Rules};
 use crate::render::Job;
 use crate::source::{FileId, SourceMap};
 use crate::valid;
@@ -76,7 +77,8 @@ pub fn picture(bytes: &[u8]) {
     let Some(mut lowered) = load(file, &mut map, &options, &mut sink) else { return };
     make_tiny(&mut lowered.scene);
     let Some(proven) = prove(&lowered, &options, &mut sink) else { return };
-    let film = render(&proven, &Job::default(), 1, &|_| true).expect("the system gives one thread");
+    let film = render(&proven, &Plan::new(&proven, Rules::ALL), &Job::default(), 1, &|_| true)
+        .expect("the system gives one thread");
     let image = film.expect("nobody said stop").image;
     let inside = |channel: &f64| (0.0..=1.0).contains(channel);
     assert!(image.pixels.iter().flatten().all(inside), "every channel is in [0, 1]: {:?}", image.pixels);

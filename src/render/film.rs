@@ -98,8 +98,10 @@ pub struct Counts {
     pub camera: u64,
     /// To a light.
     pub shadow: u64,
-    /// Mirrored and refracted.
-    pub secondary: u64,
+    /// Mirrored, glossy ones too.
+    pub mirror: u64,
+    /// Refracted.
+    pub refracted: u64,
     /// Camera rays that hit something.
     pub hits: u64,
 }
@@ -108,7 +110,13 @@ impl Counts {
     /// All rays.
     #[must_use]
     pub fn rays(&self) -> u64 {
-        self.camera + self.shadow + self.secondary
+        self.camera + self.shadow + self.secondary()
+    }
+
+    /// Mirrored and refracted rays.
+    #[must_use]
+    pub fn secondary(&self) -> u64 {
+        self.mirror + self.refracted
     }
 
     /// Both together.
@@ -117,7 +125,8 @@ impl Counts {
         Self {
             camera: self.camera + other.camera,
             shadow: self.shadow + other.shadow,
-            secondary: self.secondary + other.secondary,
+            mirror: self.mirror + other.mirror,
+            refracted: self.refracted + other.refracted,
             hits: self.hits + other.hits,
         }
     }

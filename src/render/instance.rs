@@ -142,13 +142,13 @@ impl Instance {
 
 /// What a surface knows of a point beyond its geometry.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Details {
+pub struct Details {
     /// The unit shading normal, where it is not the geometric one.
-    pub(super) normal: Option<Vec3>,
+    pub normal: Option<Vec3>,
     /// The texture coordinates.
-    pub(super) uv: Option<[f64; 2]>,
+    pub uv: Option<[f64; 2]>,
     /// A direction along the surface in which u grows and v stays.
-    pub(super) tangent: Option<Vec3>,
+    pub tangent: Option<Vec3>,
 }
 
 /// The uv at a point with these weights of the corners.

@@ -3,7 +3,7 @@
 use crate::scenes::{sphere, triangle, world};
 use crate::truth::{Report, cases, id, number, relative_error, vector};
 use rtc::math::Vec3;
-use rtc::render::{Hit, Ray, Shear, World};
+use rtc::render::{Geometry, Hit, Ray, Shear, World};
 use serde_json::Value;
 
 /// SplitMix64, so that a failure is known by seed and index.

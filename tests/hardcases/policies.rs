@@ -5,11 +5,13 @@ use crate::scenes::{check, plane, proven, scene, sphere, triangle, white, world}
 use rtc::diag::codes;
 use rtc::ir::{self, Light, Material, MaterialId, Phong, PointLight};
 use rtc::math::{BasisFault, Vec3, camera_basis, fallback_up};
-use rtc::render::{Film, Job, Ray, Values, World};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Film, Job, Ray, Values, render};
 
 fn film(scene: &ir::Scene) -> Film {
     let job = Job { values: Values::Linear, ..Job::default() };
-    World::prepare(&proven(scene)).render(&job, &|_| true).unwrap()
+    let scene = proven(scene);
+    render(&scene, &Plan::new(&scene, Rules::ALL), &job, &|_| true).unwrap()
 }
 
 fn light(position: [f64; 3], color: [f64; 3]) -> Light {
@@ -76,7 +78,7 @@ fn parallel_mirrors_sum_their_bounces() {
     let sum = (0..=50).map(|i| 0.5_f64.powi(i)).sum::<f64>();
     let film = film(&scene);
     assert!((film.image.pixels[0][0] - sum).abs() < 1e-14, "{:?} instead of {sum}", film.image.pixels[0]);
-    assert_eq!(film.counts.secondary, 50);
+    assert_eq!(film.counts.secondary(), 50);
 }
 
 /// rec-04: a hundred thousand bounces in a mirror box end, escape nowhere, and stay finite.
@@ -91,7 +93,7 @@ fn a_hundred_thousand_bounces_end() {
     scene.settings.max_depth = 100_000;
     scene.lights = vec![light([0.0; 3], [1.0; 3])];
     let film = film(&scene);
-    assert_eq!(film.counts.secondary, 100_000);
+    assert_eq!(film.counts.secondary(), 100_000);
     assert!(film.image.pixels[0].iter().all(|value| value.is_finite()));
 }
 

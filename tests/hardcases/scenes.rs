@@ -3,6 +3,7 @@
 use crate::truth::{number, vector};
 use rtc::diag::Sink;
 use rtc::ir;
+use rtc::plan::{Plan, Rules};
 use rtc::render::World;
 use rtc::valid::{self, ValidScene};
 use serde_json::Value;
@@ -67,7 +68,8 @@ pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> 
 }
 
 pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
-    World::prepare(&proven(&scene(shapes)))
+    let scene = proven(&scene(shapes));
+    World::prepare(&scene, &Plan::new(&scene, Rules::NONE))
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {
