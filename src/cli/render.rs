@@ -7,7 +7,6 @@ use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
-use crate::codec::{self, Form};
 use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
@@ -15,7 +14,6 @@ use crate::pipeline;
 use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use xxhash_rust::xxh3::xxh3_128;
 
 /// A render as it will be done.
 struct Plan {
@@ -134,7 +132,6 @@ impl Plan {
 
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
     fn origin(&self, scene: &Scene) -> image::Origin {
-        let bytes = codec::encode(Form::Text, scene).expect("a proven scene holds finite numbers only");
         let settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
@@ -143,7 +140,7 @@ impl Plan {
         });
         image::Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-            scene: format!("xxh3:{:032x}", xxh3_128(&bytes)),
+            scene: input::hash(scene),
             settings: settings.to_string(),
         }
     }
