@@ -31,6 +31,7 @@ pub use statistics::{Chance, Estimate, PowerLaw, median};
 pub use subject::Stopped;
 
 use crate::ir::Scene;
+use crate::render::Seeds;
 use race::{Runner, race};
 use reference::{Depths, Reference};
 use serde::{Deserialize, Serialize};
@@ -63,8 +64,8 @@ impl Effort {
 
 /// How much of the work goes where, in hundredths.
 const FOR_DEPTH: u64 = 5;
-const FOR_REFERENCE: u64 = 30;
-const FOR_SWEEPS: u64 = 25;
+const FOR_REFERENCE: u64 = 40;
+const FOR_SWEEPS: u64 = 15;
 const FOR_ROWS: u64 = 30;
 const FOR_EFFECTS: u64 = 10;
 
@@ -173,7 +174,12 @@ impl Scope {
         let ladders = self.sampling.iter().map(|knob| sweep(subject, &reference, (*knob, base), fair));
         let ladders = ladders.collect::<Result<Vec<_>, _>>()?;
         let base_rays = subject.shoot(base, reference::independent(5))?.counts.rays();
-        let model = Model::new(ladders, depths.as_ref(), base, base_rays);
+        let mut model = Model::new(ladders, depths.as_ref(), base, base_rays);
+        if self.used.contains(&Knob::Aperture) {
+            let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
+            let shot = subject.shoot(coarse, Seeds::NONE)?;
+            model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
+        }
         Ok(Grounds { reference, depths, model })
     }
 
@@ -182,7 +188,7 @@ impl Scope {
         let Grounds { reference, depths: _, model } = grounds;
         let budget = self.hundredths(FOR_ROWS);
         let least = self.used.iter().fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
-        let least_error = (reference.floor / JUDGE).max(reference::SMALLEST);
+        let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
         let best = front::candidates(model, least, &self.used, budget as f64 / 10.0, least_error);
         let settings = std::iter::once(self.own).chain(best.into_iter().filter(|setting| *setting != self.own));
         let runners: Vec<_> = settings.map(|setting| Runner { subject: subject.clone(), setting }).collect();

@@ -93,13 +93,21 @@ pub(super) struct Model {
     ladders: Vec<Ladder>,
     base: Setting,
     base_rays: f64,
+    /// The square of what sub-samples and points of the lens leave together beyond what each leaves alone, one of each.
+    interplay: f64,
 }
 
 impl Model {
     /// The model of ladders that were measured around `base`, which takes `base_rays`.
     pub(super) fn new(mut ladders: Vec<Ladder>, depths: Option<&Depths>, base: Setting, base_rays: u64) -> Self {
         ladders.extend(depths.map(|depths| Ladder { knob: Knob::Depth, rungs: depths.rungs.clone(), law: None }));
-        Self { ladders, base, base_rays: base_rays as f64 }
+        Self { ladders, base, base_rays: base_rays as f64, interplay: 0.0 }
+    }
+
+    /// Learns from the error of the base with one sub-sample and one point of the lens.
+    pub(super) fn learn_interplay(&mut self, coarse: Setting, error: f64) {
+        let alone = self.error(coarse);
+        self.interplay = (error * error - alone * alone).max(0.0);
     }
 
     /// What is known of a knob, `idle` being why it changes nothing if so.
@@ -123,7 +131,10 @@ impl Model {
             let is_anew = matches!(ladder.knob, Knob::Lights | Knob::Glossy) && value > 1;
             error * error * if is_anew { more } else { 1.0 }
         });
-        squares.sum::<f64>().sqrt()
+        // The edges of each point's picture are jagged in their own way: their mean is as smooth as they are many.
+        let samples = Knob::Supersampling.samples(setting.supersampling);
+        let together = self.interplay / (samples * samples.sqrt() * f64::from(setting.aperture));
+        (squares.sum::<f64>() + together).sqrt()
     }
 
     /// The rays of a setting.

@@ -1,7 +1,9 @@
 //! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a browser.
 
+mod chart;
 mod csv;
 mod html;
+mod picture;
 mod table;
 
 pub use csv::csv;

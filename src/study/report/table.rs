@@ -3,6 +3,7 @@
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{KnobReport, Row, Study};
+use super::super::reference::DepthEnd;
 use std::fmt::Write;
 
 const WIDTH: usize = 80;
@@ -20,7 +21,7 @@ pub fn table(study: &Study) -> String {
     text += &format!("{names}\n");
     study.rows.iter().for_each(|row| text += &format!("{}\n", line(row, &used, study.part.share)));
     text += "\n";
-    study.knobs.iter().for_each(|knob| text += &wrapped(&knob_line(knob)));
+    study.knobs.iter().for_each(|knob| text += &wrapped(&knob_line(knob, study.reference.depth)));
     if !study.effects.is_empty() {
         text += "\nwithout            time      rays  picture differs by\n";
     }
@@ -70,45 +71,58 @@ fn write_cell(line: &mut String, text: &str, width: usize) {
 }
 
 fn head(study: &Study) -> String {
+    let about = format!("{}, {}.", study.about.scene, study.about.hash);
+    [about, part(study), reference(study)].map(|line| wrapped(&line)).concat()
+}
+
+/// What was looked at, and how well it stands for the whole.
+pub(super) fn part(study: &Study) -> String {
     let [width, height] = study.part.size;
-    let floor = digits(study.reference.floor);
-    let part = match study.part.tiles {
-        0 => "all of the picture".to_owned(),
+    match study.part.tiles {
+        0 => format!("All of the picture of {width}×{height} pixels was looked at."),
         tiles => {
             let uncertainty = study.own().map_or(0.0, |row| 100.0 * row.errors.rmse_uncertainty);
             let share = 100.0 * study.part.share;
-            format!("{tiles} tiles, {share:.1} % of the picture: errors ±{uncertainty:.0} % for the whole")
+            format!(
+                "{tiles} random tiles, {share:.1} % of the picture of {width}×{height} pixels, were looked at: all errors \
+                 together may be {uncertainty:.0} % less or more for the whole."
+            )
         }
-    };
-    let setting = study.reference.setting.words(&study.used());
-    let lines = [
-        format!("{}, {width}×{height}, {}, {part}.", study.about.scene, study.about.hash),
-        format!(
-            "Reference: twice {setting}, off by {floor} grey levels. Errors are root mean squares in grey levels, of \
-             values clamped as displayed; rays and the time of one processor are of the whole picture; * is the front."
-        ),
-    ];
-    lines.map(|line| wrapped(&line)).concat()
+    }
 }
 
-fn knob_line(report: &KnobReport) -> String {
+/// What errors are measured against, and in what.
+pub(super) fn reference(study: &Study) -> String {
+    let setting = study.reference.setting.words(&study.used());
+    let floor = digits(study.reference.floor);
+    format!(
+        "Reference: twice {setting}, off by {floor} grey levels itself. Errors are root mean squares in grey levels, of \
+         values clamped as displayed; rays and the time of one processor are of the whole picture; * is the front."
+    )
+}
+
+/// What is known of a knob, in one sentence.
+pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
     let name = report.knob.name();
-    match (&report.idle, &report.law, report.rungs.last()) {
-        (Some(reason), _, _) => format!("{name}: not used by this scene: {reason}"),
-        (None, Some(law), _) => {
-            let samples = if report.knob == Knob::Supersampling { "samples" } else { "n" };
+    let last = report.rungs.last().map_or(0, |rung| rung.value);
+    if let Some(reason) = &report.idle {
+        return format!("{name}: not used by this scene: {reason}");
+    }
+    match (&report.law, report.knob, end) {
+        (Some(law), knob, _) => {
+            let samples = if knob == Knob::Supersampling { "samples" } else { "n" };
             let (p, half) = (law.p.value, 0.5 * (law.p.high - law.p.low));
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
-        (None, None, Some(last)) if report.knob == Knob::Depth => {
-            format!("{name}: nothing changes from {} on", last.value)
-        }
-        (None, None, _) => format!("{name}: no law: too few values stand out from the noise"),
+        (None, Knob::Depth, Some(DepthEnd::Exact)) => format!("{name}: no path goes deeper than {last}"),
+        (None, Knob::Depth, Some(DepthEnd::Still)) => format!("{name}: nothing shows from {last} on"),
+        (None, Knob::Depth, _) => format!("{name}: paths go deeper than {last}, which was as far as the study went"),
+        (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
     }
 }
 
 /// A number of rays, as 1.23 M.
-fn count(rays: f64) -> String {
+pub(super) fn count(rays: f64) -> String {
     match rays {
         ..1e4 => format!("{rays:.0}"),
         ..1e6 => format!("{:.0} k", rays / 1e3),
