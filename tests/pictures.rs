@@ -6,9 +6,9 @@
 
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::{self, Lowered, Scene};
+use rtc::ir::{self, Lowered, Overrides, Scene};
 use rtc::math::{Double, Vec3, view_basis};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Counts, Film, Geometry, Job, Shape, World, camera_ray, image_point};
 use rtc::source::{Loader, SourceMap};
@@ -103,6 +103,7 @@ fn earth() -> Scene {
             up: up.to_array(),
             size: [400, 400],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -118,6 +119,8 @@ fn earth() -> Scene {
         meshes: Vec::new(),
         materials: vec![ir::Material::Phong(phong)],
         surfaces: vec![ir::Surface { shape: ir::Shape::Sphere(sphere), material: ir::MaterialId(0) }],
+        names: Vec::new(),
+        environment: None,
     }
 }
 
