@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=${1:-20}
-targets=(scene_parser check ir_decode validate render_tiny)
+targets=(scene_parser check ir_decode validate render_tiny gltf glb)
 share=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]}))
 
 command -v cargo-fuzz >/dev/null || cargo install --quiet cargo-fuzz

@@ -20,18 +20,15 @@ pub struct Options {
     pub valid: valid::Options,
 }
 
-/// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content. The files
-/// a YAML names come into the map.
+/// Reads a scene in any form: the course's YAML, glTF, or the text or binary form of the IR, told apart by content. The
+/// files a YAML names come into the map.
 pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
-        None if gltf::recognise(map.name(file), map.bytes(file)) => {
-            gltf::check(file, map, &options.front, sink);
-            None
-        }
+        None if gltf::recognise(map.name(file), map.bytes(file)) => gltf::lower(file, map, &options.front, sink),
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;
             let wanted = std::mem::take(&mut draft.wanted);

@@ -56,6 +56,16 @@ fn render_tiny() {
     replay("render_tiny", trial::picture);
 }
 
+#[test]
+fn gltf() {
+    replay("gltf", trial::gltf);
+}
+
+#[test]
+fn glb() {
+    replay("glb", trial::glb);
+}
+
 /// A target without a replay would be a target whose finds come back unseen.
 #[test]
 fn every_target_is_replayed() {

@@ -219,6 +219,15 @@ pub(super) struct Reading {
     /// A folder, beside that of the scene, whose files the scene may name: textures and meshes
     #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath)]
     pub(super) asset_root: Option<PathBuf>,
+    /// Show a glTF asset at this moment of its animation [default: at rest]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub(super) time: Option<f64>,
+    /// The animation of a glTF asset, by its name [default: the first, if there is a `--time`]
+    #[arg(long, value_name = "NAME")]
+    pub(super) animation: Option<String>,
+    /// The variant of the materials of a glTF asset, by its name
+    #[arg(long, value_name = "NAME")]
+    pub(super) variant: Option<String>,
     /// Lift the limits on the size of the picture and the number of rays
     #[arg(long)]
     pub(super) allow_huge: bool,
@@ -333,6 +342,11 @@ pub(super) enum Color {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
 }
 
 fn folder(text: &str) -> Result<PathBuf, String> {

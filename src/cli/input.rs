@@ -34,9 +34,16 @@ pub(super) struct Proven {
 impl Input {
     /// Reads the file at `path`, or standard input if it is `-`.
     pub(super) fn read(path: &Path, reading: &Reading) -> Self {
-        let Reading { stdin_name, strict, lenient, asset_root, allow_huge } = reading;
+        let Reading { stdin_name, strict, lenient, asset_root, time, animation, variant, allow_huge } = reading;
         let options = Options {
-            front: front::Options { strict: *strict, lenient: *lenient, asset_root: asset_root.clone() },
+            front: front::Options {
+                strict: *strict,
+                lenient: *lenient,
+                asset_root: asset_root.clone(),
+                time: *time,
+                animation: animation.clone(),
+                variant: variant.clone(),
+            },
             valid: valid::Options { allow_huge: *allow_huge },
         };
         let (mut map, mut sink) = (SourceMap::default(), Sink::default());
@@ -91,7 +98,7 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;
-    proven.ok_or_else(|| Failure::Input(format!("`{}` is sound, but glTF can't be lowered yet", input.name())))
+    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
 }
 
 /// The hash of a proven scene's IR, by which a picture or a report says what it is of.

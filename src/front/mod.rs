@@ -2,7 +2,6 @@
 
 pub mod assets;
 pub mod course;
-#[expect(dead_code, reason = "what is read of an asset and not checked waits for its lowering")]
 pub mod gltf;
 
 use crate::ir::{ImageId, MeshId};
@@ -18,6 +17,12 @@ pub struct Options {
     pub lenient: bool,
     /// A folder beside that of the scene below which files named by the scene may lie.
     pub asset_root: Option<PathBuf>,
+    /// Of a glTF asset: the moment at which it is shown, in seconds; at rest without.
+    pub time: Option<f64>,
+    /// Of a glTF asset: the animation that the moment is of; without, the first.
+    pub animation: Option<String>,
+    /// Of a glTF asset: the variant of its materials.
+    pub variant: Option<String>,
 }
 
 /// A file that a scene names, for a place in the IR that waits for it.

@@ -55,6 +55,22 @@ impl fmt::Display for DecodeError {
 /// # Errors
 /// If the bytes are no such file, damaged, or ask for too much.
 pub fn decode(bytes: &[u8]) -> Result<Pixels, DecodeError> {
+    let picture = picture(bytes)?;
+    Ok(Pixels { width: picture.width(), height: picture.height(), bytes: picture.into_rgb8().into_raw() })
+}
+
+/// Decodes a pixel file and keeps its opacity: if the second is true, pixels have four bytes.
+///
+/// # Errors
+/// As [`decode`].
+pub fn decode_with_alpha(bytes: &[u8]) -> Result<(Pixels, bool), DecodeError> {
+    let picture = picture(bytes)?;
+    let (width, height, has_alpha) = (picture.width(), picture.height(), picture.color().has_alpha());
+    let bytes = if has_alpha { picture.into_rgba8().into_raw() } else { picture.into_rgb8().into_raw() };
+    Ok((Pixels { width, height, bytes }, has_alpha))
+}
+
+fn picture(bytes: &[u8]) -> Result<DynamicImage, DecodeError> {
     let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
     if !matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP) {
         return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/"))));
@@ -79,7 +95,7 @@ pub fn decode(bytes: &[u8]) -> Result<Pixels, DecodeError> {
     if width == 0 || height == 0 {
         return Err(DecodeError::Damaged("it has no pixels".to_owned()));
     }
-    Ok(Pixels { width, height, bytes: picture.into_rgb8().into_raw() })
+    Ok(picture)
 }
 
 fn damaged(error: &ImageError) -> DecodeError {

@@ -5,7 +5,7 @@ mod decode;
 mod exr;
 mod png;
 
-pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode};
+pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha};
 
 use std::fmt;
 

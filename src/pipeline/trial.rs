@@ -32,7 +32,28 @@ pub fn lower(bytes: &[u8]) {
 /// # Panics
 /// If there is neither a proof nor an error, or both, or a proven scene is another one after encoding and decoding.
 pub fn check(bytes: &[u8]) {
-    let (mut map, file) = source(bytes);
+    check_as("trial", bytes);
+}
+
+/// The same, of a glTF asset in text.
+///
+/// # Panics
+/// As [`check`].
+pub fn gltf(bytes: &[u8]) {
+    check_as("trial.gltf", bytes);
+}
+
+/// The same, of a glTF asset in its container.
+///
+/// # Panics
+/// As [`check`].
+pub fn glb(bytes: &[u8]) {
+    check_as("trial.glb", bytes);
+}
+
+fn check_as(name: &str, bytes: &[u8]) {
+    let mut map = SourceMap::default();
+    let file = map.add(name, bytes.to_vec());
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = load(file, &mut map, &options, &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| prove(lowered, &options, &mut sink));

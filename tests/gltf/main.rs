@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 
 mod broken;
 mod corpus;
+mod lowering;
+mod make;
 
 /// A folder of `../shared/gltf`; a note if there is none.
 fn shared(folder: &str) -> Option<PathBuf> {

@@ -195,4 +195,10 @@ super::codes! { GL:
          "IMAGE_NPOT_DIMENSIONS", "BUFFER_VIEW_TARGET_MISSING",
          "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE",
          "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED"];
+    GLTF_COMPRESSED = "GL047", Error, "compressed geometry of a glTF asset can't be decompressed",
+        "The data of `KHR_draco_mesh_compression` or `EXT_meshopt_compression` is damaged, or is not what the accessors \
+         say. Compress the asset again.";
+    GLTF_CHOSEN = "GL048", Error, "a glTF asset has nothing of that name",
+        "The command line names an animation, a variant of the materials or a scene that the asset has not. The message \
+         lists those that it has.";
 }

@@ -90,6 +90,14 @@ impl View {
     }
 }
 
+impl View {
+    /// A view of bytes that stand nowhere in the asset.
+    pub(super) fn decoded(at: NodeId, bytes: Vec<u8>) -> Self {
+        let (buffer, offset, length, stride, target) = (None, 0, Some(bytes.len()), None, None);
+        Self { at, buffer, offset, length, stride, target, decoded: Some(bytes) }
+    }
+}
+
 impl Document<'_> {
     /// The bytes of a view, if they are all there.
     pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {

@@ -10,7 +10,6 @@ use crate::diag::codes;
 #[derive(Debug)]
 pub(super) struct Camera {
     pub(super) at: NodeId,
-    pub(super) name: String,
     pub(super) projection: Option<Projection>,
 }
 
@@ -34,7 +33,7 @@ impl Camera {
         let orthographic = orthographic.and_then(|fields| {
             Some(Projection::Orthographic { xmag: fields.number("xmag")?, ymag: fields.number("ymag")? })
         });
-        Self { at: fields.at, name: fields.name(), projection: perspective.or(orthographic) }
+        Self { at: fields.at, projection: perspective.or(orthographic) }
     }
 }
 

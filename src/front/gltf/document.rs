@@ -31,6 +31,8 @@ pub(super) struct Document<'s> {
     /// Where each light was written.
     pub(super) lights: Vec<NodeId>,
     pub(super) scenes: Vec<Scene>,
+    /// The scene that is shown.
+    pub(super) scene: Option<usize>,
     /// The names in `extensionsUsed`.
     pub(super) extensions: Vec<String>,
     /// It is a `.glb`.
@@ -68,6 +70,7 @@ impl Document<'_> {
             cameras: each(root, "cameras", Camera::read),
             lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
             scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
+            scene: root.index("scene"),
             extensions: texts.map(std::borrow::Cow::into_owned).collect(),
             is_glb,
         }

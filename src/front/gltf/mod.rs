@@ -11,14 +11,17 @@ mod camera;
 mod container;
 mod contents;
 mod document;
+mod draco;
 mod elements;
 mod field;
 mod header;
 mod image;
 mod json;
 mod light;
+mod lower;
 mod material;
 mod mesh;
+mod meshopt;
 mod node;
 mod report;
 mod resource;
@@ -30,6 +33,7 @@ mod usage;
 
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
+use crate::ir::Lowered;
 use crate::source::{FileId, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
@@ -53,24 +57,26 @@ pub fn recognise(name: &str, bytes: &[u8]) -> bool {
     container::is_glb(name, bytes) || named || (is_json && says_so())
 }
 
-/// Checks an asset; the sink says what is wrong with it.
-pub fn check(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) {
+/// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
+pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     let bytes = map.bytes(file);
-    let Some(parts) = parts(file, map, sink) else { return };
-    let Some((base, text)) = text(file, bytes, &parts, sink) else { return };
+    let parts = parts(file, map, sink)?;
+    let (base, text) = text(file, bytes, &parts, sink)?;
     let tree = match json::parse(file, base, text) {
         Ok(tree) => tree,
         Err(fault) => {
             let at = base + u32::try_from(fault.at).unwrap_or(u32::MAX - base);
             sink.push(not_json(Span::new(file, at, at), &format!("the text is not JSON: {}", fault.what)));
-            return;
+            return None;
         }
     };
     keys_twice(&tree, sink);
     let mut report = Report::new(&tree, sink, options);
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
+    let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
+    let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
+    lowered.filter(|_| !report.has_errors())
 }
 
 fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
@@ -125,6 +131,9 @@ fn read<'s>(
     resources.bring_buffers(&mut doc, chunk, report);
     resources.bring_images(&mut doc, report);
     let demands = check_links(&doc, report);
+    meshopt::expand(&mut doc, report);
+    draco::expand(&mut doc, report);
+    accessor::check_claims(&doc, report);
     contents::check(&doc, demands, report);
     image::inspect(&mut doc, report);
     texture::check(&doc, report);
@@ -138,7 +147,6 @@ fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
     let mut demands = Demands::default();
     buffer::check(doc, report);
     accessor::check(doc, &mut purposes, report);
-    accessor::check_claims(doc, &[], report);
     image::check(doc, &mut purposes, report);
     camera::check(doc, report);
     light::check(doc, report);

@@ -1,0 +1,37 @@
+//! Punctual lights in the world (`KHR_lights_punctual`): they shine along their negative z axis, scale has no effect.
+
+use super::super::field::Fields;
+use super::super::json::NodeId;
+use super::Lowering;
+use crate::ir::{Emitter, Field, Light, Noun, Place, Punctual};
+use glam::DAffine3;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
+impl Lowering<'_, '_, '_> {
+    /// Lowers the light at a node that stands at `world`.
+    pub(super) fn light(&mut self, light: NodeId, world: DAffine3) {
+        let fields = Fields::new(self.report.json, light);
+        let intensity = fields.number_or("intensity", 1.0);
+        let position = world.translation.to_array();
+        let backward = world.z_axis.normalize_or_zero();
+        let range = fields.number("range").filter(|range| *range > 0.0);
+        let emitter = match fields.text("type").as_deref() {
+            Some("directional") if backward != crate::math::Vec3::ZERO => {
+                Emitter::Sun { direction: backward.to_array() }
+            }
+            Some("point") => Emitter::Point { position, range },
+            Some("spot") if backward != crate::math::Vec3::ZERO => {
+                let angle = |key, default| fields.object("spot").map_or(default, |spot| spot.number_or(key, default));
+                let outer_angle: f64 = angle("outerConeAngle", FRAC_PI_4);
+                let outer_angle = outer_angle.min(FRAC_PI_2);
+                let inner_angle = angle("innerConeAngle", 0.0);
+                Emitter::Spot { position, direction: (-backward).to_array(), inner_angle, outer_angle, range }
+            }
+            _ => return,
+        };
+        let color = fields.vector_or("color", [1.0; 3]).map(|channel| channel * intensity);
+        let place = Place::new(Noun::Light, self.scene.lights.len(), Field::Whole);
+        self.origins.record(place, self.report.json.span(light));
+        self.scene.lights.push(Light::Punctual(Punctual { emitter, intensity: color }));
+    }
+}

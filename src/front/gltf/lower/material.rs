@@ -1,0 +1,207 @@
+//! Materials: the factors and maps of glTF and of its extensions, each material lowered once.
+
+use super::super::document::Document;
+use super::super::field::Fields;
+use super::super::json::Tree;
+use super::super::mesh::Primitive;
+use super::super::report::Report;
+use super::mesh::to_u32;
+use super::texture::Textures;
+use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
+
+/// What became of the materials of the asset.
+pub(super) struct Materials {
+    made: Vec<Option<MaterialId>>,
+    /// That of primitives without one.
+    default: Option<MaterialId>,
+}
+
+/// The material that a primitive has in a variant.
+pub(super) fn chosen(primitive: &Primitive, variant: Option<usize>, json: &Tree<'_>) -> Option<usize> {
+    let variant = variant?;
+    let mappings = Fields::new(json, primitive.at).extension("KHR_materials_variants")?;
+    let mapping = mappings.objects("mappings").find(|mapping| mapping.indices("variants").contains(&variant))?;
+    mapping.index("material")
+}
+
+impl Materials {
+    pub(super) fn new(doc: &Document<'_>) -> Self {
+        Self { made: vec![None; doc.materials.len()], default: None }
+    }
+
+    /// True if the material looks at tangents.
+    #[expect(clippy::unused_self, reason = "materials answer for what they need")]
+    pub(super) fn needs_tangents(&self, material: MaterialId, scene: &Scene) -> bool {
+        match scene.materials.get(material.0 as usize) {
+            Some(ir::Material::Standard(standard)) => {
+                standard.normal_map.is_some() || standard.clearcoat_normal_map.is_some() || standard.anisotropy > 0.0
+            }
+            Some(ir::Material::Phong(_)) | None => false,
+        }
+    }
+
+    /// The material of the index given, or the one that glTF has where none is.
+    pub(super) fn make(
+        &mut self,
+        doc: &Document<'_>,
+        material: Option<usize>,
+        textures: &mut Textures,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &mut Report<'_, '_>,
+    ) -> MaterialId {
+        let known = material.map_or(self.default, |material| self.made[material]);
+        if let Some(known) = known {
+            return known;
+        }
+        let standard = match material {
+            None => Standard::default(),
+            Some(material) => {
+                let fields = Fields::new(report.json, doc.materials[material]);
+                Reader { doc, textures, scene, origins, report }.material(fields)
+            }
+        };
+        let id = MaterialId(to_u32(scene.materials.len()));
+        if let Some(material) = material {
+            let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
+            origins.record(place, report.json.span(doc.materials[material]));
+        }
+        scene.materials.push(ir::Material::Standard(Box::new(standard)));
+        match material {
+            Some(material) => self.made[material] = Some(id),
+            None => self.default = Some(id),
+        }
+        id
+    }
+}
+
+/// Reads materials, bringing the textures they name.
+struct Reader<'m, 'd, 'r, 's> {
+    doc: &'m Document<'d>,
+    textures: &'m mut Textures,
+    scene: &'m mut Scene,
+    origins: &'m mut Origins,
+    report: &'m mut Report<'r, 's>,
+}
+
+impl Reader<'_, '_, '_, '_> {
+    fn map(&mut self, fields: Option<Fields<'_, '_>>, key: &str) -> Option<Map> {
+        let info = fields?.object(key)?;
+        self.textures.map(self.doc, info, self.scene, self.origins, self.report)
+    }
+
+    fn material(&mut self, fields: Fields<'_, '_>) -> Standard {
+        let pbr = fields.object("pbrMetallicRoughness");
+        let strength = extension(fields, "emissive_strength").map_or(1.0, |own| own.number_or("emissiveStrength", 1.0));
+        let normal = fields.object("normalTexture");
+        let mut standard = Standard {
+            name: fields.name(),
+            base_color: pbr.and_then(|pbr| pbr.vector("baseColorFactor")).unwrap_or([1.0; 4]),
+            base_color_map: self.map(pbr, "baseColorTexture"),
+            metallic: number(pbr, "metallicFactor", 1.0),
+            roughness: number(pbr, "roughnessFactor", 1.0),
+            metallic_roughness_map: self.map(pbr, "metallicRoughnessTexture"),
+            emissive: fields.vector_or("emissiveFactor", [0.0; 3]).map(|channel| channel * strength),
+            emissive_map: self.map(Some(fields), "emissiveTexture"),
+            normal_map: self.map(Some(fields), "normalTexture"),
+            normal_scale: number(normal, "scale", 1.0),
+            alpha: match fields.text("alphaMode").as_deref() {
+                Some("MASK") => Alpha::Mask(fields.number_or("alphaCutoff", 0.5)),
+                Some("BLEND") => Alpha::Blend,
+                _ => Alpha::Opaque,
+            },
+            double_sided: fields.truth("doubleSided"),
+            unlit: extension(fields, "unlit").is_some(),
+            ior: number(extension(fields, "ior"), "ior", 1.5),
+            dispersion: number(extension(fields, "dispersion"), "dispersion", 0.0),
+            ..Standard::default()
+        };
+        self.specular_glossiness(fields, &mut standard);
+        self.specular(fields, &mut standard);
+        self.transmission(fields, &mut standard);
+        self.clearcoat(fields, &mut standard);
+        self.sheen(fields, &mut standard);
+        self.anisotropy(fields, &mut standard);
+        self.iridescence(fields, &mut standard);
+        standard
+    }
+
+    fn specular_glossiness(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "pbrSpecularGlossiness");
+        let Some(model) = own else { return };
+        let [r, g, b] = model.vector_or("specularFactor", [1.0; 3]);
+        standard.specular_glossiness = Some([r, g, b, model.number_or("glossinessFactor", 1.0)]);
+        standard.specular_glossiness_map = self.map(own, "specularGlossinessTexture");
+        standard.base_color = model.vector_or("diffuseFactor", [1.0; 4]);
+        standard.base_color_map = self.map(own, "diffuseTexture");
+    }
+
+    fn specular(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "specular");
+        standard.specular = number(own, "specularFactor", 1.0);
+        standard.specular_map = self.map(own, "specularTexture");
+        standard.specular_color = vector(own, "specularColorFactor", 1.0);
+        standard.specular_color_map = self.map(own, "specularColorTexture");
+    }
+
+    fn transmission(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "transmission");
+        standard.transmission = number(own, "transmissionFactor", 0.0);
+        standard.transmission_map = self.map(own, "transmissionTexture");
+        let volume = extension(fields, "volume");
+        standard.thickness = number(volume, "thicknessFactor", 0.0);
+        standard.thickness_map = self.map(volume, "thicknessTexture");
+        standard.attenuation_distance = volume.and_then(|volume| volume.number("attenuationDistance"));
+        standard.attenuation_color = vector(volume, "attenuationColor", 1.0);
+    }
+
+    fn clearcoat(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "clearcoat");
+        standard.clearcoat = number(own, "clearcoatFactor", 0.0);
+        standard.clearcoat_map = self.map(own, "clearcoatTexture");
+        standard.clearcoat_roughness = number(own, "clearcoatRoughnessFactor", 0.0);
+        standard.clearcoat_roughness_map = self.map(own, "clearcoatRoughnessTexture");
+        standard.clearcoat_normal_map = self.map(own, "clearcoatNormalTexture");
+        let normal = own.and_then(|own| own.object("clearcoatNormalTexture"));
+        standard.clearcoat_normal_scale = number(normal, "scale", 1.0);
+    }
+
+    fn sheen(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "sheen");
+        standard.sheen_color = vector(own, "sheenColorFactor", 0.0);
+        standard.sheen_color_map = self.map(own, "sheenColorTexture");
+        standard.sheen_roughness = number(own, "sheenRoughnessFactor", 0.0);
+        standard.sheen_roughness_map = self.map(own, "sheenRoughnessTexture");
+    }
+
+    fn anisotropy(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "anisotropy");
+        standard.anisotropy = number(own, "anisotropyStrength", 0.0);
+        standard.anisotropy_rotation = number(own, "anisotropyRotation", 0.0);
+        standard.anisotropy_map = self.map(own, "anisotropyTexture");
+    }
+
+    fn iridescence(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+        let own = extension(fields, "iridescence");
+        standard.iridescence = number(own, "iridescenceFactor", 0.0);
+        standard.iridescence_map = self.map(own, "iridescenceTexture");
+        standard.iridescence_ior = number(own, "iridescenceIor", 1.3);
+        let thickness = |key, default| number(own, key, default);
+        standard.iridescence_thickness =
+            [thickness("iridescenceThicknessMinimum", 100.0), thickness("iridescenceThicknessMaximum", 400.0)];
+        standard.iridescence_thickness_map = self.map(own, "iridescenceThicknessTexture");
+    }
+}
+
+/// The object of a `KHR_materials_*` extension.
+fn extension<'t, 's>(fields: Fields<'t, 's>, name: &str) -> Option<Fields<'t, 's>> {
+    fields.extension(&format!("KHR_materials_{name}"))
+}
+
+fn number(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> f64 {
+    fields.map_or(default, |fields| fields.number_or(key, default))
+}
+
+fn vector(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> [f64; 3] {
+    fields.map_or([default; 3], |fields| fields.vector_or(key, [default; 3]))
+}

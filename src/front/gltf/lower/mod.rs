@@ -1,0 +1,181 @@
+//! A sound asset to the IR: what its scene shows at one moment, in world coordinates, in one set of materials.
+
+mod camera;
+mod deform;
+mod light;
+mod material;
+mod mesh;
+mod place;
+mod pose;
+mod tangent;
+mod texture;
+mod topology;
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+use crate::front::Options;
+use crate::ir::{self, Environment, Field, Lowered, Material, MaterialId, Mode, Noun, Origins, Place, Scene};
+use glam::DAffine3;
+use material::Materials;
+use mesh::Meshes;
+use texture::Textures;
+
+/// Bounces of a path, paths a pixel.
+const DEPTH: u32 = 16;
+const SAMPLES: u32 = 64;
+
+/// What an asset is lowered with.
+struct Lowering<'l, 'r, 's> {
+    doc: &'l Document<'s>,
+    report: &'l mut Report<'r, 's>,
+    scene: Scene,
+    origins: Origins,
+    textures: Textures,
+    materials: Materials,
+    meshes: Meshes,
+    /// The variant of the materials that was asked for.
+    variant: Option<usize>,
+    /// The cameras that were met, each with its place.
+    cameras: Vec<(usize, DAffine3)>,
+}
+
+/// Lowers an asset without errors.
+pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Report<'_, 's>) -> Lowered {
+    let variant = options.variant.as_deref().and_then(|name| find_variant(name, report));
+    let pose = pose::pose(doc, options, report);
+    let mut lowering = Lowering {
+        doc,
+        report,
+        scene: empty(),
+        origins: Origins::default(),
+        textures: Textures::new(doc),
+        materials: Materials::new(doc),
+        meshes: Meshes::new(doc),
+        variant,
+        cameras: Vec::new(),
+    };
+    let worlds = place::worlds(doc, &pose);
+    for node in place::shown(doc) {
+        lowering.node(node, &pose, &worlds);
+    }
+    lowering.finish()
+}
+
+/// A scene without anything, that is rendered as glTF means it.
+fn empty() -> Scene {
+    Scene {
+        camera: camera::looking_at([0.0; 3], 1.0),
+        settings: ir::Settings {
+            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: false }),
+            shadows: true,
+            max_depth: DEPTH,
+            supersampling: 1,
+            pattern: ir::Pattern::Grid,
+            light_samples: 1,
+        },
+        lights: Vec::new(),
+        images: Vec::new(),
+        textures: Vec::new(),
+        meshes: Vec::new(),
+        materials: Vec::new(),
+        surfaces: Vec::new(),
+        names: Vec::new(),
+        environment: None,
+    }
+}
+
+/// The index of the variant of this name.
+fn find_variant(name: &str, report: &mut Report<'_, '_>) -> Option<usize> {
+    let root = Fields::new(report.json, report.json.root());
+    let variants = root.extension("KHR_materials_variants");
+    let names: Vec<String> =
+        variants.iter().flat_map(|fields| fields.objects("variants")).map(|one| one.name()).collect();
+    let found = names.iter().position(|own| own == name);
+    if found.is_none() {
+        missing("variant", name, &names, report);
+    }
+    found
+}
+
+/// Reports that the command line names what there isn't.
+fn missing(noun: &str, name: &str, names: &[String], report: &mut Report<'_, '_>) {
+    let names: Vec<String> = names.iter().map(|name| format!("`{}`", super::report::shown(name))).collect();
+    let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
+    let root = report.json.root();
+    let message = format!("the asset has no {noun} `{}`", super::report::shown(name));
+    report.advise(&codes::GLTF_CHOSEN, "", root, message, hint);
+}
+
+impl Lowering<'_, '_, '_> {
+    /// Lowers what one node shows.
+    fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
+        let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
+        if let Some(camera) = node.camera {
+            self.cameras.push((camera, world));
+        }
+        if let Some(light) = node.light.and_then(|light| doc.lights.get(light)) {
+            self.light(*light, world);
+        }
+        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
+        let skin = node.skin.and_then(|skin| doc.skins.get(skin)).filter(|_| mesh.is_skinned());
+        let shape = deform::Shape {
+            weights: pose.weights(index, mesh),
+            skin: skin.map(|skin| deform::joints(doc, skin, worlds)),
+        };
+        let places = match (skin, node.instances) {
+            (Some(_), _) => vec![DAffine3::IDENTITY],
+            (None, Some(instances)) => place::instances(doc, instances).into_iter().map(|own| world * own).collect(),
+            (None, None) => vec![world],
+        };
+        for primitive in &mesh.primitives {
+            let material = self.material(primitive);
+            let needs_tangents = self.materials.needs_tangents(material, &self.scene);
+            let made = mesh::Wanted { primitive, name: &mesh.name, shape: &shape, needs_tangents };
+            let Some(id) = self.meshes.make(doc, &made, &mut self.scene, &mut self.origins, self.report) else {
+                continue;
+            };
+            for place in &places {
+                self.surface(id, *place, material, &node.name, node.at);
+            }
+        }
+    }
+
+    /// Places a mesh, unless its place has no volume: then nothing of it shows.
+    fn surface(&mut self, mesh: ir::MeshId, world: DAffine3, material: MaterialId, name: &str, at: NodeId) {
+        if !place::has_volume(world) {
+            let message = "the node is scaled to nothing, so it does not show".to_owned();
+            return self.report.say(&codes::GLTF_REMARK, "", at, message);
+        }
+        let world_from_object = world.to_cols_array_2d();
+        let shape = ir::Shape::Instance(ir::Instance { mesh, world_from_object });
+        let place = Place::new(Noun::Surface, self.scene.surfaces.len(), Field::Whole);
+        self.origins.record(place, self.report.json.span(at));
+        self.scene.surfaces.push(ir::Surface { shape, material });
+        self.scene.names.push(name.to_owned());
+    }
+
+    fn material(&mut self, primitive: &super::mesh::Primitive) -> MaterialId {
+        let material = material::chosen(primitive, self.variant, self.report.json).or(primitive.material);
+        let material = material.filter(|material| *material < self.doc.materials.len());
+        self.materials.make(self.doc, material, &mut self.textures, &mut self.scene, &mut self.origins, self.report)
+    }
+
+    fn finish(mut self) -> Lowered {
+        self.camera();
+        if self.scene.names.iter().all(String::is_empty) {
+            self.scene.names.clear();
+        }
+        let glows = |material: &Material| match material {
+            Material::Standard(standard) => standard.unlit || standard.emissive.iter().any(|channel| *channel > 0.0),
+            Material::Phong(_) => false,
+        };
+        if self.scene.lights.is_empty() && !self.scene.materials.iter().any(glows) {
+            self.scene.environment = Some(Environment { radiance: [1.0; 3], image: None, image_from_world: None });
+        }
+        self.origins.finish();
+        Lowered { scene: self.scene, origins: self.origins }
+    }
+}

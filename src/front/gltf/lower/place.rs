@@ -1,0 +1,69 @@
+//! Where nodes stand in the world, found without recursion, and which of them a scene shows.
+
+use super::super::document::Document;
+use super::super::elements::Elements;
+use super::pose::Pose;
+use crate::math::Vec3;
+use glam::{DAffine3, DQuat};
+
+/// The world transformation of each node; of one in a loop, its own.
+pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
+    let count = doc.nodes.len();
+    let mut is_child = vec![false; count];
+    for child in doc.nodes.iter().flat_map(|node| &node.children).filter(|child| **child < count) {
+        is_child[*child] = true;
+    }
+    let mut worlds: Vec<DAffine3> = (0..count).map(|node| pose.local(node)).collect();
+    let mut open: Vec<usize> = (0..count).filter(|node| !is_child[*node]).collect();
+    while let Some(node) = open.pop() {
+        for child in doc.nodes[node].children.iter().copied().filter(|child| *child < count) {
+            worlds[child] = worlds[node] * worlds[child];
+            open.push(child);
+        }
+    }
+    worlds
+}
+
+/// The nodes that the scene shows, parents before children, in the order of the file; if there is no scene, all.
+pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
+    let Some(scene) = doc.scenes.get(doc.scene.unwrap_or(0)) else {
+        return (0..doc.nodes.len()).filter(|node| doc.nodes[*node].visible).collect();
+    };
+    let mut shown = Vec::new();
+    let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
+    while let Some(index) = open.pop() {
+        let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else { continue };
+        shown.push(index);
+        open.extend(node.children.iter().rev());
+    }
+    shown
+}
+
+/// The places of the instances of `EXT_mesh_gpu_instancing`: accessors of translation, rotation and scale.
+pub(super) fn instances(doc: &Document<'_>, accessors: [Option<usize>; 3]) -> Vec<DAffine3> {
+    let elements = accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?));
+    let count = elements.iter().flatten().map(|elements| elements.count).min().unwrap_or(0);
+    let [translations, rotations, scales] = elements;
+    let vectors = |elements: Option<Elements<'_>>, default| {
+        elements.map_or_else(|| vec![default; count], |elements| elements.vectors::<3>())
+    };
+    let (translations, scales) = (vectors(translations, [0.0; 3]), vectors(scales, [1.0; 3]));
+    let rotations = rotations.map_or_else(|| vec![[0.0, 0.0, 0.0, 1.0]; count], |elements| elements.vectors::<4>());
+    let parts = translations.into_iter().zip(rotations).zip(scales);
+    parts.map(|((translation, rotation), scale)| compose(translation, rotation, scale)).collect()
+}
+
+/// Scale first, then rotation, then translation.
+pub(super) fn compose(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAffine3 {
+    let rotation = DQuat::from_array(rotation);
+    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    DAffine3::from_scale_rotation_translation(Vec3::from_array(scale), rotation, Vec3::from_array(translation))
+}
+
+/// True if a place keeps a volume, by far more than the IR asks.
+pub(super) fn has_volume(world: DAffine3) -> bool {
+    let axes = [world.x_axis, world.y_axis, world.z_axis];
+    let [x, y, z] = axes.map(|axis| axis.normalize_or_zero());
+    let is_sound = axes.iter().all(|axis| axis.is_finite() && axis.abs().max_element() > f64::MIN_POSITIVE);
+    is_sound && x.dot(y.cross(z)).abs() >= 1e-9
+}

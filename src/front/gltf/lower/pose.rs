@@ -1,0 +1,154 @@
+//! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a moment of an animation.
+
+use super::super::animation::{Animation, Interpolation, Path, Sampler};
+use super::super::document::Document;
+use super::super::elements::Elements;
+use super::super::mesh::Mesh;
+use super::super::node::Transform;
+use super::super::report::Report;
+use super::place::compose;
+use crate::front::Options;
+use crate::math::{acos, sin};
+use glam::{DAffine3, DMat4};
+use std::collections::BTreeMap;
+
+/// How all nodes stand.
+pub(super) struct Pose {
+    transforms: Vec<Transform>,
+    /// The weights of nodes, where they have their own.
+    weights: BTreeMap<usize, Vec<f64>>,
+}
+
+impl Pose {
+    /// The transformation of a node from itself to its parent.
+    pub(super) fn local(&self, node: usize) -> DAffine3 {
+        match self.transforms[node] {
+            Transform::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
+            Transform::Parts { translation, rotation, scale } => compose(translation, rotation, scale),
+        }
+    }
+
+    /// The weights of the morph targets of a mesh at a node.
+    pub(super) fn weights(&self, node: usize, mesh: &Mesh) -> Vec<f64> {
+        let mut weights = self.weights.get(&node).unwrap_or(&mesh.weights).clone();
+        weights.resize(mesh.targets(), 0.0);
+        weights
+    }
+}
+
+/// The pose that the options ask for.
+pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Pose {
+    let nodes = doc.nodes.iter().enumerate();
+    let own = nodes.filter(|(_, node)| !node.weights.is_empty()).map(|(index, node)| (index, node.weights.clone()));
+    let mut pose = Pose { transforms: doc.nodes.iter().map(|node| node.transform).collect(), weights: own.collect() };
+    if let Some(animation) = chosen(doc, options, report) {
+        let time = options.time.unwrap_or(0.0);
+        for channel in &animation.channels {
+            let (Some(node), Some(path)) = (channel.node, channel.path) else { continue };
+            let sampler = channel.sampler.and_then(|sampler| animation.samplers.get(sampler));
+            let Some(value) = sampler.and_then(|sampler| sample(doc, sampler, path, time)) else { continue };
+            pose.set(node, path, value);
+        }
+    }
+    pose
+}
+
+/// The animation that was asked for: by name, or else the first if there is a time.
+fn chosen<'d>(doc: &'d Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Option<&'d Animation> {
+    let Some(name) = &options.animation else { return options.time.and_then(|_| doc.animations.first()) };
+    let found = doc.animations.iter().find(|animation| animation.name == *name);
+    if found.is_none() {
+        let names: Vec<String> = doc.animations.iter().map(|animation| animation.name.clone()).collect();
+        super::missing("animation", name, &names, report);
+    }
+    found
+}
+
+impl Pose {
+    fn set(&mut self, node: usize, path: Path, value: Vec<f64>) {
+        if path == Path::Weights {
+            self.weights.insert(node, value);
+            return;
+        }
+        let Some(Transform::Parts { translation, rotation, scale }) = self.transforms.get_mut(node) else { return };
+        let three = || <[f64; 3]>::try_from(&value[..]).ok();
+        match path {
+            Path::Translation => *translation = three().unwrap_or(*translation),
+            Path::Scale => *scale = three().unwrap_or(*scale),
+            Path::Rotation => *rotation = <[f64; 4]>::try_from(&value[..]).unwrap_or(*rotation),
+            Path::Weights => {}
+        }
+    }
+}
+
+/// The value of a sampler at a time; before the first and after the last keyframe it stands still.
+fn sample(doc: &Document<'_>, sampler: &Sampler, path: Path, time: f64) -> Option<Vec<f64>> {
+    let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
+    let times: Vec<f64> = elements(sampler.input)?.vectors::<1>().into_iter().map(|[time]| time).collect();
+    let output = elements(sampler.output)?;
+    let mut values = Vec::new();
+    output.each(|_, element| values.extend(element.iter().map(|number| output.fraction(*number))));
+    let is_cubic = sampler.interpolation == Interpolation::Cubic;
+    let width = values.len() / times.len() / if is_cubic { 3 } else { 1 };
+    let next = times.partition_point(|own| *own <= time);
+    let (a, b) = (next.saturating_sub(1), next.min(times.len() - 1));
+    let span = times[b] - times[a];
+    let share = if a == b || span <= 0.0 { 0.0 } else { ((time - times[a]) / span).clamp(0.0, 1.0) };
+    let key = |index: usize, part: usize| {
+        let at = if is_cubic { 3 * index + part } else { index } * width;
+        values.get(at..at + width)
+    };
+    let middle = usize::from(is_cubic);
+    let (from, to) = (key(a, middle)?, key(b, middle)?);
+    Some(match sampler.interpolation {
+        Interpolation::Step => from.to_vec(),
+        Interpolation::Linear if path == Path::Rotation => slerp(from, to, share),
+        Interpolation::Linear => from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect(),
+        Interpolation::Cubic => {
+            let (leaving, arriving) = (key(a, 2)?, key(b, 0)?);
+            hermite([from, leaving, to, arriving], span, share)
+        }
+    })
+}
+
+/// The cubic through two values with their tangents (glTF 2.0, appendix C.5).
+fn hermite([from, leaving, to, arriving]: [&[f64]; 4], span: f64, t: f64) -> Vec<f64> {
+    let (t2, t3) = (t * t, t * t * t);
+    let weights = [2.0 * t3 - 3.0 * t2 + 1.0, span * (t3 - 2.0 * t2 + t), 3.0 * t2 - 2.0 * t3, span * (t3 - t2)];
+    let part = |at: usize| {
+        let parts = [from[at], leaving[at], to[at], arriving[at]];
+        parts.iter().zip(weights).map(|(part, weight)| part * weight).sum()
+    };
+    (0..from.len()).map(part).collect()
+}
+
+/// The rotation on the shorter way from one to another (glTF 2.0, appendix C.4).
+fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
+    let cosine: f64 = from.iter().zip(to).map(|(a, b)| a * b).sum();
+    let angle = acos(cosine.abs().min(1.0));
+    let sine = sin(angle);
+    let (a, b) = if sine > 1e-6 { (sin(angle * (1.0 - t)) / sine, sin(angle * t) / sine) } else { (1.0 - t, t) };
+    let b = if cosine < 0.0 { -b } else { b };
+    from.iter().zip(to).map(|(from, to)| a * from + b * to).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_take_the_shorter_way() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let quarter = slerp(&[0.0, 0.0, 0.0, 1.0], &[0.0, 0.0, -half, -half], 0.5);
+        let eighth = std::f64::consts::FRAC_PI_8;
+        assert!((quarter[2] - sin(eighth)).abs() < 1e-15 && (quarter[3] - crate::math::cos(eighth)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_cubic_goes_through_its_ends_with_its_tangents() {
+        let at = |t| hermite([&[1.0], &[2.0], &[3.0], &[-1.0]], 0.5, t)[0];
+        assert!((at(0.0) - 1.0).abs() < 1e-15 && (at(1.0) - 3.0).abs() < 1e-15);
+        let slope = (at(1e-6) - at(0.0)) / (1e-6 * 0.5);
+        assert!((slope - 2.0).abs() < 1e-4, "{slope}");
+    }
+}

@@ -1,0 +1,127 @@
+//! Textures and their images, each brought once.
+
+use super::super::document::Document;
+use super::super::field::Fields;
+use super::super::report::Report;
+use crate::diag::codes;
+use crate::image::decode_with_alpha;
+use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Pixels, Place, Sampled, Scene, TextureId, Wrap};
+use crate::math::{cos, sin};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+/// What became of the textures and images of the asset.
+pub(super) struct Textures {
+    textures: Vec<Option<Option<TextureId>>>,
+    images: Vec<Option<Option<ImageId>>>,
+}
+
+/// The codes of OpenGL for what lies beyond an image, and for the nearest texel.
+const CLAMP: u64 = 33071;
+const MIRROR: u64 = 33648;
+const NEAREST: u64 = 9728;
+
+impl Textures {
+    pub(super) fn new(doc: &Document<'_>) -> Self {
+        Self { textures: vec![None; doc.textures.len()], images: vec![None; doc.images.len()] }
+    }
+
+    /// The map that a texture info of a material stands for; none if its texture has no image that can be read.
+    pub(super) fn map(
+        &mut self,
+        doc: &Document<'_>,
+        info: Fields<'_, '_>,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &mut Report<'_, '_>,
+    ) -> Option<Map> {
+        let texture = self.texture(doc, info.index("index")?, scene, origins, report)?;
+        let transform = info.extension("KHR_texture_transform");
+        let set = transform.and_then(|fields| fields.whole("texCoord")).or(info.whole("texCoord")).unwrap_or(0);
+        let set = u32::try_from(set).ok().filter(|set| *set < 2).unwrap_or_else(|| {
+            let message = format!("set {set} of texture coordinates is not kept, so set 0 is taken");
+            report.say(&codes::GLTF_MATERIAL_ODD, "", info.at, message);
+            0
+        });
+        Some(Map { texture, set, texture_from_surface: transform.map(texture_from_surface) })
+    }
+
+    fn texture(
+        &mut self,
+        doc: &Document<'_>,
+        index: usize,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &mut Report<'_, '_>,
+    ) -> Option<TextureId> {
+        if let Some(known) = self.textures.get(index)? {
+            return *known;
+        }
+        let texture = &doc.textures[index];
+        let image = [texture.webp, texture.source].into_iter().flatten();
+        let image = image.filter(|image| doc.images.get(*image).is_some_and(|image| image.is_sound)).next();
+        let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
+        if image.is_none() {
+            let message = "the texture has no image that can be read, so it has no effect".to_owned();
+            report.say(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
+        }
+        let sampler = texture.sampler.and_then(|sampler| doc.samplers.get(sampler));
+        let wrap = sampler.map_or([Wrap::Repeat; 2], |sampler| sampler.wrap.map(wrap));
+        let is_nearest = sampler.is_some_and(|sampler| sampler.mag_filter == Some(NEAREST));
+        let filter = if is_nearest { Filter::Nearest } else { Filter::Linear };
+        let id = image.map(|image| {
+            let at = scene.textures.len();
+            origins.record(Place::new(Noun::Texture, at, Field::Whole), report.json.span(texture.at));
+            scene.textures.push(ir::Texture::Sampled(Sampled { image, wrap, filter }));
+            TextureId(super::mesh::to_u32(at))
+        });
+        self.textures[index] = Some(id);
+        id
+    }
+
+    fn image(
+        &mut self,
+        doc: &Document<'_>,
+        index: usize,
+        scene: &mut Scene,
+        origins: &mut Origins,
+        report: &Report<'_, '_>,
+    ) -> Option<ImageId> {
+        if let Some(known) = self.images.get(index)? {
+            return *known;
+        }
+        let image = &doc.images[index];
+        let decoded = doc.image_bytes(image).and_then(|bytes| decode_with_alpha(bytes).ok());
+        let id = decoded.map(|(pixels, has_alpha)| {
+            let at = scene.images.len();
+            origins.record(Place::new(Noun::Image, at, Field::Whole), report.json.span(image.at));
+            scene.images.push(ir::Image {
+                name: image.name.clone(),
+                width: pixels.width,
+                height: pixels.height,
+                kind: if has_alpha { Pixels::Rgba8 } else { Pixels::Rgb8 },
+                pixels: STANDARD.encode(pixels.bytes),
+            });
+            ImageId(super::mesh::to_u32(at))
+        });
+        self.images[index] = Some(id);
+        id
+    }
+}
+
+fn wrap(code: u64) -> Wrap {
+    match code {
+        CLAMP => Wrap::Clamp,
+        MIRROR => Wrap::Mirror,
+        _ => Wrap::Repeat,
+    }
+}
+
+/// Scale, then rotation, then offset (`KHR_texture_transform`).
+fn texture_from_surface(fields: Fields<'_, '_>) -> [[f64; 3]; 2] {
+    let [x, y] = fields.vector_or("offset", [0.0; 2]);
+    let [u, v] = fields.vector_or("scale", [1.0; 2]);
+    let angle = fields.number_or("rotation", 0.0);
+    let (c, s) = (cos(angle), sin(angle));
+    [[c * u, s * v, x], [-s * u, c * v, y]]
+}

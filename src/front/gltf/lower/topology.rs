@@ -1,0 +1,77 @@
+//! The triangles of a primitive: from lists, strips and fans, with indices or without.
+
+use super::super::document::Document;
+use super::super::elements::Elements;
+use super::super::mesh::Primitive;
+
+const TRIANGLES: u64 = 4;
+const STRIP: u64 = 5;
+const FAN: u64 = 6;
+
+/// The corners of the triangles; none if the primitive has no surface, or its indices can't be had.
+pub(super) fn triangles(doc: &Document<'_>, primitive: &Primitive, vertices: usize) -> Option<Vec<[u32; 3]>> {
+    let indices = match primitive.indices {
+        Some(index) => Elements::of(doc, doc.accessors.get(index)?)?.integers(),
+        None => (0..super::mesh::to_u32(vertices)).collect(),
+    };
+    let mut triangles = assemble(&indices, primitive.mode)?;
+    triangles.retain(|corners| corners.iter().all(|corner| (*corner as usize) < vertices));
+    Some(triangles)
+}
+
+/// Triangles of a list of corners (glTF 2.0, section 3.7.2.1): all turn the same way.
+fn assemble(indices: &[u32], mode: u64) -> Option<Vec<[u32; 3]>> {
+    match mode {
+        TRIANGLES => Some(indices.as_chunks::<3>().0.to_vec()),
+        STRIP => {
+            let corner =
+                |at: usize, w: &[u32]| if at.is_multiple_of(2) { [w[0], w[1], w[2]] } else { [w[0], w[2], w[1]] };
+            Some(indices.windows(3).enumerate().map(|(at, window)| corner(at, window)).collect())
+        }
+        FAN => {
+            let (first, rest) = indices.split_first()?;
+            Some(rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect())
+        }
+        _ => None,
+    }
+}
+
+/// Keeps the vertices that triangles use, if that saves much: the old index of each that is kept.
+pub(super) fn compact(triangles: &mut [[u32; 3]], vertices: usize) -> Option<Vec<u32>> {
+    const UNUSED: u32 = u32::MAX;
+    let mut renamed = vec![UNUSED; vertices];
+    let mut kept = Vec::new();
+    for corner in triangles.iter().flatten() {
+        let slot = &mut renamed[*corner as usize];
+        if *slot == UNUSED {
+            *slot = super::mesh::to_u32(kept.len());
+            kept.push(*corner);
+        }
+    }
+    if 4 * kept.len() > 3 * vertices {
+        return None;
+    }
+    triangles.iter_mut().flatten().for_each(|corner| *corner = renamed[*corner as usize]);
+    Some(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_turn_one_way() {
+        assert_eq!(assemble(&[0, 1, 2, 3, 4], STRIP).unwrap(), [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
+        assert_eq!(assemble(&[0, 1, 2, 3], FAN).unwrap(), [[1, 2, 0], [2, 3, 0]]);
+        assert_eq!(assemble(&[0, 1, 2, 3], TRIANGLES).unwrap(), [[0, 1, 2]]);
+        assert_eq!(assemble(&[0, 1], 1), None);
+    }
+
+    #[test]
+    fn unused_vertices_are_left_out() {
+        let mut triangles = [[7, 5, 9], [9, 5, 2]];
+        assert_eq!(compact(&mut triangles, 10), Some(vec![7, 5, 9, 2]));
+        assert_eq!(triangles, [[0, 1, 2], [2, 1, 3]]);
+        assert_eq!(compact(&mut triangles, 4), None);
+    }
+}

@@ -1,0 +1,115 @@
+//! Buffer views compressed by meshoptimizer (`EXT_meshopt_compression`, appendix A, and its successor
+//! `KHR_meshopt_compression`): attributes, triangles and indices, with the filters on top.
+//!
+//! Every read is within the bytes given, and what is claimed is bounded by what so many bytes can stand for.
+
+mod filter;
+mod index;
+mod vertex;
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+
+/// The most bytes that one compressed byte can stand for: a control byte that says of four channels of a block of 256
+/// elements that nothing changes.
+const MAX_RATIO: usize = 1024;
+
+/// Why bytes are not what they should be.
+type Fault = &'static str;
+
+/// Bytes read one after another.
+struct Reader<'a> {
+    bytes: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, count: usize) -> Result<&'a [u8], Fault> {
+        let (head, rest) = self.bytes.split_at_checked(count).ok_or("the data ends too early")?;
+        self.bytes = rest;
+        Ok(head)
+    }
+
+    fn byte(&mut self) -> Result<u8, Fault> {
+        self.take(1).map(|bytes| bytes[0])
+    }
+
+    /// A number in groups of seven bits, the least first (LEB128).
+    fn number(&mut self) -> Result<u32, Fault> {
+        let mut number = 0;
+        for shift in (0..35).step_by(7) {
+            let byte = self.byte()?;
+            number |= u32::from(byte & 0x7f) << shift;
+            if byte < 0x80 {
+                return Ok(number);
+            }
+        }
+        Err("a number has too many bytes")
+    }
+}
+
+/// A signed number whose sign is its lowest bit.
+fn unzigzag(number: u32) -> u32 {
+    (number >> 1) ^ 0_u32.wrapping_sub(number & 1)
+}
+
+/// Decompresses the views that are compressed.
+pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    for index in 0..doc.views.len() {
+        let fields = Fields::new(report.json, doc.views[index].at);
+        let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+        let Some(own) = names.iter().find_map(|name| fields.extension(name)) else { continue };
+        let Some(bytes) = source(doc, own) else { continue };
+        match decode(bytes, own) {
+            Ok(decoded) => doc.views[index].decoded = Some(decoded),
+            Err(fault) => say(own.at, fault, report),
+        }
+    }
+}
+
+fn say(at: NodeId, fault: Fault, report: &mut Report<'_, '_>) {
+    report.say(&codes::GLTF_COMPRESSED, "", at, format!("the compressed view can't be read: {fault}"));
+}
+
+/// The compressed bytes of a view.
+fn source<'d>(doc: &'d Document<'_>, own: Fields<'_, '_>) -> Option<&'d [u8]> {
+    let buffer = doc.buffers.get(own.index("buffer")?)?;
+    let offset = own.index("byteOffset").unwrap_or(0);
+    buffer.bytes.as_ref()?.get(offset..offset.checked_add(own.index("byteLength")?)?)
+}
+
+fn decode(bytes: &[u8], own: Fields<'_, '_>) -> Result<Vec<u8>, Fault> {
+    let (Some(count), Some(stride)) = (own.index("count"), own.index("byteStride")) else {
+        return Err("it has no `count` or no `byteStride`");
+    };
+    let size = count.checked_mul(stride).ok_or("it claims too much")?;
+    if size / MAX_RATIO > bytes.len() {
+        return Err("it claims more than so few bytes can stand for");
+    }
+    let mode = own.text("mode").unwrap_or_default();
+    match mode.as_str() {
+        "ATTRIBUTES" => {
+            let mut decoded = vertex::decode(bytes, count, stride)?;
+            filter::apply(&own.text("filter").unwrap_or_default(), stride, &mut decoded)?;
+            Ok(decoded)
+        }
+        "TRIANGLES" => narrow(&index::triangles(bytes, count)?, stride),
+        "INDICES" => narrow(&index::sequence(bytes, count)?, stride),
+        _ => Err("its mode is unknown"),
+    }
+}
+
+/// Indices as bytes, of two or four each.
+fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, Fault> {
+    match stride {
+        4 => Ok(indices.iter().flat_map(|index| index.to_le_bytes()).collect()),
+        2 => {
+            let short = |index: &u32| u16::try_from(*index).map_err(|_| "an index has more than 16 bits");
+            let shorts: Result<Vec<u16>, Fault> = indices.iter().map(short).collect();
+            Ok(shorts?.iter().flat_map(|index| index.to_le_bytes()).collect())
+        }
+        _ => Err("indices have two or four bytes"),
+    }
+}

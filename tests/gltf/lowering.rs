@@ -1,0 +1,116 @@
+//! What small assets of our own become: their IR beside the last one approved, and what is the same however it is stored.
+
+use super::make;
+use rtc::codec::{self, Form};
+use rtc::diag::{Severity, Sink};
+use rtc::front;
+use rtc::ir::{Mesh, Scene, Shape};
+use rtc::pipeline::{self, Options};
+use rtc::source::SourceMap;
+
+/// The scene that an asset shows; every asset here is sound.
+fn lower(bytes: Vec<u8>, front: front::Options) -> Scene {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("made.gltf", bytes);
+    let options = Options { front, ..Options::default() };
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink);
+    let proven = lowered.as_ref().and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+    assert!(proven.is_some() && sink.kept().iter().all(|finding| finding.severity == Severity::Note), "{sink:#?}");
+    lowered.unwrap().scene
+}
+
+fn text(scene: &Scene) -> String {
+    String::from_utf8(codec::encode(Form::Text, scene).unwrap()).unwrap()
+}
+
+#[test]
+fn small_assets_become_what_was_approved() {
+    let glass = front::Options { variant: Some("glass".to_owned()), ..front::Options::default() };
+    let moved = front::Options { time: Some(1.0), animation: Some("move".to_owned()), ..front::Options::default() };
+    let cases = [
+        ("topology", make::topology(), front::Options::default()),
+        ("hierarchy", make::hierarchy(), front::Options::default()),
+        ("attributes", make::attributes(), front::Options::default()),
+        ("motion", make::motion(), moved),
+        ("stage", make::stage(), glass),
+        ("texture", make::texture(), front::Options::default()),
+    ];
+    for (name, bytes, options) in cases {
+        insta::assert_snapshot!(name, text(&lower(bytes, options)));
+    }
+}
+
+#[test]
+fn at_rest_nothing_moves_and_the_first_material_counts() {
+    let rest = lower(make::motion(), front::Options::default());
+    assert_eq!(rest.meshes[0].positions[0], [0.0, 0.0, 0.25], "the weight of the mesh itself");
+    assert_eq!(rest.meshes[1].positions[1], [1.0, 0.0, 0.0]);
+    assert!(text(&lower(make::stage(), front::Options::default())).contains("glowing"));
+}
+
+#[test]
+fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
+    let asked = [
+        front::Options { animation: Some("fly".to_owned()), ..front::Options::default() },
+        front::Options { variant: Some("gold".to_owned()), ..front::Options::default() },
+    ];
+    for front in asked {
+        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let file = map.add("made.gltf", make::stage());
+        let options = Options { front, ..Options::default() };
+        assert!(pipeline::load(file, &mut map, &options, &mut sink).is_none());
+        assert!(sink.kept().iter().any(|finding| finding.code.id == "GL048"), "{sink:?}");
+    }
+}
+
+#[test]
+fn a_mesh_used_twice_is_made_once() {
+    let scene = lower(make::hierarchy(), front::Options::default());
+    assert_eq!((scene.meshes.len(), scene.surfaces.len()), (1, 4), "two nodes and two instances of one mesh");
+    assert!(scene.surfaces.iter().all(|surface| matches!(surface.shape, Shape::Instance(_))));
+}
+
+/// The torus as Draco, meshopt and quantized data; the last two hold the same numbers.
+#[test]
+fn compressed_tori_are_the_same_torus() {
+    let Some(folder) = super::shared("assets") else { return };
+    let mesh = |name: &str| {
+        let scene = lower_file(&folder.join(name));
+        scene.meshes.into_iter().next().unwrap()
+    };
+    let (draco, meshopt) = (mesh("own_TorusDraco.glb"), mesh("own_TorusMeshopt.glb"));
+    let quantized = mesh("own_TorusQuantized.glb");
+    let vertices = |mesh: &Mesh| (mesh.positions.clone(), mesh.normals.clone(), mesh.uvs.clone());
+    assert!(vertices(&meshopt) == vertices(&quantized), "meshopt keeps every bit of the vertices");
+    assert_eq!(turned(&meshopt), turned(&quantized), "and turns triangles at most");
+    assert_eq!((draco.positions.len(), draco.triangles.len()), (quantized.positions.len(), quantized.triangles.len()));
+}
+
+/// The triangles, each from its least corner on.
+fn turned(mesh: &Mesh) -> Vec<[u32; 3]> {
+    let turn = |triangle: &[u32; 3]| {
+        let mut turned = *triangle;
+        turned.rotate_left((0..3).min_by_key(|at| triangle[*at]).unwrap());
+        turned
+    };
+    mesh.triangles.iter().map(turn).collect()
+}
+
+fn lower_file(path: &std::path::Path) -> Scene {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = rtc::source::Loader.file(path, &mut map).unwrap();
+    let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
+    lowered.unwrap_or_else(|| panic!("{}: {sink:?}", path.display())).scene
+}
+
+#[test]
+fn every_asset_at_hand_is_lowered_and_proven() {
+    let Some(folder) = super::shared("assets") else { return };
+    let is_asset = |path: &std::path::PathBuf| path.extension().is_some_and(|own| own == "glb" || own == "gltf");
+    let assets: Vec<_> = super::files(&folder).into_iter().filter(is_asset).collect();
+    assert!(assets.len() > 30, "the assets are gone");
+    for asset in assets {
+        let sink = super::findings(&asset);
+        assert!(!sink.has_errors(), "{}: {:?}", asset.display(), super::errors(&sink));
+    }
+}
