@@ -30,7 +30,8 @@ impl Overrides {
             scene.camera.size = size;
         }
         if let Some(samples) = glossy_samples {
-            let lobes = scene.materials.iter_mut().map(|Material::Phong(phong)| &mut phong.glossy_samples);
+            let lobes =
+                scene.materials.iter_mut().filter_map(Material::phong_mut).map(|phong| &mut phong.glossy_samples);
             lobes.filter(|count| **count > 1).for_each(|count| *count = samples);
         }
         scene.camera.lens.samples = aperture_samples.unwrap_or(scene.camera.lens.samples);

@@ -33,12 +33,18 @@ const EFFECTS: [Without; 6] = [
     ("mirrors and refraction", |scene| scene.settings.max_depth = 0),
     ("depth of field", |scene| scene.camera.lens.radius = 0.0),
     ("highlights and mirrors", |scene| phongs(scene).for_each(|phong| phong.ks = 0.0)),
-    ("soft lights", |scene| scene.lights.iter_mut().for_each(|Light::Point(light)| light.radius = 0.0)),
+    ("soft lights", |scene| scene.lights.iter_mut().for_each(without_radius)),
     ("textures", |scene| phongs(scene).for_each(without_maps)),
 ];
 
 fn phongs(scene: &mut Scene) -> impl Iterator<Item = &mut Phong> {
-    scene.materials.iter_mut().map(|Material::Phong(phong)| phong)
+    scene.materials.iter_mut().filter_map(Material::phong_mut)
+}
+
+fn without_radius(light: &mut Light) {
+    if let Light::Point(light) = light {
+        light.radius = 0.0;
+    }
 }
 
 fn without_maps(phong: &mut Phong) {

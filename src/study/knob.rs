@@ -179,14 +179,14 @@ impl Setting {
 
 /// The numbers of rays of the lobes of a scene.
 fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
-    scene.materials.iter().map(|Material::Phong(phong)| phong.glossy_samples).filter(|count| *count > 1)
+    scene.materials.iter().filter_map(Material::phong).map(|phong| phong.glossy_samples).filter(|count| *count > 1)
 }
 
 /// Why a knob changes nothing in a scene, or `None` if it may change something.
 #[must_use]
 pub fn idle(knob: Knob, scene: &Scene) -> Option<&'static str> {
     let phong = scene.settings.mode == Mode::Phong;
-    let weights = || scene.materials.iter().map(|Material::Phong(phong)| phong);
+    let weights = || scene.materials.iter().filter_map(Material::phong);
     let cases: &[(bool, &'static str)] = match knob {
         Knob::Supersampling => &[(scene.settings.mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
         Knob::Aperture => &[
@@ -195,7 +195,7 @@ pub fn idle(knob: Knob, scene: &Scene) -> Option<&'static str> {
         ],
         Knob::Lights => &[
             (!phong, "the mode asks only the middle of a light"),
-            (scene.lights.iter().all(|Light::Point(light)| light.radius == 0.0), "no light has a radius"),
+            (scene.lights.iter().filter_map(Light::point).all(|light| light.radius == 0.0), "no light has a radius"),
         ],
         Knob::Glossy => &[
             (!phong, "the mode follows no mirror"),
