@@ -340,3 +340,19 @@ mod unix {
         ["away.json", "bad.json", "ball.json"].map(str::to_owned).to_vec()
     }
 }
+
+#[test]
+fn a_study_is_written_in_the_form_asked_for() {
+    let folder = folder();
+    fs::write(folder.path().join("depth.json"), scene_with("\"phong\",", "\"zbuffer\",")).unwrap();
+    let table = rtc(&folder, &["cost", "depth.json", "--effort", "quick", "--html", "page.html"]);
+    assert_eq!(code(&table), 0, "{}", stderr(&table));
+    assert!(String::from_utf8(table.stdout).unwrap().starts_with("depth.json, xxh3:") && table.stderr.is_empty());
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().ends_with("</html>\n"));
+    let csv = rtc(&folder, &["cost", "depth.json", "--format", "csv"]);
+    assert_eq!(String::from_utf8(csv.stdout).unwrap().lines().count(), 2);
+    assert_eq!(code(&rtc(&folder, &["cost", "depth.json", "--format", "json", "-o", "cost.json"])), 0);
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("cost.json")).unwrap()).unwrap();
+    assert_eq!((json["schema"].as_str(), json["about"]["scene"].as_str()), (Some("rtc-cost/1"), Some("depth.json")));
+    assert_eq!(code(&rtc(&folder, &["cost", "bad.json"])), 1);
+}

@@ -164,9 +164,9 @@ pub(super) enum Effort {
 impl From<Effort> for study::Effort {
     fn from(effort: Effort) -> Self {
         match effort {
-            Effort::Quick => Self::Quick,
-            Effort::Default => Self::Default,
-            Effort::Thorough => Self::Thorough,
+            Effort::Quick => Self::QUICK,
+            Effort::Default => Self::DEFAULT,
+            Effort::Thorough => Self::THOROUGH,
         }
     }
 }

@@ -38,28 +38,18 @@ use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
-/// How much work a study may be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Effort {
-    /// Seconds.
-    Quick,
-    /// About a minute for a simple scene.
-    #[default]
-    Default,
-    /// Ten times that.
-    Thorough,
-}
+/// How much work a study may be: about so many rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Effort(pub u64);
 
 impl Effort {
-    /// The rays a study may take.
-    fn rays(self) -> u64 {
-        match self {
-            Self::Quick => 60_000_000,
-            Self::Default => 600_000_000,
-            Self::Thorough => 6_000_000_000,
-        }
-    }
+    /// Seconds.
+    pub const QUICK: Self = Self(60_000_000);
+    /// About a minute for a simple scene.
+    pub const DEFAULT: Self = Self(600_000_000);
+    /// Ten times that.
+    pub const THOROUGH: Self = Self(6_000_000_000);
 }
 
 /// How much of the work goes where, in hundredths.
@@ -130,7 +120,7 @@ impl Scope {
     }
 
     fn hundredths(&self, share: u64) -> u64 {
-        self.effort.rays() / 100 * share
+        self.effort.0 / 100 * share
     }
 
     /// The scene's own setting with all knobs that sample at a value.
@@ -151,7 +141,7 @@ impl Scope {
         let setting = self.at(2);
         let counts = pilot.shoot(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
-        let samples = GOOD * (self.effort.rays() as f64 / Effort::Default.rays() as f64).sqrt();
+        let samples = GOOD * (self.effort.0 as f64 / Effort::DEFAULT.0 as f64).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let pixels = of_reference.min(of_own);

@@ -128,7 +128,7 @@ pub struct Study {
     pub schema: String,
     /// What it is of, and where it ran.
     pub about: About,
-    /// How much work it was allowed to be.
+    /// The rays it was allowed.
     pub effort: Effort,
     /// The seed of its chances.
     pub seed: u64,

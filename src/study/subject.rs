@@ -93,7 +93,7 @@ impl<'bench> Subject<'bench> {
         let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
-            let work = || render(&scene, &Plan::new(&scene, Rules::ALL), job, &|_| self.bench.goes_on());
+            let work = || render(&scene, &Plan::new(&scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays));
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -119,7 +119,7 @@ impl<'bench> Subject<'bench> {
         let tiles = Some(Tiles { seed: self.seed, last });
         let job = Job { crop: None, values: Values::Display, tiles, seeds };
         let plan = Plan::new(scene, Rules::ALL);
-        let film = render(scene, &plan, &job, &|_| self.bench.goes_on()).ok_or(Stopped)?;
+        let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
             return Ok(Shot { tiles: vec![film.image], counts });

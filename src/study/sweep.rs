@@ -30,7 +30,7 @@ pub(super) fn sweep(
 ) -> Result<Ladder, Stopped> {
     let mut rungs: Vec<Rung> = Vec::new();
     let mut spent = 0;
-    for value in values(knob) {
+    for value in knob.ladder() {
         if let Some(last) = rungs.last() {
             let expected = last.rays as f64 * knob.samples(value) / knob.samples(last.value);
             if rungs.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
@@ -47,12 +47,6 @@ pub(super) fn sweep(
         }
     }
     Ok(Ladder { knob, law: law(knob, &rungs), rungs })
-}
-
-/// Every second step is enough for a law.
-fn values(knob: Knob) -> impl Iterator<Item = u32> {
-    let step = if knob == Knob::Supersampling { 1 } else { 2 };
-    knob.ladder().step_by(step)
 }
 
 /// Sampling that is independent but for that of the knob.

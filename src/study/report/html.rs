@@ -31,11 +31,12 @@ fn front(study: &Study) -> String {
     let mut rows = String::new();
     for row in &study.rows {
         let class = if row.front { "front" } else { "other" };
-        let cells = cells(row, &used, study.part.share);
-        let _ = writeln!(rows, "<tr class=\"{class}\">{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+        let cells: String = cells(row, &used, study.part.share).iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        let _ = writeln!(rows, "<tr class=\"{class}\">{cells}</tr>");
     }
-    let names = ["setting", "rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
-    let head = names.map(|name| format!("<th>{name}</th>")).concat();
+    let names = ["rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
+    let names = std::iter::once("").chain(used.iter().map(|knob| knob.short())).chain(names);
+    let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
     format!(
         "<h2>The front: what error there is for a time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
          <div class=\"wide\"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
@@ -45,12 +46,12 @@ fn front(study: &Study) -> String {
     )
 }
 
-fn cells(row: &Row, used: &[Knob], share: f64) -> [String; 9] {
-    let star = if row.front { "★ " } else { "" };
-    let own = if row.own { " (the scene's own)" } else { "" };
+fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
+    let star = if row.front { "★" } else { "" };
+    let own = if row.own { " own" } else { "" };
     let limit = if row.judged { "" } else { "≤ " };
-    [
-        format!("{star}{}{own}", escaped(&row.setting.words(used))),
+    let knobs = used.iter().map(|knob| row.setting.get(*knob).to_string());
+    let measured = [
         table::count(row.rays.all() as f64 / share),
         format!("{} ± {:.1} %", seconds(row.seconds.value), 100.0 * row.seconds.relative()),
         format!("{} ± {:.1} %", digits(row.ratio.value), 100.0 * row.ratio.relative()),
@@ -59,7 +60,8 @@ fn cells(row: &Row, used: &[Knob], share: f64) -> [String; 9] {
         digits(row.errors.max),
         format!("{} %", digits(100.0 * row.errors.visible)),
         digits(row.errors.flip),
-    ]
+    ];
+    std::iter::once(format!("{star}{own}")).chain(knobs).chain(measured).collect()
 }
 
 fn knobs(study: &Study) -> String {
