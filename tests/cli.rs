@@ -190,6 +190,22 @@ fn nothing_in_view_is_a_warning_after_the_render() {
 }
 
 #[test]
+fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
+    let folder = folder();
+    let far = SCENE.replace(", 50]", ", 1000050]").replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
+    let far = far.replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"").replace("40, 60]", "40, 1000060]");
+    fs::write(folder.path().join("far.json"), far).unwrap();
+    let warning = |arithmetic: &str| {
+        let output = rtc(&folder, &["render", "far.json", "--arithmetic", arithmetic]);
+        assert_eq!(code(&output), 0);
+        stderr(&output).lines().find(|line| line.contains("RD002")).map(str::to_owned)
+    };
+    let found = warning("f32").unwrap();
+    assert!(found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"), "{found}");
+    assert_eq!((warning("plain"), warning("robust")), (None, None));
+}
+
+#[test]
 fn color_only_where_wanted() {
     let folder = folder();
     let colored = |command: &mut Command| command.output().unwrap().stderr.contains(&0x1b);

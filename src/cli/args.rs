@@ -1,5 +1,6 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
+use crate::plan;
 use crate::render::Crop;
 use crate::{diag, ir, study};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -101,6 +102,9 @@ pub(super) struct Render {
     /// Render only this part of the picture, in pixels from the upper left
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     pub(super) crop: Option<Crop>,
+    /// How rays meet shapes
+    #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
+    pub(super) arithmetic: Arithmetic,
     /// Bits a channel of a PNG [default: 8]
     #[arg(long)]
     pub(super) bits: Option<Bits>,
@@ -259,6 +263,17 @@ pub(super) enum Bits {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Arithmetic {
+    /// With bounds on all errors, in f64
+    #[default]
+    Robust,
+    /// By the formulas of textbooks, in f64
+    Plain,
+    /// By the formulas of textbooks, in f32
+    F32,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// Scenes
     #[default]
@@ -282,6 +297,16 @@ pub(super) enum MessageFormat {
     Sarif,
     /// GitHub workflow commands
     Github,
+}
+
+impl From<Arithmetic> for plan::Arithmetic {
+    fn from(arithmetic: Arithmetic) -> Self {
+        match arithmetic {
+            Arithmetic::Robust => Self::Robust,
+            Arithmetic::Plain => Self::Plain,
+            Arithmetic::F32 => Self::F32,
+        }
+    }
 }
 
 impl From<MessageFormat> for diag::Format {

@@ -11,6 +11,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline;
+use crate::plan::{self, Symptom};
 use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -20,6 +21,7 @@ struct Plan {
     output: PathBuf,
     kind: Kind,
     overrides: Overrides,
+    arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
     threads: usize,
 }
@@ -59,6 +61,7 @@ impl Plan {
                 glossy_samples: args.glossy_samples,
                 depth: args.depth,
             },
+            arithmetic: args.arithmetic.into(),
             crop: args.crop,
             threads: args.threads.map_or(0, usize::from),
         })
@@ -67,6 +70,10 @@ impl Plan {
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
         let window = self.window(&proven.lowered.scene)?;
+        if let Some(warning) = imprecise(&proven, self.arithmetic) {
+            input.push(warning);
+            input.tell(talk)?;
+        }
         let interrupt = Interrupt::listen()?;
         let output = Output::open(&self.output, &interrupt)?;
         let quiet = talk.is_quiet();
@@ -109,7 +116,7 @@ impl Plan {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let plan = crate::plan::Plan::new(&proven.scene, crate::plan::Rules::ALL);
+        let plan = plan::Plan::by(self.arithmetic, &proven.scene);
         let film = pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed);
         let elapsed = progress.finish();
         let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
@@ -173,4 +180,26 @@ fn nothing_in_view(proven: &Proven) -> Diagnostic {
     Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
         .at(camera, "this camera sees only the background")
         .hint("check where the camera stands and looks, and where the objects are")
+}
+
+/// Warns of what the arithmetic chosen loses; none of the robust one.
+fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
+    let loss = plan::loss(&proven.scene, arithmetic)?;
+    let option = if arithmetic == plan::Arithmetic::F32 { "f32" } else { "plain" };
+    let (fault, label) = match loss.symptom {
+        Symptom::SelfHit => {
+            let off = format!("rays start about {:.0e} off this surface and meet it again", loss.error);
+            ("surfaces shade or mirror themselves", off)
+        }
+        Symptom::Shape => ("curved surfaces lose their shape", format!("points are about {:.0e} off", loss.error)),
+        Symptom::Skipped => ("rays pass by what is near", "hardly larger than the 1e-5 that rays skip".to_owned()),
+    };
+    let surface = proven.scene.surfaces()[loss.surface].index;
+    let span = proven.lowered.origins.span(Place::new(Noun::Surface, surface, Field::Whole));
+    let finding = Diagnostic::new(&codes::IMPRECISE, format!("in {option} this picture will be wrong: {fault}"));
+    let others = match loss.surfaces - 1 {
+        0 => String::new(),
+        others => format!("; {others} more such surfaces"),
+    };
+    Some(finding.at(span, format!("{label}{others}")).hint(format!("leave out `--arithmetic {option}`")))
 }
