@@ -3,7 +3,7 @@
 pub mod trial;
 
 use crate::diag::Sink;
-use crate::front::{assets, course};
+use crate::front::{assets, course, gltf};
 use crate::ir::{Lowered, Origins};
 use crate::plan::Plan;
 use crate::render::{Film, Job, render as render_planned};
@@ -27,6 +27,10 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
         Some(form) => {
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
+        }
+        None if gltf::recognise(map.name(file), map.bytes(file)) => {
+            gltf::check(file, map, &options.front, sink);
+            None
         }
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;

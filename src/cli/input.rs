@@ -91,7 +91,7 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;
-    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
+    proven.ok_or_else(|| Failure::Input(format!("`{}` is sound, but glTF can't be lowered yet", input.name())))
 }
 
 /// The hash of a proven scene's IR, by which a picture or a report says what it is of.
