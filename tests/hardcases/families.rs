@@ -1,7 +1,7 @@
 //! Families of random rays: the error of t against its condition number κ.
 
-use crate::scenes::{cone, cylinder, plane, sphere, torus, triangle, world};
-use crate::truth::{Report, id, load};
+use super::scenes::{cone, cylinder, plane, sphere, torus, triangle, world};
+use super::truth::{Report, id, load};
 use rtc::ir;
 use rtc::math::{U, Vec3};
 use rtc::render::Ray;
@@ -37,7 +37,7 @@ fn families() {
             .as_array()
             .unwrap()
             .iter()
-            .map(|row| row.as_array().unwrap().iter().map(crate::truth::number).collect())
+            .map(|row| row.as_array().unwrap().iter().map(super::truth::number).collect())
             .collect();
         if shape(kind, &rows[0]).is_none() {
             println!("skip {}  the shape is not built yet", id(&family));

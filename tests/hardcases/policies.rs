@@ -1,15 +1,15 @@
 //! Cases that are decisions: which code a fault gets, and what must never happen.
 
-use crate::meshes::Random;
-use crate::scenes::{check, plane, proven, scene, sphere, triangle, white, world};
+use super::random::Random;
+use super::scenes::{check, plane, prepare, scene, sphere, triangle, white, world};
 use rtc::diag::codes;
 use rtc::ir::{self, Light, Material, MaterialId, Phong, PointLight};
 use rtc::math::{BasisFault, Vec3, camera_basis, fallback_up};
-use rtc::render::{Film, Job, Ray, Values, World};
+use rtc::render::{Film, Job, Ray, Values};
 
 fn film(scene: &ir::Scene) -> Film {
     let job = Job { crop: None, values: Values::Linear };
-    World::prepare(&proven(scene)).render(&job, &|_| true).unwrap()
+    prepare(scene).render(&job, &|_| true).unwrap()
 }
 
 fn light(position: [f64; 3], color: [f64; 3]) -> Light {

@@ -1,6 +1,6 @@
 //! Worlds out of shapes, by the same way every scene takes: IR, proof, world.
 
-use crate::truth::{number, vector};
+use super::truth::{number, vector};
 use rtc::diag::Sink;
 use rtc::ir;
 use rtc::render::World;
@@ -67,7 +67,11 @@ pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> 
 }
 
 pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
-    World::prepare(&proven(&scene(shapes)))
+    prepare(&scene(shapes))
+}
+
+pub(crate) fn prepare(scene: &ir::Scene) -> World {
+    World::prepare(&proven(scene))
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {
