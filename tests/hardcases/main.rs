@@ -15,7 +15,9 @@
 #[path = "."]
 mod hardcases {
     mod camera;
+    mod exact;
     mod families;
+    mod family;
     mod gaps;
     mod intersect;
     mod leaks;
