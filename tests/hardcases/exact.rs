@@ -191,60 +191,51 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
     nearest(&line, capped.candidates(up, normal))
 }
 
-/// Samples of the stretch in which a torus lies.
-const SAMPLES: u32 = 512;
-
+/// The roots of ‖p‖² + R² − r² = 2R·ρ, squared: between two roots of a derivative there is at most one of the function.
 fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
     let line = Line::new(ray, s.center);
     let (axis, major, minor) = (wide(s.axis), number(s.major), number(s.minor));
-    let a2 = dot(axis, axis);
+    let [two, four, six] = [2.0, 4.0, 6.0].map(number);
+    let (w, x, a2) = (cross(line.from, axis), cross(line.d, axis), dot(axis, axis));
+    let (b, c) = (dot(line.from, line.d), dot(line.d, line.d));
+    let k0 = dot(line.from, line.from) + (major - minor) * (major + minor);
+    let r4 = four * major * major;
+    let k = |s: Double| (c * s + two * b) * s + k0;
     let value = |s: Double| {
-        let p = line.at(s);
-        let (k, w) = (dot(p, p) + major * major - minor * minor, cross(p, axis));
-        k * k * a2 - number(4.0) * major * major * dot(w, w)
+        let from_axis = along(w, x, s);
+        k(s) * k(s) * a2 - r4 * dot(from_axis, from_axis)
     };
-    let reach = 1.01 * (s.major + s.minor) / ray.direction.length();
-    let sample = |k: u32| number(reach * (f64::from(k) / f64::from(SAMPLES) * 2.0 - 1.0));
-    let all: Vec<_> = (0..=SAMPLES).map(|k| (sample(k), value(sample(k)))).collect();
-    let mut borders = vec![all[0]];
-    for triple in all.windows(3) {
-        let [before, here, after] = [triple[0], triple[1], triple[2]];
-        let sign = if is_negative(here.1) { number(-1.0) } else { number(1.0) };
-        let turns = [before, after].iter().all(|other| is_negative((here.1 - other.1) * sign));
-        borders.push(if turns { lowest(before.0, after.0, |s| value(s) * sign, &value) } else { here });
-    }
-    let changes = borders.windows(2).filter(|pair| is_negative(pair[0].1) != is_negative(pair[1].1));
+    // Half of the derivative, and of the second.
+    let slope = |s: Double| k(s) * (b + c * s) * two * a2 - r4 * (dot(w, x) + dot(x, x) * s);
+    let bend = [six * c * c * a2, six * b * c * a2, (four * b * b + two * c * k0) * a2 - r4 * dot(x, x)];
+    let reach = number(1.01 * (s.major + s.minor) / ray.direction.length());
+    let ends = |mut inner: Vec<Double>| {
+        inner.retain(|s| is_negative(*s - reach) && is_negative(number(0.0) - reach - *s));
+        inner.extend([number(0.0) - reach, reach]);
+        inner.sort_by(|a, b| (*a - *b).rounded().total_cmp(&0.0));
+        inner
+    };
+    let critical = changes(&ends(roots(bend[0], bend[1], bend[2])), slope);
     let normal = |s: Double| {
         let p = line.at(s);
         let radial = cross(axis, cross(p, axis));
         let length = dot(radial, radial).sqrt();
         [0, 1, 2].map(|k| p[k] - radial[k] * major / length)
     };
-    let candidates = changes.map(|pair| bisect(pair[0].0, pair[1].0, &value)).map(|s| (s, normal(s))).collect();
-    nearest(&line, candidates)
+    nearest(&line, changes(&ends(critical), value).into_iter().map(|s| (s, normal(s))).collect())
 }
 
-/// Where a function with one valley in a stretch is lowest, by thirds, and what `value` is there.
-fn lowest(
-    mut low: Double,
-    mut high: Double,
-    depth: impl Fn(Double) -> Double,
-    value: impl Fn(Double) -> Double,
-) -> (Double, Double) {
-    for _ in 0..100 {
-        let third = (high - low) / number(3.0);
-        let (a, b) = (low + third, high - third);
-        if is_negative(depth(a) - depth(b)) { high = b } else { low = a }
-    }
-    (low, value(low))
-}
-
-/// The place between two of opposite signs where the sign changes.
-fn bisect(mut low: Double, mut high: Double, value: impl Fn(Double) -> Double) -> Double {
-    let sign = is_negative(value(low));
-    for _ in 0..110 {
-        let middle = (low + high) * number(0.5);
-        if is_negative(value(middle)) == sign { low = middle } else { high = middle }
-    }
-    low
+/// Where a function changes its sign between neighbours of the borders, by bisection.
+fn changes(borders: &[Double], value: impl Fn(Double) -> Double) -> Vec<Double> {
+    let sign = |s: Double| is_negative(value(s));
+    let changing = borders.windows(2).filter(|pair| sign(pair[0]) != sign(pair[1]));
+    let bisect = |pair: &[Double]| {
+        let (mut low, mut high) = (pair[0], pair[1]);
+        for _ in 0..110 {
+            let middle = (low + high) * number(0.5);
+            if sign(middle) == sign(pair[0]) { low = middle } else { high = middle }
+        }
+        low
+    };
+    changing.map(bisect).collect()
 }
