@@ -69,7 +69,7 @@ impl Outcome {
 
 /// Rows of our own families: 250 of each unless `RTC_RAYS` says otherwise.
 fn rows() -> u64 {
-    (rays() / 4000).clamp(50, 25_000)
+    (rays(1) / 4000).clamp(50, 25_000)
 }
 
 fn family((shape, kind, make): &Family) -> Outcome {

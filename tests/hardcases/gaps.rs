@@ -40,6 +40,7 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
 #[test]
 fn a_gap_of_a_ten_trillionth_is_seen() {
     let mesh = icosphere();
-    let bad = KINDS.map(|(kind, name)| tally("gaps not seen", name, rays() / CHUNK, |k| chunk(kind, &mesh, k)).bad);
+    let bad = KINDS
+        .map(|(kind, name)| tally("gaps not seen", name, rays(KINDS.len()) / CHUNK, |k| chunk(kind, &mesh, k)).bad);
     assert_eq!(bad, [0; KINDS.len()]);
 }

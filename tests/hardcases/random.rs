@@ -58,9 +58,10 @@ impl Random {
     }
 }
 
-/// Rays of a count: 10⁶ unless `RTC_RAYS` says otherwise.
-pub(crate) fn rays() -> u64 {
-    std::env::var("RTC_RAYS").ok().and_then(|count| count.parse().ok()).unwrap_or(1_000_000)
+/// Rays of each of `rows` counts: as many as `RTC_RAYS` says, or 10⁶ in all.
+pub(crate) fn rays(rows: usize) -> u64 {
+    let count = std::env::var("RTC_RAYS").ok().and_then(|count| count.parse().ok());
+    count.unwrap_or(1_000_000 / rows as u64)
 }
 
 /// What a count found.

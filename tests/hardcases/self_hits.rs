@@ -77,6 +77,7 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
 #[test]
 fn rays_that_leave_do_not_find_what_they_leave() {
     let mesh = icosphere();
-    let bad = KINDS.map(|(kind, name)| tally("false self-hits", name, rays() / CHUNK, |k| chunk(kind, &mesh, k)).bad);
+    let bad = KINDS
+        .map(|(kind, name)| tally("false self-hits", name, rays(KINDS.len()) / CHUNK, |k| chunk(kind, &mesh, k)).bad);
     assert_eq!(bad, [0; KINDS.len()]);
 }
