@@ -138,9 +138,11 @@ impl Patch {
             // Meet the ray with the line at u.
             let (from, line) = (q00.lerp(q10, u), left.lerp(right, u));
             let normal = cross(d, line);
-            let size = normal.dot(normal);
-            let across = cross(normal, from);
-            let (t, v) = (across.dot(line) / size, across.dot(d) / size);
+            let v = cross(normal, from).dot(d) / normal.dot(normal);
+            // Meet it with the tangent plane there: t then errs by no more than rounding of a point, even where the ray
+            // runs along the line.
+            let tangent_plane = cross((q10 - q00).lerp(q11 - q01, v), line);
+            let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
         };
         candidates.into_iter().filter_map(along).min_by(|first, second| first.0.total_cmp(&second.0))

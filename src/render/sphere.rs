@@ -8,7 +8,7 @@ use super::ray::{Interaction, Ray};
 use crate::math::{Double, U, Vec3};
 
 /// A root is computed again when rounding may have been amplified by more than this.
-const AMPLIFIED: f64 = 64.0;
+const AMPLIFIED: f64 = 48.0;
 
 /// A sphere ready to be hit.
 #[derive(Clone, Copy, Debug)]

@@ -70,9 +70,13 @@ impl<S: Geometry> World<S> {
         Self { scene: scene.clone(), plan: plan.clone(), surfaces, unbounded, bounded, bvh }
     }
 
-    /// The nearest hit with t > 0; of several at the same t, that of the first surface.
+    /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        // A NaN passes every slab test, so such a ray would visit all there is.
+        if !(ray.origin.is_finite() && ray.direction.is_finite()) {
+            return None;
+        }
         let (ray, unit) = ray.tamed();
         let shear = Shear::new(&ray);
         let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };
