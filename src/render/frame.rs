@@ -8,7 +8,7 @@ use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
-use crate::plan::Features;
+use crate::plan::{Features, Sight};
 use crate::valid::{Mode, Pattern};
 use rayon::prelude::*;
 
@@ -69,6 +69,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         }
         let scene = self.scene();
         let camera = scene.camera();
+        let sight = self.world.plan.region.sight(pixel);
+        if sight == Sight::Nothing {
+            return [0.0; 3];
+        }
+        let mut first = None;
         let factor = if Self::can(Features::CAMERA) { scene.settings().supersampling.get() } else { 1 };
         let points = if Self::can(Features::CAMERA) { lens_samples(&camera.lens) } else { 1 };
         let mut sum = Vec3::ZERO;
@@ -82,8 +87,14 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 let target = image_point(camera, pixel, place);
                 let twist = Twist::new(job.seeds.lens, key);
                 for k in 0..points {
-                    let ray = camera_ray(lens_point(camera, k, twist), target);
-                    let radiance = self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path));
+                    let radiance = match first.filter(|_| sight == Sight::Uniform) {
+                        Some(first) => first,
+                        None => {
+                            let ray = camera_ray(lens_point(camera, k, twist), target);
+                            self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path))
+                        }
+                    };
+                    first = Some(radiance);
                     sum += match job.values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
                         Values::Linear => radiance,
@@ -97,6 +108,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The distance to what the middle of a pixel shows.
     fn depth(&mut self, pixel: [u32; 2]) -> Option<f64> {
+        if self.world.plan.region.sight(pixel) == Sight::Nothing {
+            return None;
+        }
         let camera = self.scene().camera();
         let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)

@@ -14,6 +14,7 @@ mod geometry;
 mod instance;
 mod interval;
 mod kernel;
+mod material;
 mod optics;
 mod plain;
 mod plane;

@@ -120,7 +120,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         let hit = self.world.nearest(ray)?;
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
-        let material = &self.scene().materials()[surface.material];
+        let material = &self.world.materials[surface.material];
         let mut view = View {
             interaction,
             normal: interaction.normal,
@@ -150,7 +150,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             view.color = self.texture(map, uv);
         }
         if let Some(map) = maps.specular {
-            view.ks *= self.texture(map, uv).x;
+            view.ks *= self.texture(map, uv).x.max(0.0);
         }
         let Some(frame) = details.tangent.and_then(|tangent| Frame::new(view.normal, tangent)) else { return };
         if let Some(map) = maps.normal {

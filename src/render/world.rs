@@ -2,12 +2,13 @@
 
 use super::bvh::Bvh;
 use super::geometry::Geometry;
+use super::material::Materials;
 use super::ray::Ray;
 use super::shape::Shape;
 use super::triangle::Shear;
 use crate::math::Vec3;
 use crate::plan::Plan;
-use crate::valid::{self, ValidScene};
+use crate::valid::{self, Phong, ValidScene};
 use std::sync::Arc;
 
 /// The first hit of a ray.
@@ -26,7 +27,7 @@ pub struct Hit {
 pub struct Surface<S = Shape> {
     /// Its shape.
     pub shape: S,
-    /// The index of its material.
+    /// The index of its material in [`World::materials`].
     pub material: usize,
     /// Its index in the scene.
     pub index: usize,
@@ -38,6 +39,8 @@ pub struct World<S = Shape> {
     pub scene: ValidScene,
     /// What the picture needs of it.
     pub plan: Plan,
+    /// The materials, without maps that show one value.
+    pub materials: Vec<Phong>,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
     unbounded: Vec<u32>,
@@ -50,9 +53,10 @@ impl<S: Geometry> World<S> {
     #[must_use]
     pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
         let meshes = scene.meshes().iter().map(|mesh| Arc::new(S::prepare_mesh(mesh))).collect::<Vec<_>>();
+        let mut materials = Materials::new(scene, plan);
         let surface = |(index, surface): (usize, &valid::Surface)| {
             let shape = S::prepare(&surface.shape, &meshes)?;
-            Some(Surface { shape, material: surface.material, index })
+            Some(Surface { material: materials.of(surface.material, shape.has_uv()), shape, index })
         };
         let planned = scene.surfaces().iter().enumerate().filter(|(index, _)| plan.surfaces[*index]);
         let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
@@ -67,7 +71,8 @@ impl<S: Geometry> World<S> {
             }
         }
         let bvh = Bvh::build(&boxes);
-        Self { scene: scene.clone(), plan: plan.clone(), surfaces, unbounded, bounded, bvh }
+        let materials = materials.all;
+        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, unbounded, bounded, bvh }
     }
 
     /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
