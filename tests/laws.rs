@@ -8,7 +8,7 @@ use rtc::ir::{self, Lowered, Origins, Scene};
 use rtc::math::ldexp;
 use rtc::pipeline::{self, Options, Overrides};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Crop, Film, Job, Values};
+use rtc::render::{Crop, Film, Job, Stride, Values};
 use rtc::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ fn bits(film: &Film) -> Vec<u64> {
     film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
 }
 
-const WHOLE: Job = Job { crop: None, values: Values::Linear };
+const WHOLE: Job = Job { crop: None, values: Values::Linear, stride: Stride::EVERY };
 
 #[test]
 fn the_ir_in_any_form_makes_the_same_picture() {

@@ -114,6 +114,13 @@ impl Plan {
         }
     }
 
+    /// The rule that left out an effect, of the whole scene or else of some entity.
+    #[must_use]
+    pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
+        let mut verdicts = self.verdicts.iter().filter(|verdict| verdict.effect == effect);
+        verdicts.find_map(|verdict| verdict.rule)
+    }
+
     /// Whether the picture needs an effect, of whatever entity.
     #[must_use]
     pub fn needs(&self, effect: Effect) -> bool {

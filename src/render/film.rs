@@ -1,6 +1,7 @@
 //! The film: a picture, and the rays it took.
 
 use crate::image::Image;
+use std::num::NonZeroU32;
 
 /// What to render of a world.
 #[derive(Clone, Copy, Debug, Default)]
@@ -9,6 +10,41 @@ pub struct Job {
     pub crop: Option<Crop>,
     /// Which values the film holds.
     pub values: Values,
+    /// Which pixels are rendered; the others stay black.
+    pub stride: Stride,
+}
+
+/// Every k-th pixel of a row and of a column, from the first: enough to estimate rays by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stride(NonZeroU32);
+
+impl Stride {
+    /// Every pixel.
+    pub const EVERY: Self = Self(NonZeroU32::MIN);
+
+    /// Every k-th pixel; every one for 0.
+    #[must_use]
+    pub fn new(k: u32) -> Self {
+        NonZeroU32::new(k).map_or(Self::EVERY, Self)
+    }
+
+    /// The step.
+    #[must_use]
+    pub fn get(self) -> u32 {
+        self.0.get()
+    }
+
+    /// How many of a row or column of `count` pixels are rendered.
+    #[must_use]
+    pub fn of(self, count: u32) -> u32 {
+        count.div_ceil(self.get())
+    }
+}
+
+impl Default for Stride {
+    fn default() -> Self {
+        Self::EVERY
+    }
 }
 
 /// A rectangle of pixels, y downwards.

@@ -17,6 +17,7 @@ mod need;
 mod oracle;
 mod sensitivity;
 mod stage;
+mod validation;
 
 use rtc::diag::Sink;
 use rtc::ir::{Lowered, Origins, Scene};
