@@ -6,7 +6,7 @@ use crate::diag::Sink;
 use crate::front::{assets, course, gltf};
 use crate::ir::{Lowered, Origins};
 use crate::plan::Plan;
-use crate::render::{Film, Job, render as render_planned};
+use crate::render::{Fault, Film, Job, render as render_planned, verify as verify_planned};
 use crate::source::{FileId, SourceMap};
 use crate::valid::{self, ValidScene};
 use crate::{codec, front};
@@ -62,4 +62,19 @@ pub fn render(
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(|| render_planned(scene, plan, job, proceed)))
+}
+
+/// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
+///
+/// # Errors
+/// If the system gives no threads; within, if something that was left out would show.
+pub fn verify(
+    scene: &ValidScene,
+    plan: &Plan,
+    job: &Job,
+    threads: usize,
+    proceed: &(dyn Fn(u64) -> bool + Sync),
+) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| verify_planned(scene, plan, job, proceed)))
 }

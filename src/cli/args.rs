@@ -1,6 +1,6 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
-use crate::plan;
+use crate::plan::{self, Rule};
 use crate::render::Crop;
 use crate::{diag, ir, study};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -58,9 +58,12 @@ pub(super) struct Compile {
     /// The scene, as YAML or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
-    /// Where to write; `-` is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
-    pub(super) output: PathBuf,
+    /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) output: Option<PathBuf>,
+    /// Say which effects the picture needs, and why it does without the others
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
+    pub(super) explain: Option<Explanation>,
     /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
@@ -109,9 +112,33 @@ pub(super) struct Render {
     #[arg(long)]
     pub(super) bits: Option<Bits>,
     #[command(flatten)]
+    pub(super) pruning: Pruning,
+    #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
     pub(super) talk: Talk,
+}
+
+/// What is left out of the work for a picture.
+#[derive(Debug, Args)]
+pub(super) struct Pruning {
+    /// Simulate what a rule would leave out: all rules, or those named, as E-SPEC
+    #[arg(long, value_name = "RULE", num_args = 0.., require_equals = true, value_delimiter = ',', value_parser = rule)]
+    pub(super) no_prune: Option<Vec<Rule>>,
+    /// Leave out also what changes the picture by less than half a level of 8 bits
+    #[arg(long)]
+    pub(super) approx: bool,
+    /// Simulate also what is left out, and stop at a pixel where it would show
+    #[arg(long, conflicts_with_all = ["no_prune", "arithmetic"])]
+    pub(super) verify_effects: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Explanation {
+    /// A table to read
+    Human,
+    /// One JSON object
+    Json,
 }
 
 #[derive(Debug, Args)]
@@ -177,7 +204,7 @@ impl From<Effort> for study::Effort {
 
 #[derive(Debug, Args)]
 pub(super) struct Explain {
-    /// The code, as VA001
+    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC
     #[arg(required_unless_present = "all")]
     pub(super) code: Option<String>,
     /// Explain every code there is, as Markdown
@@ -333,6 +360,13 @@ pub(super) enum Color {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+}
+
+fn rule(text: &str) -> Result<Rule, String> {
+    Rule::find(text).ok_or_else(|| {
+        let names = Rule::ALL.map(Rule::name).join(", ");
+        format!("there is no such rule; there are {names}")
+    })
 }
 
 fn folder(text: &str) -> Result<PathBuf, String> {

@@ -11,8 +11,8 @@ use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline;
-use crate::plan::{self, Symptom};
-use crate::render::{Crop, Film, Job, Values};
+use crate::plan::{self, Rule, Rules, Symptom};
+use crate::render::{Crop, Fault, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -24,6 +24,8 @@ struct Plan {
     arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
     threads: usize,
+    rules: Rules,
+    verify: bool,
 }
 
 /// A kind of pixel file.
@@ -64,6 +66,8 @@ impl Plan {
             arithmetic: args.arithmetic.into(),
             crop: args.crop,
             threads: args.threads.map_or(0, usize::from),
+            rules: rules(&args.pruning),
+            verify: args.pruning.verify_effects,
         })
     }
 
@@ -116,11 +120,16 @@ impl Plan {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let plan = plan::Plan::by(self.arithmetic, &proven.scene);
-        let film = pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed);
+        let plan = plan::Plan::by(self.arithmetic, &proven.scene, self.rules);
+        let film = if self.verify {
+            pipeline::verify(&proven.scene, &plan, &job, self.threads, &proceed)
+        } else {
+            pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed).map(|film| film.map(Ok))
+        };
         let elapsed = progress.finish();
         let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-        Ok((film.ok_or(Failure::Interrupted)?, elapsed))
+        let film = film.ok_or(Failure::Interrupted)?.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        Ok((film, elapsed))
     }
 
     fn summary(&self, film: &Film, elapsed: Duration) -> String {
@@ -151,6 +160,28 @@ impl Plan {
             settings: settings.to_string(),
         }
     }
+}
+
+/// The rules that may leave something out.
+fn rules(args: &args::Pruning) -> Rules {
+    let all = if args.approx { Rules::ALL.with(Rule::Cut) } else { Rules::ALL };
+    match args.no_prune.as_deref() {
+        None => all,
+        Some([]) => Rules::NONE,
+        Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
+    }
+}
+
+/// What to say of a rule that was wrong.
+fn left_out(fault: &Fault) -> String {
+    let Fault { pixel: [x, y], effect, rule, what } = fault;
+    let rule = rule.map_or("no rule", Rule::name);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
+         This is a fault of rtc {version}, please report it with the scene.",
+        effect.name()
+    )
 }
 
 /// The name of the scene with `.png`, in the current folder.

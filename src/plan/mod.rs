@@ -116,15 +116,22 @@ impl Plan {
         }
     }
 
-    /// Plans the picture by an arithmetic, with all rules that add exactly nothing by it: what is proven of the shapes
-    /// is proven for the robust one.
+    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing by it: what is proven
+    /// of the shapes is proven for the robust one.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
-            Arithmetic::Robust => Rules::ALL,
-            Arithmetic::Plain | Arithmetic::F32 => Rules::AT_HITS,
+            Arithmetic::Robust => rules,
+            Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
         };
         Self { arithmetic, ..Self::new(scene, rules) }
+    }
+
+    /// The rule that left out an effect, of the whole scene or else of some entity.
+    #[must_use]
+    pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
+        let mut verdicts = self.verdicts.iter().filter(|verdict| verdict.effect == effect);
+        verdicts.find_map(|verdict| verdict.rule)
     }
 
     /// Whether the picture needs an effect, of whatever entity.

@@ -7,7 +7,7 @@ use crate::diag::Sink;
 use crate::image::Image;
 use crate::ir::{Origins, Pattern, Scene};
 use crate::plan::{Plan, Rules};
-use crate::render::{Counts, Crop, Job, Seeds, Tiles, Values, render};
+use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
 use crate::valid::{self, ValidScene};
 
 /// A scene, and the part of its picture that is looked at.
@@ -117,7 +117,7 @@ impl<'bench> Subject<'bench> {
     fn render(&self, scene: &ValidScene, seeds: Seeds) -> Result<Shot, Stopped> {
         let last = self.tiles.last().map_or(0, |tile| Tiles::rank(self.seed, *tile));
         let tiles = Some(Tiles { seed: self.seed, last });
-        let job = Job { crop: None, values: Values::Display, tiles, seeds };
+        let job = Job { tiles, seeds, ..Job::default() };
         let plan = Plan::new(scene, Rules::ALL);
         let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
         let counts = film.counts;
