@@ -5,6 +5,7 @@
 use rtc::diag::Sink;
 use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
 use rtc::render::{Ray, World};
 use rtc::source::SourceMap;
 use std::fmt::Write as _;
@@ -25,7 +26,8 @@ fn world() -> World {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("spheres", text.into_bytes());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    World::prepare(&pipeline::prove(&lowered, &options, &mut sink).unwrap())
+    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
 }
 
 /// Ray k, its components replaced from the list by turns, one at a time or all at once.

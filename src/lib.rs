@@ -8,9 +8,11 @@
 //! 4. [`ir`]: the intermediate representation, [`ir::Scene`], with a version.
 //! 5. [`front`] lowers what people write to the IR; [`codec`] turns the IR into bytes and back;
 //!    [`valid`] proves a scene sound.
-//! 6. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
-//! 7. [`pipeline`]: the doors the stages are joined by.
-//! 8. [`cli`]: arguments, streams, exit codes.
+//! 6. [`plan`]: what the picture really needs, each omission with its reason.
+//! 7. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
+//! 8. [`study`]: accuracy against time: renders, measures, reports.
+//! 9. [`pipeline`]: the doors the stages are joined by.
+//! 10. [`cli`]: arguments, streams, exit codes.
 //!
 //! The promise between the rooms: whoever holds a [`valid::ValidScene`] need not doubt a number.
 
@@ -25,6 +27,8 @@ pub mod image;
 pub mod ir;
 pub mod math;
 pub mod pipeline;
+pub mod plan;
 pub mod render;
 pub mod source;
+pub mod study;
 pub mod valid;

@@ -13,7 +13,8 @@ use rtc::diag::Sink;
 use rtc::ir::{self, Lowered, Origins, Scene};
 use rtc::math::ldexp;
 use rtc::pipeline::{self, Options};
-use rtc::render::{Crop, Job, Shear, World, camera_ray, image_point};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Crop, Geometry, Job, Seeds, Shear, Tiles, World, camera_ray, image_point};
 use rtc::source::SourceMap;
 use small::{WHOLE, bits, film, paths, scenes_in, small};
 use std::path::Path;
@@ -60,16 +61,61 @@ fn a_crop_is_a_part_of_the_whole() {
     }
 }
 
+/// Tiles are parts of the whole; black elsewhere.
+#[test]
+fn tiles_are_parts_of_the_whole() {
+    let scene = small(&paths()[0]);
+    let whole = film(&scene, &WHOLE, 0).image;
+    let tiles = Tiles { seed: 5, last: u64::MAX / 2 };
+    let part = film(&scene, &Job { tiles: Some(tiles), ..WHOLE }, 0);
+    let mut inside = 0;
+    for (i, (ours, wanted)) in (0_u32..).zip(part.image.pixels.iter().zip(&whole.pixels)) {
+        let is_inside = tiles.contain([i % whole.width, i / whole.width]);
+        inside += u32::from(is_inside);
+        assert_eq!(*ours, if is_inside { *wanted } else { [0.0; 3] });
+    }
+    assert!(inside > 0 && inside < whole.width * whole.height, "{inside} pixels");
+    assert_eq!(part.counts.camera, u64::from(inside) * 4, "other pixels take no ray");
+}
+
+/// A seed changes the noise, not what the picture shows.
+#[test]
+fn seeds_change_the_noise_alone() {
+    let path = paths().into_iter().find(|path| path.ends_with("bokeh.yaml")).unwrap();
+    let mut scene = small(&path);
+    let seeded =
+        |scene: &Scene, lens| film(scene, &Job { seeds: Seeds { pixel: lens, lens, path: lens }, ..WHOLE }, 0).image;
+    assert!(seeded(&scene, 1) != seeded(&scene, 2), "another seed is another picture");
+    let distance = |a: &rtc::image::Image, b: &rtc::image::Image| {
+        let squares = a.pixels.iter().flatten().zip(b.pixels.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
+        (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
+    };
+    scene.camera.lens.samples = 256;
+    let truth = seeded(&scene, 7);
+    scene.camera.lens.samples = 1;
+    let mut mean = seeded(&scene, 8);
+    let noise = distance(&mean, &truth);
+    let seeds = 64;
+    for seed in 1..seeds {
+        for (sum, more) in mean.pixels.iter_mut().zip(seeded(&scene, 8 + seed).pixels) {
+            *sum = [0, 1, 2].map(|c| sum[c] + more[c]);
+        }
+    }
+    mean.pixels.iter_mut().flatten().for_each(|sum| *sum /= seeds as f64);
+    assert!(distance(&mean, &truth) < 0.25 * noise, "64 pictures of 1 point are one of 64: {noise}");
+}
+
 /// Every length of the scene times a factor; what is a direction or a colour stays.
 fn scaled(scene: &Scene, factor: f64) -> Scene {
     let mut scene = scene.clone();
     let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    let ir::Camera { eye, center, right, up, size: _, lens } = &mut scene.camera;
+    let ir::Camera { eye, center, right, up, size: _, lens, projection: _ } = &mut scene.camera;
     for vector in [eye, center, right, up] {
         scale(vector);
     }
     lens.radius *= factor;
-    for ir::Light::Point(light) in &mut scene.lights {
+    for light in &mut scene.lights {
+        let ir::Light::Point(light) = light else { panic!("the scenes of the course have no other lights") };
         scale(&mut light.position);
         light.radius *= factor;
     }
@@ -166,7 +212,8 @@ fn has_tie(world: &World, index: usize) -> bool {
 
 fn world(scene: &Scene) -> World {
     let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
-    World::prepare(&pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).unwrap())
+    let valid = pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).unwrap();
+    World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
 }
 
 /// The order of surfaces is no part of a scene's meaning, but where several are met at the very same t.
@@ -194,5 +241,5 @@ fn a_render_that_is_stopped_leaves_nothing() {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered { scene: small(&paths()[0]), origins: Origins::default() };
     let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap();
-    assert!(pipeline::render(&valid, &WHOLE, 2, &|_| false).unwrap().is_none());
+    assert!(pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), &WHOLE, 2, &|_| false).unwrap().is_none());
 }

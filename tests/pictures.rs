@@ -6,10 +6,11 @@
 
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::{self, Lowered, Scene};
+use rtc::ir::{self, Lowered, Overrides, Scene};
 use rtc::math::{Double, Vec3, view_basis};
-use rtc::pipeline::{self, Options, Overrides};
-use rtc::render::{Counts, Film, Job, World, camera_ray, image_point};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Counts, Film, Geometry, Job, Shape, World, camera_ray, image_point};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::{self, ValidScene};
 use std::path::Path;
@@ -35,7 +36,7 @@ fn course(name: &str) -> Option<Scene> {
 }
 
 fn film(scene: &ValidScene) -> Film {
-    pipeline::render(scene, &Job::default(), 0, &|_| true).unwrap().unwrap()
+    pipeline::render(scene, &Plan::new(scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap()
 }
 
 /// Pixels that differ by more than a quarter of the range from eight neighbours that agree: acne and cracks.
@@ -102,6 +103,7 @@ fn earth() -> Scene {
             up: up.to_array(),
             size: [400, 400],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -117,13 +119,15 @@ fn earth() -> Scene {
         meshes: Vec::new(),
         materials: vec![ir::Material::Phong(phong)],
         surfaces: vec![ir::Surface { shape: ir::Shape::Sphere(sphere), material: ir::MaterialId(0) }],
+        names: Vec::new(),
+        environment: None,
     }
 }
 
 #[test]
 fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
     let scene = proven(earth());
-    let world = World::prepare(&scene);
+    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
     let camera = scene.camera();
     let valid::Shape::Sphere(sphere) = &scene.surfaces()[0].shape else { panic!("the earth is a sphere") };
     let mut seen = 0;
@@ -145,7 +149,7 @@ fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
 #[test]
 fn the_day_side_of_a_far_planet_is_lit_all_over() {
     let scene = proven(earth());
-    let world = World::prepare(&scene);
+    let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
     let camera = scene.camera();
     let film = film(&scene);
     let mut lit = 0;

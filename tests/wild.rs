@@ -9,7 +9,9 @@
     reason = "a test stops at the first surprise, reads what it checks, and tells what it did"
 )]
 use rtc::diag::{Severity, Sink};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::ir::Overrides;
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
 use std::fs;
@@ -47,7 +49,7 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
 
 /// Small enough to be quick, large enough to meet every object in view.
 fn small() -> Overrides {
-    Overrides { size: Some([24, 24]), supersampling: Some(1), depth: Some(2), light_samples: None }
+    Overrides { size: Some([24, 24]), supersampling: Some(1), depth: Some(2), ..Overrides::default() }
 }
 
 /// What became of a file: the warnings of one that rendered, or the errors of one that did not.
@@ -66,7 +68,8 @@ fn outcome(path: &Path) -> Result<Vec<String>, Vec<(&'static str, String)>> {
         }
         return Err(errors.map(|error| (error.code.id, error.message.clone())).collect());
     };
-    let film = pipeline::render(&scene, &Job::default(), 1, &|_| true).unwrap().unwrap();
+    let film =
+        pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 1, &|_| true).unwrap().unwrap();
     drop(film);
     let warnings = sink.kept().iter().filter(|finding| finding.severity == Severity::Warning);
     Ok(warnings.map(|warning| format!("{} {}", warning.code, warning.message)).collect())

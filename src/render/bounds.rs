@@ -5,20 +5,20 @@ use crate::math::{U, Vec3};
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bounds {
+pub struct Bounds {
     /// The lowest corner.
-    pub(super) min: Vec3,
+    pub min: Vec3,
     /// The highest corner.
-    pub(super) max: Vec3,
+    pub max: Vec3,
 }
 
 impl Bounds {
     /// The box that holds nothing.
-    pub(super) const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
 
     /// The box of some points.
     #[must_use]
-    pub(super) fn of(points: &[Vec3]) -> Self {
+    pub fn of(points: &[Vec3]) -> Self {
         points
             .iter()
             .fold(Self::EMPTY, |bounds, point| Self { min: bounds.min.min(*point), max: bounds.max.max(*point) })
@@ -26,7 +26,7 @@ impl Bounds {
 
     /// The box around a sphere, rounded outward.
     #[must_use]
-    pub(super) fn around(center: Vec3, radius: f64) -> Self {
+    pub fn around(center: Vec3, radius: f64) -> Self {
         let (low, high) = (center - Vec3::splat(radius), center + Vec3::splat(radius));
         Self {
             min: Vec3::new(low.x.next_down(), low.y.next_down(), low.z.next_down()),
@@ -36,7 +36,7 @@ impl Bounds {
 
     /// The box around a disc with a unit normal, rounded outward.
     #[must_use]
-    pub(super) fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
+    pub fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
         let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
         let reach = Vec3::new(reach(normal.x), reach(normal.y), reach(normal.z));
         Self::around(center - reach, 0.0).union(Self::around(center + reach, 0.0))
@@ -44,19 +44,19 @@ impl Bounds {
 
     /// The smallest box that holds both.
     #[must_use]
-    pub(super) fn union(self, other: Self) -> Self {
+    pub fn union(self, other: Self) -> Self {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
     /// The middle.
     #[must_use]
-    pub(super) fn center(self) -> Vec3 {
+    pub fn center(self) -> Vec3 {
         self.min * 0.5 + self.max * 0.5
     }
 
     /// Half the surface area; 0 for the empty box.
     #[must_use]
-    pub(super) fn half_area(self) -> f64 {
+    pub fn half_area(self) -> f64 {
         let size = (self.max - self.min).max(Vec3::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
     }

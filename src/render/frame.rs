@@ -1,45 +1,46 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{camera_ray, image_point, lens_point, lens_samples};
+use super::camera::{Twist, camera_ray, image_point, lens_point, lens_samples};
 use super::film::{Counts, Crop, Film, Job, Values};
+use super::geometry::Geometry;
 use super::sampler::Key;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
+use crate::plan::{Features, Sight};
 use crate::valid::{Mode, Pattern};
 use rayon::prelude::*;
 
-impl World {
-    /// Renders on the threads of the current pool; `None` if `proceed` said stop.
-    ///
-    /// `proceed` is called from all threads after each pixel with the number of rays it took.
-    #[must_use]
-    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+impl<S: Geometry> World<S> {
+    /// Renders with the features `F`; `None` if `proceed` said stop.
+    pub(super) fn render_with<const F: u32>(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
         let camera = self.scene.camera();
         let (width, height) = (camera.width.get(), camera.height.get());
         let whole = Crop { x: 0, y: 0, width, height };
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         match self.scene.settings().mode {
             Mode::Zbuffer => {
-                let (mut depths, counts) = self.tiles(whole, proceed, |tracer, pixel| tracer.depth(pixel))?;
+                let (mut depths, counts) =
+                    self.tiles(whole, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
                 Some(Film { image, counts })
             }
-            Mode::Phong | Mode::Normal | Mode::Gooch(_) => {
-                let (pixels, counts) = self.tiles(crop, proceed, |tracer, pixel| tracer.pixel(pixel, job.values))?;
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
+                let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
+                let (pixels, counts) = self.tiles(crop, proceed, pixel)?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
             }
         }
     }
 
     /// The values of all pixels of a rectangle, row by row, and the rays they took.
-    fn tiles<T: Send + Clone + Default>(
+    fn tiles<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
         proceed: &(dyn Fn(u64) -> bool + Sync),
-        value: impl Fn(&mut Tracer<'_>, [u32; 2]) -> T + Sync,
+        value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
     ) -> Option<(Vec<T>, Counts)> {
         let mut pixels = vec![T::default(); crop.width as usize * crop.height as usize];
         let row = |(y, row): (u32, &mut [T])| {
@@ -60,24 +61,41 @@ impl World {
     }
 }
 
-impl Tracer<'_> {
-    /// The mean of all sub-samples and points of the lens.
-    fn pixel(&mut self, pixel: [u32; 2], values: Values) -> [f64; 3] {
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// The mean of all sub-samples and points of the lens; black outside the tiles.
+    fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> [f64; 3] {
+        if job.tiles.is_some_and(|tiles| !tiles.contain(pixel)) {
+            return [0.0; 3];
+        }
         let scene = self.scene();
         let camera = scene.camera();
-        let factor = scene.settings().supersampling.get();
-        let points = lens_samples(&camera.lens);
+        let sight = self.world.plan.region.sight(pixel);
+        if sight == Sight::Nothing {
+            return [0.0; 3];
+        }
+        let mut first = None;
+        let factor = if Self::can(Features::CAMERA) { scene.settings().supersampling.get() } else { 1 };
+        let points = if Self::can(Features::CAMERA) { lens_samples(&camera.lens) } else { 1 };
         let mut sum = Vec3::ZERO;
         let mut sample = 0_u64;
         for j in 0..factor {
             for i in 0..factor {
                 let cell = u64::from(j) * u64::from(factor) + u64::from(i);
-                let place = place_in_pixel(scene.settings().pattern, [i, j], factor, Key::new(pixel, cell));
+                let key = Key::new(pixel, cell);
+                let pattern = if Self::can(Features::CAMERA) { scene.settings().pattern } else { Pattern::Grid };
+                let place = place_in_pixel(pattern, [i, j], factor, key.seeded(job.seeds.pixel));
                 let target = image_point(camera, pixel, place);
+                let twist = Twist::new(job.seeds.lens, key);
                 for k in 0..points {
-                    let ray = camera_ray(lens_point(camera, k), target);
-                    let radiance = self.radiance(ray, Key::new(pixel, sample));
-                    sum += match values {
+                    let radiance = match first.filter(|_| sight == Sight::Uniform) {
+                        Some(first) => first,
+                        None => {
+                            let ray = camera_ray(lens_point(camera, k, twist), target);
+                            self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path))
+                        }
+                    };
+                    first = Some(radiance);
+                    sum += match job.values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
                         Values::Linear => radiance,
                     };
@@ -90,6 +108,9 @@ impl Tracer<'_> {
 
     /// The distance to what the middle of a pixel shows.
     fn depth(&mut self, pixel: [u32; 2]) -> Option<f64> {
+        if self.world.plan.region.sight(pixel) == Sight::Nothing {
+            return None;
+        }
         let camera = self.scene().camera();
         let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)

@@ -29,6 +29,16 @@ impl PreparedMesh {
         let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
         Self { mesh: Arc::clone(mesh), bvh: Bvh::build(&boxes), triangles, indices }
     }
+
+    /// The triangles that have an area.
+    pub(super) fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// The hierarchy of the triangles.
+    pub(super) fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
 }
 
 /// A mesh in the world.
@@ -57,6 +67,11 @@ impl Instance {
             instance.bounds = instance.bounds.union(Bounds::around(point, instance.rounding(*corner)));
         }
         instance
+    }
+
+    /// The rows of the inverse of the axes.
+    pub(super) fn inverse(&self) -> [Vec3; 3] {
+        self.inverse
     }
 
     /// How far rounding may move a point between the two spaces.
@@ -112,6 +127,11 @@ impl Instance {
         Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
     }
 
+    /// Whether the mesh has texture coordinates.
+    pub(super) fn has_uv(&self) -> bool {
+        !self.mesh.mesh.uvs.is_empty()
+    }
+
     /// Whether the mesh has normals of its own.
     pub(super) fn has_shading_normals(&self) -> bool {
         !self.mesh.mesh.normals.is_empty()
@@ -125,8 +145,9 @@ impl Instance {
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
         let normal = (!mesh.normals.is_empty()).then(|| {
-            let normals = corners.map(|k| mesh.normals[k]);
-            self.normal_to_world(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
+            let [a, b, c] = corners.map(|k| mesh.normals[k]);
+            let is_even = a == b && a == c;
+            self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
         });
         let uvs = (!mesh.uvs.is_empty()).then(|| corners.map(|k| mesh.uvs[k]));
         let uv = uvs.map(|uvs| interpolate(uvs, weights));
@@ -142,13 +163,13 @@ impl Instance {
 
 /// What a surface knows of a point beyond its geometry.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Details {
+pub struct Details {
     /// The unit shading normal, where it is not the geometric one.
-    pub(super) normal: Option<Vec3>,
+    pub normal: Option<Vec3>,
     /// The texture coordinates.
-    pub(super) uv: Option<[f64; 2]>,
+    pub uv: Option<[f64; 2]>,
     /// A direction along the surface in which u grows and v stays.
-    pub(super) tangent: Option<Vec3>,
+    pub tangent: Option<Vec3>,
 }
 
 /// The uv at a point with these weights of the corners.

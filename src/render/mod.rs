@@ -1,6 +1,7 @@
 //! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on the threads:
 //! a pixel is a function of the scene and its coordinates alone.
 
+mod basic;
 mod bounds;
 mod bvh;
 mod camera;
@@ -9,9 +10,13 @@ mod cylinder;
 mod disc;
 mod film;
 mod frame;
+mod geometry;
 mod instance;
 mod interval;
+mod kernel;
+mod material;
 mod optics;
+mod plain;
 mod plane;
 mod quad;
 mod ray;
@@ -25,13 +30,18 @@ mod triangle;
 mod whitted;
 mod world;
 
-pub use camera::{camera_ray, image_point, lens_point, vogel};
+pub use basic::Basic;
+pub use bounds::Bounds;
+pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
-pub use film::{Counts, Crop, Film, Job, Values};
-pub use instance::{Instance, PreparedMesh};
+pub use film::{Counts, Crop, Film, Job, Seeds, Tiles, Values};
+pub use geometry::Geometry;
+pub use instance::{Details, Instance, PreparedMesh};
+pub use kernel::{KERNELS, Kernel, choose, render};
 pub use optics::{highlight, reflect, refract};
+pub use plain::{PlainShape, Real};
 pub use plane::Plane;
 pub use quad::{Patch, Quad};
 pub use ray::{Interaction, Ray};

@@ -1,11 +1,12 @@
 //! Local shading: the light that reaches a point directly, by Phong's and by Gooch's model.
 
-use super::film::Counts;
+use super::geometry::Geometry;
 use super::optics::highlight;
 use super::ray::Interaction;
 use super::sampler::{DiscPoints, Key};
-use super::world::World;
+use super::whitted::Tracer;
 use crate::math::{Basis, Vec3};
+use crate::plan::{Features, Rule};
 use crate::valid::{Gooch, Light, Phong};
 
 /// A point seen from one side.
@@ -22,6 +23,8 @@ pub(super) struct View<'world> {
     pub(super) color: Vec3,
     /// ks at this point.
     pub(super) ks: f64,
+    /// The index of the surface in the scene.
+    pub(super) surface: usize,
     /// Names the point for sampling.
     pub(super) key: Key,
 }
@@ -42,24 +45,33 @@ impl View<'_> {
         let reflected = self.normal * (2.0 * n_dot_l) - to_light;
         Some(Incidence { n_dot_l, r_dot_v: reflected.dot(self.to_viewer) })
     }
+}
 
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a soft light.
     ///
     /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands between, and where
-    /// N·L ≤ 0: the surface stands in its own light, and no ray is needed.
+    /// N·L ≤ 0: the surface stands in its own light.
     #[must_use]
-    pub(super) fn phong(&self, world: &World, counts: &mut Counts) -> Vec3 {
+    pub(super) fn phong(&mut self, view: &View<'_>) -> Vec3 {
+        let world = self.world;
         let samples = world.scene.settings().light_samples.get();
         let mut sum = Vec3::ZERO;
-        for (index, light) in world.scene.lights().iter().enumerate() {
-            let mut term = self.color * self.material.ka.get();
-            if light.radius.get() == 0.0 || samples == 1 {
-                term += self.direct(light.position, world, counts);
-            } else {
-                let key = self.key.child(index as u64);
-                let points = soft_light_points(light, self.interaction.point, samples, key);
-                let direct = points.map(|point| self.direct(point, world, counts)).sum::<Vec3>();
-                term += direct / f64::from(samples);
+        for (index, (light, plan)) in world.scene.lights().iter().zip(&world.plan.lights).enumerate() {
+            if !plan.kept {
+                continue;
+            }
+            let mut term = view.color * view.material.ka.get();
+            if Self::can(Features::LIGHT) && plan.direct {
+                let shadowed = plan.shadowed[view.surface];
+                if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
+                    term += self.direct(view, light.position, shadowed);
+                } else {
+                    let key = view.key.child(index as u64);
+                    let points = soft_light_points(light, view.interaction.point, samples, key);
+                    let direct = points.map(|point| self.direct(view, point, shadowed)).sum::<Vec3>();
+                    term += direct / f64::from(samples);
+                }
             }
             sum += light.color * term;
         }
@@ -67,40 +79,54 @@ impl View<'_> {
     }
 
     /// What one point of a light adds, for a light of colour 1.
-    fn direct(&self, light: Vec3, world: &World, counts: &mut Counts) -> Vec3 {
-        let Some(incidence) = self.incidence(light) else { return Vec3::ZERO };
-        let shadows = world.scene.settings().shadows;
-        if shadows && !(incidence.n_dot_l > 0.0 && self.sees(light, world, counts)) {
+    fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: bool) -> Vec3 {
+        let diffuse = view.color * view.material.kd.get();
+        let shines = Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
+        if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
             return Vec3::ZERO;
         }
-        let mut term = self.color * (self.material.kd.get() * incidence.n_dot_l.max(0.0));
-        if self.ks > 0.0 {
-            term += Vec3::splat(self.ks * highlight(incidence.r_dot_v, self.material.n.get()));
+        let Some(incidence) = view.incidence(light) else { return Vec3::ZERO };
+        if self.scene().settings().shadows && !self.is_lit(view, light, incidence.n_dot_l, shadowed) {
+            return Vec3::ZERO;
+        }
+        let mut term = view.color * (view.material.kd.get() * incidence.n_dot_l.max(0.0));
+        if shines {
+            term += Vec3::splat(view.ks * highlight(incidence.r_dot_v, view.material.n.get()));
         }
         term
     }
 
-    fn sees(&self, light: Vec3, world: &World, counts: &mut Counts) -> bool {
-        counts.shadow += 1;
-        let start = self.interaction.start(light - self.interaction.point);
-        !world.occluded(start, light)
+    /// Whether a surface faces a light and nothing stands between.
+    fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: bool) -> bool {
+        let faces = n_dot_l > 0.0;
+        if !faces && self.applies(Rule::ShadowFacing) {
+            return false;
+        }
+        let sees = !Self::can(Features::SHADOW) || !shadowed || self.sees(view, light);
+        faces && sees
+    }
+
+    fn sees(&mut self, view: &View<'_>, light: Vec3) -> bool {
+        self.counts.shadow += 1;
+        let start = view.interaction.start(light - view.interaction.point);
+        !self.world.occluded(start, light)
     }
 
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration" (SIGGRAPH 1998), in the
     /// course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 + ks·max(0, R·V)ⁿ·c_l`.
     #[must_use]
-    pub(super) fn gooch(&self, world: &World, parameters: &Gooch) -> Vec3 {
+    pub(super) fn gooch(&self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
         let Gooch { b, y, alpha, beta } = *parameters;
-        let (kd, n) = (self.material.kd.get(), self.material.n.get());
+        let (kd, n) = (view.material.kd.get(), view.material.n.get());
         let mut sum = Vec3::ZERO;
-        for light in world.scene.lights() {
-            let Some(incidence) = self.incidence(light.position) else { continue };
-            let tone = light.color * self.color * kd;
+        for light in self.scene().lights() {
+            let Some(incidence) = view.incidence(light.position) else { continue };
+            let tone = light.color * view.color * kd;
             let cool = Vec3::new(0.0, 0.0, b) + tone * alpha;
             let warm = Vec3::new(y, y, 0.0) + tone * beta;
             sum += cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
-            if self.ks > 0.0 {
-                sum += light.color * (self.ks * highlight(incidence.r_dot_v, n));
+            if Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs)) {
+                sum += light.color * (view.ks * highlight(incidence.r_dot_v, n));
             }
         }
         sum

@@ -4,6 +4,7 @@ use super::bounds::Bounds;
 use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
+use super::geometry::Geometry;
 use super::instance::{Details, Instance, PreparedMesh, interpolate};
 use super::plane::Plane;
 use super::quad::Quad;
@@ -39,9 +40,15 @@ pub enum Shape {
     Instance(Box<Instance>),
 }
 
-impl Shape {
+impl Geometry for Shape {
+    type Mesh = PreparedMesh;
+
+    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> PreparedMesh {
+        PreparedMesh::new(mesh)
+    }
+
     /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
-    pub(super) fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
+    fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
         Some(match shape {
             valid::Shape::Sphere(valid::Sphere { center, radius, texture_from_world }) => {
                 let rows = texture_from_world.as_deref().copied().unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
@@ -68,11 +75,8 @@ impl Shape {
         })
     }
 
-    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray. Roots beyond `t_max`
-    /// may be left out.
-    #[must_use]
     #[inline]
-    pub fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+    fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let whole = |t: Option<f64>| t.map(|t| (t, 0));
         match self {
             Self::Sphere(sphere, _) => whole(sphere.intersect(ray)),
@@ -87,9 +91,7 @@ impl Shape {
         }
     }
 
-    /// What is known of the point at `t`, a root on `part` of this shape.
-    #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
         match self {
             Self::Sphere(sphere, _) => sphere.interaction(ray, t),
             Self::Plane(plane) => plane.interaction(ray, t),
@@ -103,8 +105,16 @@ impl Shape {
         }
     }
 
-    /// Whether its shading normals are not the geometric ones.
-    pub(super) fn has_shading_normals(&self) -> bool {
+    fn has_uv(&self) -> bool {
+        match self {
+            Self::Sphere(..) | Self::Quad(_) => true,
+            Self::Triangle(_, uvs) => uvs.is_some(),
+            Self::Instance(instance) => instance.has_uv(),
+            Self::Plane(_) | Self::Disc(_) | Self::Cylinder(_) | Self::Cone(_) | Self::Torus(_) => false,
+        }
+    }
+
+    fn has_shading_normals(&self) -> bool {
         match self {
             Self::Instance(instance) => instance.has_shading_normals(),
             Self::Sphere(..)
@@ -118,15 +128,10 @@ impl Shape {
         }
     }
 
-    /// What the shape knows of the point beyond its geometry.
-    pub(super) fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
+    fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
         match self {
             Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
-            Self::Triangle(triangle, Some(uvs)) => Details {
-                normal: None,
-                uv: Some(interpolate(*uvs, triangle.weights(at.point))),
-                tangent: triangle.tangent(*uvs),
-            },
+            Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
             Self::Quad(quad) => {
                 let [u, v] = quad.uv(ray, at.point, part);
                 Details { normal: None, uv: Some([u, v]), tangent: quad.tangent(v) }
@@ -141,7 +146,7 @@ impl Shape {
         }
     }
 
-    pub(super) fn bounds(&self) -> Option<Bounds> {
+    fn bounds(&self) -> Option<Bounds> {
         match self {
             Self::Sphere(sphere, _) => Some(Bounds::around(sphere.center, sphere.radius)),
             Self::Plane(_) => None,
@@ -157,11 +162,16 @@ impl Shape {
 }
 
 /// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the texture.
-fn sphere_details([x, y, z]: [Vec3; 3], direction: Vec3) -> Details {
+pub(super) fn sphere_details([x, y, z]: [Vec3; 3], direction: Vec3) -> Details {
     let d = Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction));
     let turns = atan2(d.y, d.x) / TAU;
     let u = if turns < 0.0 { turns + 1.0 } else { turns };
     let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
     let tangent = (y * d.x - x * d.y).try_normalize();
     Details { normal: None, uv: Some([u, v]), tangent }
+}
+
+/// uv between those of the corners.
+pub(super) fn triangle_details(triangle: &Triangle, uvs: [[f64; 2]; 3], at: &Interaction) -> Details {
+    Details { normal: None, uv: Some(interpolate(uvs, triangle.weights(at.point))), tangent: triangle.tangent(uvs) }
 }

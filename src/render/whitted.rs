@@ -2,6 +2,7 @@
 //! for shaded display", CACM 23 (1980)), as a loop with a throughput: a long path takes no call stack.
 
 use super::film::Counts;
+use super::geometry::Geometry;
 use super::instance::Details;
 use super::optics::{reflect, refract};
 use super::ray::{Interaction, Ray};
@@ -10,6 +11,7 @@ use super::shade::View;
 use super::texture::{Frame, look_up};
 use super::world::World;
 use crate::math::Vec3;
+use crate::plan::{Features, Rule};
 use crate::valid::{Mode, Phong, ValidScene};
 
 /// One path under way.
@@ -20,6 +22,14 @@ struct Path {
     beta: f64,
     bounces_left: u32,
     key: Key,
+    kind: Kind,
+}
+
+/// How a path came about at its last bounce.
+#[derive(Clone, Copy)]
+enum Kind {
+    Mirrored,
+    Refracted,
 }
 
 /// Work put off: a path, or the rest of a glossy lobe.
@@ -40,18 +50,18 @@ struct Fan {
     path: Path,
 }
 
-/// Follows camera rays through a world; reuse one for many rays, it keeps its memory.
-pub(super) struct Tracer<'world> {
-    world: &'world World,
+/// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps its memory.
+pub(super) struct Tracer<'world, S, const F: u32> {
+    pub(super) world: &'world World<S>,
     pending: Vec<Pending>,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
 
-impl<'world> Tracer<'world> {
+impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world.
     #[must_use]
-    pub(super) fn new(world: &'world World) -> Self {
+    pub(super) fn new(world: &'world World<S>) -> Self {
         Self { world, pending: Vec::new(), counts: Counts::default() }
     }
 
@@ -61,20 +71,34 @@ impl<'world> Tracer<'world> {
         &self.world.scene
     }
 
+    /// Whether this tracer can do it: known at compile time.
+    #[inline]
+    pub(super) const fn can(feature: Features) -> bool {
+        Features(F).contains(feature)
+    }
+
+    /// Whether a rule that decides hit by hit applies: always, but for the naive tracer.
+    #[inline]
+    pub(super) fn applies(&self, rule: Rule) -> bool {
+        !Self::can(Features::NAIVE) || self.world.plan.rules.contains(rule)
+    }
+
     /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
     pub(super) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
-        let depth = self.scene().settings().max_depth;
+        let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
-        let first = Path { ray, beta: 1.0, bounces_left: depth, key };
+        let first = Path { ray, beta: 1.0, bounces_left: depth, key, kind: Kind::Mirrored };
         if let Some(view) = self.view(&first.ray, first.key) {
             self.counts.hits += 1;
             sum += self.local(&view);
-            if let Mode::Phong = self.scene().settings().mode {
+            if Self::can(Features::BOUNCE) {
                 self.branch(&first, &view);
             }
         }
-        while let Some(path) = self.next_path() {
+        while Self::can(Features::BOUNCE)
+            && let Some(path) = self.next_path()
+        {
             if let Some(view) = self.view(&path.ray, path.key) {
                 sum += self.local(&view) * path.beta;
                 self.branch(&path, &view);
@@ -96,7 +120,7 @@ impl<'world> Tracer<'world> {
         let hit = self.world.nearest(ray)?;
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
-        let material = &self.scene().materials()[surface.material];
+        let material = &self.world.materials[surface.material];
         let mut view = View {
             interaction,
             normal: interaction.normal,
@@ -104,9 +128,10 @@ impl<'world> Tracer<'world> {
             material,
             color: material.color,
             ks: material.ks.get(),
+            surface: surface.index,
             key,
         };
-        if material.maps.is_some() || surface.shape.has_shading_normals() {
+        if Self::can(Features::MAPS) && (material.maps.is_some() || surface.shape.has_shading_normals()) {
             let details = surface.shape.details(ray, &interaction, hit.part);
             self.apply_maps(&mut view, &details);
         }
@@ -122,10 +147,10 @@ impl<'world> Tracer<'world> {
         view.normal = details.normal.unwrap_or(view.normal);
         let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else { return };
         if let Some(map) = maps.color {
-            view.color = look_up(scene, map, uv);
+            view.color = self.texture(map, uv);
         }
         if let Some(map) = maps.specular {
-            view.ks *= look_up(scene, map, uv).x;
+            view.ks *= self.texture(map, uv).x.max(0.0);
         }
         let Some(frame) = details.tangent.and_then(|tangent| Frame::new(view.normal, tangent)) else { return };
         if let Some(map) = maps.normal {
@@ -135,17 +160,22 @@ impl<'world> Tracer<'world> {
         }
     }
 
+    /// What a texture shows.
+    fn texture(&self, index: usize, uv: [f64; 2]) -> Vec3 {
+        self.world.plan.constants[index].unwrap_or_else(|| look_up(self.scene(), index, uv))
+    }
+
     fn local(&mut self, view: &View<'_>) -> Vec3 {
         match &self.scene().settings().mode {
-            Mode::Phong => view.phong(self.world, &mut self.counts),
-            Mode::Gooch(parameters) => view.gooch(self.world, parameters),
+            Mode::Gooch(parameters) if Self::can(Features::GOOCH) => self.gooch(view, parameters),
+            Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(view),
             Mode::Normal | Mode::Zbuffer => (view.normal + Vec3::ONE) * 0.5,
         }
     }
 
     /// Puts off the mirrored and refracted paths that go on from here.
     fn branch(&mut self, path: &Path, view: &View<'_>) {
-        if path.bounces_left == 0 {
+        if path.bounces_left == 0 || path.beta == 0.0 {
             return;
         }
         let direction = path.ray.direction;
@@ -157,46 +187,54 @@ impl<'world> Tracer<'world> {
         let mirror = mirror_direction(direction, view);
         self.put_off_mirror(path, view, mirror, mirror_weight);
         if let Some(refracted) = refracted {
-            self.put_off(path, &view.interaction, refracted, view.material.kt.get(), 1);
+            self.put_off(path, &view.interaction, refracted, view.material.kt.get(), Kind::Refracted);
         }
     }
 
     fn put_off_mirror(&mut self, path: &Path, view: &View<'_>, mirror: Vec3, weight: f64) {
         let Phong { n, glossy_samples, .. } = view.material;
-        if glossy_samples.get() == 1 {
-            self.put_off(path, &view.interaction, mirror, weight, 0);
+        if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
+            self.put_off(path, &view.interaction, mirror, weight, Kind::Mirrored);
             return;
         }
         let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
         let above = lobe.count_above(view.normal);
-        let Some(path) = next(path, weight / f64::from(above.max(1)), Ray { direction: mirror, ..path.ray }, 0) else {
-            return;
-        };
+        let ray = Ray { direction: mirror, ..path.ray };
+        let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored) else { return };
         let fan = Fan { lobe, from: view.interaction, normal: view.normal, next: 0, count: glossy_samples.get(), path };
         self.pending.push(Pending::Lobe(Box::new(fan)));
     }
 
-    fn put_off(&mut self, path: &Path, from: &Interaction, direction: Vec3, weight: f64, branch: u64) {
-        let path = next(path, weight, from.ray(direction), branch);
+    fn put_off(&mut self, path: &Path, from: &Interaction, direction: Vec3, weight: f64, kind: Kind) {
+        let path = self.next(path, weight, from.ray(direction), kind);
         self.pending.extend(path.map(Pending::Path));
+    }
+
+    /// The path one bounce further, or `None` if nothing it sees can count.
+    fn next(&self, path: &Path, weight: f64, ray: Ray, kind: Kind) -> Option<Path> {
+        let beta = (path.beta * weight).min(f64::MAX);
+        let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
+        let key = path.key.child(kind as u64);
+        goes_on.then(|| Path { ray, beta, bounces_left: path.bounces_left - 1, key, kind })
     }
 
     /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
     fn next_path(&mut self) -> Option<Path> {
-        loop {
+        let path = loop {
             match self.pending.pop()? {
-                Pending::Path(path) => {
-                    self.counts.secondary += 1;
-                    return Some(path);
-                }
+                Pending::Path(path) => break path,
                 Pending::Lobe(mut fan) => {
                     let Some(path) = fan.take() else { continue };
                     self.pending.push(Pending::Lobe(fan));
-                    self.counts.secondary += 1;
-                    return Some(path);
+                    break path;
                 }
             }
+        };
+        match path.kind {
+            Kind::Mirrored => self.counts.mirror += 1,
+            Kind::Refracted => self.counts.refracted += 1,
         }
+        Some(path)
     }
 }
 
@@ -232,11 +270,4 @@ fn transmit(direction: Vec3, view: &View<'_>) -> Option<Vec3> {
     let enters = direction.dot(view.interaction.normal) <= 0.0;
     let (from, to) = if enters { (1.0, eta.get()) } else { (eta.get(), 1.0) };
     refract(direction, view.normal, from, to)
-}
-
-/// The path one bounce further, or `None` if nothing it sees can count.
-fn next(path: &Path, weight: f64, ray: Ray, branch: u64) -> Option<Path> {
-    let beta = (path.beta * weight).min(f64::MAX);
-    let goes_on = beta > 0.0;
-    goes_on.then(|| Path { ray, beta, bounces_left: path.bounces_left - 1, key: path.key.child(branch) })
 }

@@ -1,12 +1,14 @@
 //! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of it.
 
 use super::bvh::Bvh;
-use super::instance::PreparedMesh;
+use super::geometry::Geometry;
+use super::material::Materials;
 use super::ray::Ray;
 use super::shape::Shape;
 use super::triangle::Shear;
 use crate::math::Vec3;
-use crate::valid::{self, ValidScene};
+use crate::plan::Plan;
+use crate::valid::{self, Phong, ValidScene};
 use std::sync::Arc;
 
 /// The first hit of a ray.
@@ -22,33 +24,42 @@ pub struct Hit {
 
 /// A surface of the world.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub struct Surface<S = Shape> {
     /// Its shape.
-    pub shape: Shape,
-    /// The index of its material.
+    pub shape: S,
+    /// The index of its material in [`World::materials`].
     pub material: usize,
+    /// Its index in the scene.
+    pub index: usize,
 }
 
-/// A scene prepared for tracing.
-pub struct World {
+/// A scene prepared for tracing, of shapes `S`.
+pub struct World<S = Shape> {
     /// The camera, settings, lights and materials as proven.
     pub scene: ValidScene,
-    /// The surfaces, in the order of the scene.
-    pub surfaces: Vec<Surface>,
+    /// What the picture needs of it.
+    pub plan: Plan,
+    /// The materials, without maps that show one value.
+    pub materials: Vec<Phong>,
+    /// The surfaces that are planned, in the order of the scene.
+    pub surfaces: Vec<Surface<S>>,
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
 }
 
-impl World {
+impl<S: Geometry> World<S> {
     /// Prepares a scene: planes of shapes, the BVH.
     #[must_use]
-    pub fn prepare(scene: &ValidScene) -> Self {
-        let meshes = scene.meshes().iter().map(|mesh| Arc::new(PreparedMesh::new(mesh))).collect::<Vec<_>>();
-        let surface = |surface: &valid::Surface| {
-            Some(Surface { shape: Shape::prepare(&surface.shape, &meshes)?, material: surface.material })
+    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
+        let meshes = scene.meshes().iter().map(|mesh| Arc::new(S::prepare_mesh(mesh))).collect::<Vec<_>>();
+        let mut materials = Materials::new(scene, plan);
+        let surface = |(index, surface): (usize, &valid::Surface)| {
+            let shape = S::prepare(&surface.shape, &meshes)?;
+            Some(Surface { material: materials.of(surface.material, shape.has_uv()), shape, index })
         };
-        let surfaces = scene.surfaces().iter().filter_map(surface).collect::<Vec<_>>();
+        let planned = scene.surfaces().iter().enumerate().filter(|(index, _)| plan.surfaces[*index]);
+        let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
         let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
         for (index, surface) in (0_u32..).zip(&surfaces) {
             match surface.shape.bounds() {
@@ -60,7 +71,8 @@ impl World {
             }
         }
         let bvh = Bvh::build(&boxes);
-        Self { scene: scene.clone(), surfaces, unbounded, bounded, bvh }
+        let materials = materials.all;
+        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, unbounded, bounded, bvh }
     }
 
     /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.

@@ -76,11 +76,9 @@ impl Mesh {
         let mut scene = scene([ir::Shape::Instance(ir::Instance { mesh: ir::MeshId(0), world_from_object: map })]);
         let index = |k: usize| u32::try_from(k).unwrap();
         scene.meshes.push(ir::Mesh {
-            name: String::new(),
             positions: self.vertices.iter().map(|vertex| vertex.to_array()).collect(),
-            normals: Vec::new(),
-            uvs: Vec::new(),
             triangles: self.triangles.iter().map(|t| t.map(index)).collect(),
+            ..ir::Mesh::default()
         });
         prepare(&scene)
     }

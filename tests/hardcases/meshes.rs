@@ -5,7 +5,7 @@ use super::random::Random;
 use super::scenes::{sphere, triangle, world};
 use super::truth::{Report, cases, id, number, relative_error, vector};
 use rtc::math::Vec3;
-use rtc::render::{Hit, Ray, Shear, World};
+use rtc::render::{Geometry, Hit, Ray, Shear, World};
 use serde_json::Value;
 
 #[test]

@@ -3,7 +3,7 @@
 use super::scenes::{plane, world};
 use super::truth::{Report, cases, id, number, relative_error, vector, vector_error};
 use rtc::math::U;
-use rtc::render::{Ray, highlight, reflect, refract};
+use rtc::render::{Geometry, Ray, highlight, reflect, refract};
 
 #[test]
 fn refraction() {

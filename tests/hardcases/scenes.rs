@@ -3,6 +3,7 @@
 use super::truth::{number, vector};
 use rtc::diag::Sink;
 use rtc::ir;
+use rtc::plan::{Plan, Rules};
 use rtc::render::World;
 use rtc::valid::{self, ValidScene};
 use serde_json::Value;
@@ -36,6 +37,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             up: [0.0, 1.0, 0.0],
             size: [1, 1],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -51,6 +53,8 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
         lights: Vec::new(),
         materials: vec![white()],
         surfaces: shapes.into_iter().map(surface).collect(),
+        names: Vec::new(),
+        environment: None,
     }
 }
 
@@ -71,7 +75,8 @@ pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
 }
 
 pub(crate) fn prepare(scene: &ir::Scene) -> World {
-    World::prepare(&proven(scene))
+    let scene = proven(scene);
+    World::prepare(&scene, &Plan::new(&scene, Rules::NONE))
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {

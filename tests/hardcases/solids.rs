@@ -4,7 +4,8 @@ use super::mesh::Mesh;
 use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
-    Cone, Cylinder, Disc, Instance, Interaction, Plane, PreparedMesh, Quad, Ray, Shape, Shear, Sphere, Torus, Triangle,
+    Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad, Ray, Shape, Shear, Sphere, Torus,
+    Triangle,
 };
 use rtc::valid;
 use std::sync::Arc;
@@ -66,7 +67,7 @@ pub(crate) struct Form {
 /// An icosphere of 80 triangles for all instances.
 pub(crate) fn icosphere() -> Arc<PreparedMesh> {
     let Mesh { vertices, triangles } = Mesh::icosphere(1);
-    let mesh = valid::Mesh { positions: vertices, normals: Vec::new(), uvs: Vec::new(), triangles };
+    let mesh = valid::Mesh { positions: vertices, triangles, ..valid::Mesh::default() };
     Arc::new(PreparedMesh::new(&Arc::new(mesh)))
 }
 

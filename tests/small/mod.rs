@@ -1,9 +1,10 @@
 //! Scenes small enough to be rendered many times, and their films, for suites that state laws of pictures.
 
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::pipeline::{self, Options, Overrides};
-use rtc::render::{Film, Job, Values};
+use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Film, Job, Seeds, Values};
 use rtc::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -44,13 +45,13 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     scene
 }
 
-pub(crate) const WHOLE: Job = Job { crop: None, values: Values::Linear };
+pub(crate) const WHOLE: Job = Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE };
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
     let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    pipeline::render(&valid, job, threads, &|_| true).unwrap().unwrap()
+    pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), job, threads, &|_| true).unwrap().unwrap()
 }
 
 /// The bits of every value.

@@ -1,0 +1,54 @@
+//! The effects a picture may need, and what became of each.
+
+use super::rule::Rule;
+use crate::ir::Place;
+
+/// A part of the simulation that a scene may do without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "each is named as in the books")]
+pub enum Effect {
+    DepthBuffer,
+    NormalBuffer,
+    Surfaces,
+    DirectLight,
+    Shadows,
+    SoftLight,
+    Highlight,
+    Mirror,
+    GlossyReflection,
+    Refraction,
+    Depth,
+    Textures,
+    NormalInterpolation,
+    NormalMapping,
+    Lens,
+    Supersampling,
+}
+
+/// What became of an effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// The picture needs it.
+    Needed,
+    /// The scene asks for it, and a rule proves that it adds nothing.
+    Pruned,
+    /// The scene does not ask for it.
+    Absent,
+}
+
+/// What became of one effect, of the whole scene or of one light, material or surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The effect.
+    pub effect: Effect,
+    /// The entity it is of; none for that of the whole scene.
+    pub of: Option<Place>,
+    /// What became of it.
+    pub state: State,
+    /// The rule that left it out.
+    pub rule: Option<Rule>,
+    /// Why, in plain words: one line, lower case, no full stop.
+    pub because: String,
+    /// The values that decided.
+    pub facts: Vec<Place>,
+}

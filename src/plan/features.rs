@@ -1,0 +1,57 @@
+//! What an integrator can do: a set known at compile time, so that no branch is left for what a picture does not need.
+
+/// A set of features of an integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Features(pub u32);
+
+impl Features {
+    /// The first hit only.
+    pub const NONE: Self = Self(0);
+    /// Several samples a pixel, or several points of the lens.
+    pub const CAMERA: Self = Self(1);
+    /// Colour, ks and normal looked up on the surface.
+    pub const MAPS: Self = Self(1 << 1);
+    /// The diffuse term of lights.
+    pub const LIGHT: Self = Self(1 << 2);
+    /// The highlights of lights.
+    pub const HIGHLIGHT: Self = Self(1 << 3);
+    /// Gooch's shading.
+    pub const GOOCH: Self = Self(1 << 4);
+    /// Shadow rays.
+    pub const SHADOW: Self = Self(1 << 5);
+    /// Mirrored and refracted rays.
+    pub const BOUNCE: Self = Self(1 << 6);
+    /// Soft lights and glossy lobes.
+    pub const SAMPLED: Self = Self(1 << 7);
+    /// Whatever a rule would leave out at a hit is simulated as well, unless the plan has that rule.
+    pub const NAIVE: Self = Self(1 << 8);
+    /// All of them but the last.
+    pub const EVERYTHING: Self = Self((1 << 8) - 1);
+
+    /// The set with those of another.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether all of `others` are in the set.
+    #[must_use]
+    pub const fn contains(self, others: Self) -> bool {
+        self.0 & others.0 == others.0
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        self.0.count_ones()
+    }
+}
+
+/// A set of shapes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shapes {
+    /// Spheres, planes and triangles.
+    Basic,
+    /// All there are.
+    All,
+}

@@ -1,0 +1,292 @@
+//! What the picture of a scene really needs: each effect with its verdict and the reason, and the work that is left.
+//!
+//! A plan changes no bit of the picture. A rule leaves out only what it proves to add exactly nothing: a term with a
+//! factor of 0 whose other factors are finite (validation bounds every number by 1e60, so each local term is), a ray
+//! that can meet nothing, a sample that equals its neighbour. Sums keep their order, and random numbers are keyed by
+//! pixel, sample and path, so that leaving one out shifts no other.
+
+mod body;
+mod effect;
+mod features;
+mod light;
+mod look;
+mod precision;
+mod reach;
+mod region;
+mod rule;
+mod space;
+mod verdicts;
+mod window;
+
+pub use effect::{Effect, State, Verdict};
+pub use features::{Features, Shapes};
+pub use precision::{Loss, NEAREST, Symptom, loss};
+pub use region::{Region, Sight};
+pub use rule::{Rule, Rules};
+
+use crate::math::Vec3;
+use crate::valid::{Mode, Pattern, Shape, ValidScene};
+use body::{Body, bodies};
+use light::Lights;
+use look::{Look, constants};
+use reach::Reach;
+use window::{Shown, Window};
+
+/// The most questions of whether one thing hides or shows another that a plan asks.
+const MAX_PAIRS: usize = 500_000;
+
+/// By which arithmetic rays meet shapes; shading is always in f64.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// f64 with bounds on its errors.
+    #[default]
+    Robust,
+    /// The formulas of textbooks in f64, with a fixed threshold.
+    Plain,
+    /// The same formulas in f32.
+    F32,
+}
+
+/// What is left of a light.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LightPlan {
+    /// Whether it adds anything.
+    pub kept: bool,
+    /// Whether it adds more than its ambient term.
+    pub direct: bool,
+    /// Per surface of the scene, whether something may stand between it and the light.
+    pub shadowed: Vec<bool>,
+}
+
+/// The work that a picture needs.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// By which arithmetic rays meet shapes.
+    pub arithmetic: Arithmetic,
+    /// The rules that were allowed to leave something out.
+    pub rules: Rules,
+    /// What the integrator must be able to do.
+    pub features: Features,
+    /// The shapes that rays may meet.
+    pub shapes: Shapes,
+    /// Per light of the scene.
+    pub lights: Vec<LightPlan>,
+    /// Per surface of the scene, whether a ray may meet it.
+    pub surfaces: Vec<bool>,
+    /// Per texture of the scene, its value if it has only one.
+    pub constants: Vec<Option<Vec3>>,
+    /// Bounces after the first hit that may add something.
+    pub max_depth: u32,
+    /// What each pixel may show.
+    pub region: Region,
+    /// What became of each effect, and why.
+    pub verdicts: Vec<Verdict>,
+}
+
+impl Plan {
+    /// Plans the picture with the rules given.
+    #[must_use]
+    pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+        let facts = Facts::new(scene, rules);
+        let settings = scene.settings();
+        let window = Window::new(scene.camera(), facts.is_pinhole());
+        let shown = facts.bodies.iter().map(|body| window.shown(body)).collect::<Vec<_>>();
+        let asked = if let Mode::Phong = settings.mode { settings.max_depth } else { 0 };
+        let anywhere = vec![Shown::Anywhere; shown.len()];
+        let seen = if rules.contains(Rule::Cull) { &shown } else { &anywhere };
+        let reach = Reach::new(&facts, &window, seen, asked);
+        let lights = Lights::new(&facts, &reach);
+        let needed = if rules.contains(Rule::MirrorKs) { reach.depth } else { asked };
+        let max_depth = reach::cut(&facts, needed, rules);
+        let is_kept = |surface: usize| reach.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull);
+        let surfaces = (0..shown.len()).map(is_kept).collect::<Vec<_>>();
+        let findings = Findings { facts, reach, lights, max_depth, asked };
+        let region = Region::new(&findings, &window, &shown);
+        Self {
+            arithmetic: Arithmetic::Robust,
+            rules,
+            features: findings.features(),
+            shapes: shapes(scene, &surfaces),
+            surfaces,
+            max_depth,
+            verdicts: verdicts::verdicts(&findings, &region),
+            region,
+            lights: findings.lights.plans,
+            constants: findings.facts.constants,
+        }
+    }
+
+    /// Plans the picture by an arithmetic, with all rules that add exactly nothing by it: what is proven of the shapes
+    /// is proven for the robust one.
+    #[must_use]
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene) -> Self {
+        let rules = match arithmetic {
+            Arithmetic::Robust => Rules::ALL,
+            Arithmetic::Plain | Arithmetic::F32 => Rules::AT_HITS,
+        };
+        Self { arithmetic, ..Self::new(scene, rules) }
+    }
+
+    /// Whether the picture needs an effect, of whatever entity.
+    #[must_use]
+    pub fn needs(&self, effect: Effect) -> bool {
+        self.verdicts.iter().any(|verdict| verdict.effect == effect && verdict.state == State::Needed)
+    }
+}
+
+/// What the rules start from.
+struct Facts<'scene> {
+    scene: &'scene ValidScene,
+    rules: Rules,
+    /// Per surface, where it is.
+    bodies: Vec<Body>,
+    /// Per surface, what it shows.
+    looks: Vec<Look>,
+    /// Per texture, its value if it has only one.
+    constants: Vec<Option<Vec3>>,
+}
+
+impl<'scene> Facts<'scene> {
+    fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
+        let constants =
+            if rules.contains(Rule::TextureConstant) { constants(scene) } else { vec![None; scene.textures().len()] };
+        let looks = scene.surfaces().iter().map(|surface| Look::of(surface, scene, &constants)).collect();
+        Self { scene, rules, bodies: bodies(scene), looks, constants }
+    }
+
+    /// The rule, if it may be applied.
+    fn allowed(&self, rule: Rule) -> Option<Rule> {
+        Some(rule).filter(|rule| self.rules.contains(*rule))
+    }
+
+    /// Whether no triangle of a surface has several shading normals.
+    fn is_even(&self, surface: usize) -> bool {
+        let shape = &self.scene.surfaces()[surface].shape;
+        let Shape::Instance(instance) = shape else { return true };
+        self.rules.contains(Rule::NormalFlat) && look::is_even(&self.scene.meshes()[instance.mesh])
+    }
+
+    /// Whether all rays of a pixel's point start at the eye.
+    fn is_pinhole(&self) -> bool {
+        let lens = &self.scene.camera().lens;
+        lens.radius.get() == 0.0 || lens.samples.get() == 1 || matches!(self.scene.settings().mode, Mode::Zbuffer)
+    }
+}
+
+/// What the rules found.
+struct Findings<'scene> {
+    facts: Facts<'scene>,
+    reach: Reach,
+    lights: Lights,
+    /// Bounces planned.
+    max_depth: u32,
+    /// Bounces that the language asks for.
+    asked: u32,
+}
+
+impl Findings<'_> {
+    fn mode(&self) -> &Mode {
+        &self.facts.scene.settings().mode
+    }
+
+    /// The surfaces that are looked at, directly or in a mirror.
+    fn reached(&self) -> impl Iterator<Item = usize> {
+        (0..self.facts.bodies.len()).filter(|surface| self.reach.reached[*surface])
+    }
+
+    /// Whether any surface that is looked at shows something.
+    fn any(&self, shows: impl Fn(&Look) -> bool) -> bool {
+        self.reached().any(|surface| shows(&self.facts.looks[surface]))
+    }
+
+    fn is_shaded(&self) -> bool {
+        matches!(self.mode(), Mode::Phong | Mode::Gooch(_))
+    }
+
+    fn is_phong(&self) -> bool {
+        matches!(self.mode(), Mode::Phong)
+    }
+
+    /// Whether a light adds more than its ambient term to a surface.
+    fn is_lit(&self, look: &Look) -> bool {
+        look.is_lit() && self.lights.plans.iter().any(|light| light.direct)
+    }
+
+    /// Whether the picture depends on the shading normal of a surface.
+    fn shows_normal(&self, look: &Look) -> bool {
+        match self.mode() {
+            Mode::Zbuffer => false,
+            Mode::Normal | Mode::Path(_) => true,
+            Mode::Gooch(_) => !self.lights.plans.is_empty(),
+            Mode::Phong => self.is_lit(look) || (look.mirrors() && self.max_depth > 0),
+        }
+    }
+
+    /// Whether the picture depends on what the texture of a surface's colour shows.
+    fn shows_color_map(&self, look: &Look) -> bool {
+        let is_constant = look.color_map.is_none_or(|map| self.facts.constants[map].is_some());
+        self.is_shaded() && !is_constant && (look.ambient || look.diffuse)
+    }
+
+    /// Whether the picture depends on what the texture of a surface's ks shows.
+    fn shows_specular_map(&self, look: &Look) -> bool {
+        let is_constant = look.specular_map.is_none_or(|map| self.facts.constants[map].is_some());
+        self.is_shaded() && !is_constant && look.shines
+    }
+
+    /// Whether shadow rays are needed.
+    fn casts_shadows(&self) -> bool {
+        self.lights.shadow.is_some()
+    }
+
+    /// Whether a light is sampled.
+    fn is_soft(&self) -> bool {
+        let settings = self.facts.scene.settings();
+        let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+        let soft = lights.filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct).count();
+        self.is_phong() && settings.light_samples.get() > 1 && soft > 0
+    }
+
+    /// Whether a lobe is sampled.
+    fn is_glossy(&self) -> bool {
+        self.max_depth > 0 && self.any(|look| look.glossy && look.mirrors())
+    }
+
+    /// Whether a pixel takes several rays, or rays that are not through its middle.
+    fn is_sampled(&self) -> bool {
+        let settings = self.facts.scene.settings();
+        let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
+        several && !matches!(settings.mode, Mode::Zbuffer)
+    }
+
+    /// The smallest set of features that makes the picture.
+    fn features(&self) -> Features {
+        let rules = self.facts.rules;
+        let bends = |look: &Look| look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat));
+        let colors = |look: &Look| {
+            let unseen = look.color_map.is_some() || look.specular_map.is_some();
+            let shows = self.shows_color_map(look) || self.shows_specular_map(look);
+            shows || (unseen && !rules.contains(Rule::TextureUnseen))
+        };
+        let shines = |look: &Look| look.shines && self.is_lit(look);
+        let lit = self.any(|look| self.is_lit(look)) || !rules.contains(Rule::LightUnreached);
+        let mut features = Features::NONE;
+        let mut add = |feature, condition: bool| features = if condition { features.with(feature) } else { features };
+        add(Features::CAMERA, self.is_sampled() || !self.facts.is_pinhole());
+        add(Features::MAPS, self.any(|look| bends(look) || colors(look)));
+        add(Features::LIGHT, self.is_phong() && lit);
+        add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
+        add(Features::GOOCH, matches!(self.mode(), Mode::Gooch(_)));
+        add(Features::SHADOW, self.casts_shadows());
+        add(Features::BOUNCE, self.max_depth > 0);
+        add(Features::SAMPLED, self.is_soft() || self.is_glossy());
+        add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
+        features
+    }
+}
+
+fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
+    let is_basic = |shape: &Shape| matches!(shape, Shape::Sphere(_) | Shape::Plane(_) | Shape::Triangle(_));
+    let mut planned = scene.surfaces().iter().zip(kept).filter(|(_, kept)| **kept);
+    if planned.all(|(surface, _)| is_basic(&surface.shape)) { Shapes::Basic } else { Shapes::All }
+}

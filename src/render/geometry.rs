@@ -1,0 +1,47 @@
+//! What a world asks of the shapes in it.
+
+use super::bounds::Bounds;
+use super::instance::Details;
+use super::ray::{Interaction, Ray};
+use super::triangle::Shear;
+use crate::valid;
+use std::sync::Arc;
+
+/// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
+pub trait Geometry: Sized + Send + Sync {
+    /// A mesh prepared once for all its instances.
+    type Mesh: Send + Sync;
+
+    /// Prepares a mesh.
+    #[must_use]
+    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> Self::Mesh;
+
+    /// Prepares a shape; `None` for one that no ray hits.
+    #[must_use]
+    fn prepare(shape: &valid::Shape, meshes: &[Arc<Self::Mesh>]) -> Option<Self>;
+
+    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray. Roots beyond `t_max`
+    /// may be left out.
+    #[must_use]
+    fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
+
+    /// What is known of the point at `t`, a root on `part` of this shape.
+    #[must_use]
+    fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction;
+
+    /// Whether its points have texture coordinates.
+    #[must_use]
+    fn has_uv(&self) -> bool;
+
+    /// Whether its shading normals are not the geometric ones.
+    #[must_use]
+    fn has_shading_normals(&self) -> bool;
+
+    /// What the shape knows of the point beyond its geometry.
+    #[must_use]
+    fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details;
+
+    /// A box around it, for shapes that have an end.
+    #[must_use]
+    fn bounds(&self) -> Option<Bounds>;
+}

@@ -1,0 +1,94 @@
+//! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
+
+use super::basic::Basic;
+use super::film::{Film, Job};
+use super::geometry::Geometry;
+use super::plain::PlainShape;
+use super::shape::Shape;
+use super::world::World;
+use crate::plan::{Arithmetic, Features, Plan, Shapes};
+use crate::valid::ValidScene;
+
+/// An integrator compiled for a set of features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kernel {
+    /// Its name.
+    pub name: &'static str,
+    /// What it can do.
+    pub features: Features,
+}
+
+const fn kernel(name: &'static str, features: Features) -> Kernel {
+    Kernel { name, features }
+}
+
+const PHONG: Features = Features::LIGHT.with(Features::HIGHLIGHT);
+const WHITTED: Features = PHONG.with(Features::SHADOW).with(Features::BOUNCE);
+
+/// All integrators, each for the basic shapes and for all shapes.
+pub const KERNELS: [Kernel; 12] = [
+    kernel("first hit", Features::NONE),
+    kernel("first hit, camera", Features::CAMERA),
+    kernel("diffuse", Features::LIGHT),
+    kernel("phong", PHONG),
+    kernel("phong, camera", PHONG.with(Features::CAMERA)),
+    kernel("phong, shadows", PHONG.with(Features::SHADOW)),
+    kernel("diffuse, maps, camera", Features::LIGHT.with(Features::MAPS).with(Features::CAMERA)),
+    kernel("whitted", WHITTED),
+    kernel("whitted, camera", WHITTED.with(Features::CAMERA)),
+    kernel("whitted, maps, camera", WHITTED.with(Features::MAPS).with(Features::CAMERA)),
+    kernel("everything", Features::EVERYTHING),
+    kernel("naive", Features::EVERYTHING.with(Features::NAIVE)),
+];
+
+/// The index of the integrator with the fewest features among those that have all of `needed`; the first of equals.
+#[must_use]
+pub fn choose(needed: Features) -> usize {
+    let able = (0..KERNELS.len()).filter(|index| KERNELS[*index].features.contains(needed));
+    able.min_by_key(|index| KERNELS[*index].features.count()).unwrap_or(KERNELS.len() - 1)
+}
+
+/// Renders a scene as planned, on the threads of the current pool; `None` if `proceed` said stop.
+///
+/// `proceed` is called from all threads after each pixel with the number of rays it took.
+#[must_use]
+pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    match (plan.arithmetic, plan.shapes) {
+        (Arithmetic::Robust, Shapes::Basic) => World::<Basic>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::Robust, Shapes::All) => World::<Shape>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, plan).render(job, proceed),
+    }
+}
+
+impl<S: Geometry> World<S> {
+    /// Renders on the threads of the current pool; see [`render`].
+    #[must_use]
+    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+        macro_rules! run {
+            ($($index:literal)*) => {
+                match choose(self.plan.features) {
+                    $($index => self.render_with::<{ KERNELS[$index].features.0 }>(job, proceed),)*
+                    _ => self.render_with::<{ KERNELS[11].features.0 }>(job, proceed),
+                }
+            };
+        }
+        run!(0 1 2 3 4 5 6 7 8 9 10)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_kernel_chosen_can_do_all_that_is_needed_and_no_smaller_one_can() {
+        for needed in 0..1 << 9 {
+            let needed = Features(needed);
+            let chosen = KERNELS[choose(needed)].features;
+            assert!(chosen.contains(needed), "{needed:?}: {chosen:?}");
+            let smaller = KERNELS.iter().filter(|kernel| kernel.features.contains(needed));
+            assert!(smaller.map(|kernel| kernel.features.count()).min() == Some(chosen.count()), "{needed:?}");
+        }
+    }
+}
