@@ -52,9 +52,8 @@ and planes at most 64 u whatever κ. The truth is double-double.
 | --- | --: | --: | --: | --: | --: | --- |
 END
 rows truth "sphere generic=Mitsuba 1.0, Cycles 2.0 u·(1 + κ); pbrt in f32 8.8;sphere far_small=pbrt in f32 misses 28 %; b² − 4ac misses 18 %;\
-sphere huge_near=Mitsuba and Cycles 10⁶ u;sphere grazing=pbrt in f32 misses 32 %;sphere inside=Mitsuba 7.5·10⁴ u;\
-triangle generic=Möller–Trumbore (Mitsuba) leaks, see below;\
-triangle sliver=Embree 6.4·10⁷, Möller–Trumbore (Mitsuba) 2.5·10⁹, pbrt 1.2 u·(1 + κ);plane offset1e8=N·o − N·c (Mitsuba, course) 1.5·10⁸ u;\
+sphere huge_near=Cycles 2.9·10⁶ u (median);sphere grazing=pbrt in f32 misses 32 %;sphere inside=Mitsuba 7.5·10⁴ u;\
+triangle sliver=Embree 6.4·10⁷, Möller–Trumbore (Mitsuba) 2.5·10⁹, pbrt 1.2 u·(1 + κ);plane offset1e8=N·o − N·c (course) 1.5·10⁸ u;\
 plane near_parallel=the course misses slopes below 10⁻⁴;cylinder thin_far=quadratic from the eye 1.5·10⁷ u·(1 + κ);\
 cone thin_far=quadratic from the eye 2.6·10⁶ u·(1 + κ);torus far=Ferrari 6.6·10¹¹ u·(1 + κ), misses 21 %;\
 torus grazing=sphere tracing misses 73 %"

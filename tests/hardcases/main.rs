@@ -21,6 +21,7 @@ mod hardcases {
     mod gaps;
     mod intersect;
     mod leaks;
+    mod limits;
     mod mesh;
     mod meshes;
     mod optics;
