@@ -47,6 +47,9 @@ fn mesh() -> Arc<valid::Mesh> {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
         normals: Vec::new(),
         uvs: Vec::new(),
+        second_uvs: Vec::new(),
+        tangents: Vec::new(),
+        colors: Vec::new(),
         triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
     })
 }
