@@ -6,8 +6,9 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
+use rtc::ir::Overrides;
 use rtc::math::{Positive, Vec3};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Symptom, loss};
 use rtc::render::{Film, Geometry, Job, PlainShape, Ray, Real, Shape, Shear};
 use rtc::source::{Loader, SourceMap};
@@ -45,12 +46,8 @@ fn shapes() -> Vec<(&'static str, valid::Shape)> {
 fn mesh() -> Arc<valid::Mesh> {
     Arc::new(valid::Mesh {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
-        normals: Vec::new(),
-        uvs: Vec::new(),
-        second_uvs: Vec::new(),
-        tangents: Vec::new(),
-        colors: Vec::new(),
         triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+        ..valid::Mesh::default()
     })
 }
 

@@ -7,16 +7,14 @@ use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
-use crate::codec::{self, Form};
 use crate::diag::{Diagnostic, codes};
 use crate::image;
-use crate::ir::{Field, Noun, Place, Scene};
-use crate::pipeline::{self, Overrides};
+use crate::ir::{Field, Noun, Overrides, Place, Scene};
+use crate::pipeline;
 use crate::plan::{self, Symptom};
 use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use xxhash_rust::xxh3::xxh3_128;
 
 /// A render as it will be done.
 struct Plan {
@@ -58,7 +56,9 @@ impl Plan {
             overrides: Overrides {
                 size: args.size,
                 supersampling: args.supersampling,
+                aperture_samples: args.aperture_samples,
                 light_samples: args.light_samples,
+                glossy_samples: args.glossy_samples,
                 depth: args.depth,
             },
             arithmetic: args.arithmetic.into(),
@@ -110,7 +110,7 @@ impl Plan {
         quiet: bool,
     ) -> Result<(Film, Duration), Failure> {
         let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
-        let job = Job { crop: Some(window), values };
+        let job = Job { crop: Some(window), values, ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
@@ -139,7 +139,6 @@ impl Plan {
 
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
     fn origin(&self, scene: &Scene) -> image::Origin {
-        let bytes = codec::encode(Form::Text, scene).expect("a proven scene holds finite numbers only");
         let settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
@@ -148,7 +147,7 @@ impl Plan {
         });
         image::Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-            scene: format!("xxh3:{:032x}", xxh3_128(&bytes)),
+            scene: input::hash(scene),
             settings: settings.to_string(),
         }
     }

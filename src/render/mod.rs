@@ -31,11 +31,11 @@ mod world;
 
 pub use basic::Basic;
 pub use bounds::Bounds;
-pub use camera::{camera_ray, image_point, lens_point, vogel};
+pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
-pub use film::{Counts, Crop, Film, Job, Values};
+pub use film::{Counts, Crop, Film, Job, Seeds, Tiles, Values};
 pub use geometry::Geometry;
 pub use instance::{Details, Instance, PreparedMesh};
 pub use kernel::{KERNELS, Kernel, choose, render};
