@@ -30,6 +30,12 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
+/// `eˣ`.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
 /// `x·2^exponent`, rounded once.
 #[must_use]
 pub fn ldexp(x: f64, exponent: i32) -> f64 {

@@ -3,6 +3,7 @@
 
 mod basic;
 mod bounds;
+mod bsdf;
 mod bvh;
 mod camera;
 mod cone;
@@ -30,6 +31,7 @@ mod world;
 
 pub use basic::Basic;
 pub use bounds::Bounds;
+pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};
 pub use camera::{camera_ray, image_point, lens_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
