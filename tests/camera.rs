@@ -133,7 +133,16 @@ proptest! {
 fn camera(eye: Vec3, center: Vec3, right: Vec3, up: Vec3) -> Camera {
     let count = |n| NonZeroU32::new(n).unwrap();
     let lens = Lens { radius: rtc::math::NonNegative::new(0.0).unwrap(), samples: count(1) };
-    Camera { eye, center, right, up, width: count(400), height: count(300), lens }
+    Camera {
+        eye,
+        center,
+        right,
+        up,
+        width: count(400),
+        height: count(300),
+        lens,
+        projection: rtc::valid::Projection::Perspective,
+    }
 }
 
 /// All points of a lens of radius 1.

@@ -260,7 +260,8 @@ fn seen_from(eye: Vec3, center: Vec3, up: Vec3) -> Option<Scene> {
     let mut scene = scene(&format!("Eye: [200, 200, 1000]\n{OBJECTS}")).unwrap();
     let lens = scene.camera.lens;
     let [eye, center, right, up] = [eye, center, right, above].map(|vector| vector.to_array());
-    scene.camera = ir::Camera { eye, center, right, up, size: [640, 480], lens };
+    scene.camera =
+        ir::Camera { eye, center, right, up, size: [640, 480], lens, projection: ir::Projection::Perspective };
     Some(scene)
 }
 

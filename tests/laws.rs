@@ -96,12 +96,13 @@ fn a_crop_is_a_part_of_the_whole() {
 fn scaled(scene: &Scene, factor: f64) -> Scene {
     let mut scene = scene.clone();
     let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    let ir::Camera { eye, center, right, up, size: _, lens } = &mut scene.camera;
+    let ir::Camera { eye, center, right, up, size: _, lens, projection: _ } = &mut scene.camera;
     for vector in [eye, center, right, up] {
         scale(vector);
     }
     lens.radius *= factor;
-    for ir::Light::Point(light) in &mut scene.lights {
+    for light in &mut scene.lights {
+        let ir::Light::Point(light) = light else { panic!("the scenes of the course have no other lights") };
         scale(&mut light.position);
         light.radius *= factor;
     }

@@ -103,6 +103,7 @@ fn earth() -> Scene {
             up: up.to_array(),
             size: [400, 400],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -118,6 +119,8 @@ fn earth() -> Scene {
         meshes: Vec::new(),
         materials: vec![ir::Material::Phong(phong)],
         surfaces: vec![ir::Surface { shape: ir::Shape::Sphere(sphere), material: ir::MaterialId(0) }],
+        names: Vec::new(),
+        environment: None,
     }
 }
 

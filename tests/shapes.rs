@@ -158,7 +158,7 @@ proptest! {
             Triangle::new(t.map(|k| place(corners[k])))?.intersect(&ray, &Shear::new(&ray))
         });
         let nearest = nearest.min_by(f64::total_cmp);
-        let mesh = Mesh { positions: corners.clone(), normals: Vec::new(), uvs: Vec::new(), triangles };
+        let mesh = Mesh { positions: corners.clone(), triangles, ..Mesh::default() };
         let instance = Instance::new(&Arc::new(PreparedMesh::new(&Arc::new(mesh))), [x, y, z, to]);
         let found = instance.intersect(&ray, f64::INFINITY).map(|(t, _)| t);
         match (found, nearest) {

@@ -4,7 +4,7 @@
 
 use super::{Decoded, locate, newer, span, typed, wrong_shape};
 use crate::diag::{Diagnostic, codes};
-use crate::ir::{Camera, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION};
+use crate::ir::{Camera, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION};
 use crate::source::FileId;
 use serde::Deserialize;
 use serde_json::Value;
@@ -36,6 +36,18 @@ struct Document {
     meshes: Vec<Mesh>,
     materials: Vec<Material>,
     surfaces: Vec<Surface>,
+    #[serde(default)]
+    names: Vec<String>,
+    #[serde(default)]
+    environment: Option<Environment>,
+}
+
+impl From<Document> for Scene {
+    fn from(document: Document) -> Self {
+        let Document { _version, camera, settings, lights, images, textures, .. } = document;
+        let Document { meshes, materials, surfaces, names, environment, .. } = document;
+        Self { camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment }
+    }
 }
 
 /// True if the bytes open a JSON object whose first key is `irVersion`.
@@ -55,9 +67,8 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
         let (start, end) = source.version_place();
         Err(newer(ir_version, "IR", VERSION, span(file, start, end)))
     } else if ir_version == VERSION {
-        let Document { _version, camera, settings, lights, images, textures, meshes, materials, surfaces } =
-            source.parse()?;
-        Ok(Scene { camera, settings, lights, images, textures, meshes, materials, surfaces })
+        let document: Document = source.parse()?;
+        Ok(document.into())
     } else {
         let mut tree: Value = source.parse()?;
         tree.as_object_mut().map(|members| members.shift_remove("irVersion"));

@@ -1,6 +1,6 @@
 //! The materials.
 
-use super::TextureId;
+use super::{Standard, TextureId};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,6 +16,27 @@ pub struct MaterialId(pub u32);
 pub enum Material {
     /// Phong's model with mirror and refraction.
     Phong(Phong),
+    /// The material of glTF.
+    Standard(Box<Standard>),
+}
+
+impl Material {
+    /// The material, if it is Phong's.
+    #[must_use]
+    pub fn phong(&self) -> Option<&Phong> {
+        match self {
+            Self::Phong(phong) => Some(phong),
+            Self::Standard(_) => None,
+        }
+    }
+
+    /// The material to change, if it is Phong's.
+    pub fn phong_mut(&mut self) -> Option<&mut Phong> {
+        match self {
+            Self::Phong(phong) => Some(phong),
+            Self::Standard(_) => None,
+        }
+    }
 }
 
 /// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) + kt·I(refracted)`.

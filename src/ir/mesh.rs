@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct MeshId(pub u32);
 
 /// Triangles over one list of corners, in object coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Mesh {
     /// What its file was called, as the scene names it; empty if it has no name.
@@ -24,6 +24,15 @@ pub struct Mesh {
     /// The texture coordinates at each corner; empty if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub uvs: Vec<[f64; 2]>,
+    /// The second set of texture coordinates; empty if there is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub second_uvs: Vec<[f64; 2]>,
+    /// The direction of growing u at each corner, and ±1 for that of growing v: `w·(normal × tangent)`; empty if none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tangents: Vec<[f64; 4]>,
+    /// The colour at each corner, linear, with alpha: it multiplies that of the material; empty if none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub colors: Vec<[f64; 4]>,
     /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).
     pub triangles: Vec<[u32; 3]>,
 }

@@ -6,6 +6,7 @@
 //! [`Origins`], and is not part of it.
 
 mod camera;
+mod environment;
 mod image;
 mod light;
 mod material;
@@ -13,24 +14,27 @@ mod mesh;
 mod origin;
 mod settings;
 mod shape;
+mod standard;
 mod texture;
 
-pub use camera::{Camera, Lens};
-pub use image::{Image, ImageId};
-pub use light::{Light, PointLight};
+pub use camera::{Camera, Lens, Projection};
+pub use environment::Environment;
+pub use image::{Image, ImageId, Pixels};
+pub use light::{Emitter, Light, PointLight, Punctual};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
-pub use settings::{Gooch, Mode, Pattern, Settings};
+pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
-pub use texture::{Texture, TextureId};
+pub use standard::{Alpha, Map, Standard};
+pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
 
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The version of the representation that this build writes. It reads this one and every older one.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// One scene: what the camera sees, by which rules, and all there is to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -55,6 +59,12 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// The surfaces; at equal distance the earlier one is seen.
     pub surfaces: Vec<Surface>,
+    /// The name of each surface, empty where it has none; no list if none has one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
+    /// What surrounds it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub environment: Option<Environment>,
 }
 
 /// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values beside it.

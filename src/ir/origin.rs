@@ -22,11 +22,13 @@ pub enum Noun {
     Material,
     /// A surface.
     Surface,
+    /// What surrounds the scene.
+    Environment,
 }
 
 impl Noun {
     /// How many kinds there are.
-    const COUNT: usize = Self::Surface as usize + 1;
+    const COUNT: usize = Self::Environment as usize + 1;
 }
 
 /// A value of an entity, or all of it.
@@ -124,6 +126,7 @@ impl fmt::Display for Place {
             Noun::Mesh => write!(f, "/meshes/{index}"),
             Noun::Material => write!(f, "/materials/{index}"),
             Noun::Surface => write!(f, "/surfaces/{index}"),
+            Noun::Environment => f.write_str("/environment"),
         }?;
         f.write_str(pointer_tail(self.noun, self.field))
     }

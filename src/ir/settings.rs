@@ -67,6 +67,19 @@ pub enum Mode {
     Normal,
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
+    /// The light that arrives along all paths, from the materials and lights in physical units.
+    Path(Path),
+}
+
+/// How paths are traced.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Path {
+    /// Paths a pixel, at least 1.
+    #[schemars(range(min = 1))]
+    pub samples: u32,
+    /// Whether rough surfaces keep the light that bounces between their facets.
+    pub multiple_scattering: bool,
 }
 
 /// The parameters of Gooch shading.

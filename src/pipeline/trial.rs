@@ -6,7 +6,7 @@ use super::{Options, load, prove, render};
 use crate::codec::{self, Form};
 use crate::diag::Sink;
 use crate::front::course;
-use crate::ir::{Lowered, Origins, Scene};
+use crate::ir::{Lowered, Material, Mode, Origins, Scene};
 use crate::plan::{Plan, Rules};
 use crate::render::Job;
 use crate::source::{FileId, SourceMap};
@@ -103,7 +103,18 @@ fn round_trips(scene: &Scene) {
 
 /// Bounds the work of a picture, and keeps the view.
 fn make_tiny(scene: &mut Scene) {
-    let Scene { camera, settings, lights, images: _, textures: _, meshes: _, materials, surfaces } = scene;
+    let Scene {
+        camera,
+        settings,
+        lights,
+        images: _,
+        textures: _,
+        meshes: _,
+        materials,
+        surfaces,
+        names,
+        environment: _,
+    } = scene;
     camera.size = camera.size.map(|pixels| pixels.min(2 * TINY));
     camera.lens.samples = camera.lens.samples.min(TINY);
     settings.max_depth = settings.max_depth.min(TINY);
@@ -111,7 +122,11 @@ fn make_tiny(scene: &mut Scene) {
     settings.light_samples = settings.light_samples.min(TINY);
     lights.truncate(TINY as usize);
     surfaces.truncate(8 * TINY as usize);
-    for crate::ir::Material::Phong(material) in materials {
+    names.clear();
+    if let Mode::Path(path) = &mut settings.mode {
+        path.samples = path.samples.min(TINY);
+    }
+    for material in materials.iter_mut().filter_map(Material::phong_mut) {
         material.glossy_samples = material.glossy_samples.min(TINY / 2);
     }
 }

@@ -27,7 +27,7 @@ impl<S: Geometry> World<S> {
                 let image = cut(&depths, whole, crop);
                 Some(Film { image, counts })
             }
-            Mode::Phong | Mode::Normal | Mode::Gooch(_) => {
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job.values);
                 let (pixels, counts) = self.tiles(crop, proceed, pixel)?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })

@@ -5,9 +5,10 @@ use crate::valid::{Bump, Image, Texture, ValidScene};
 
 /// What texture `index` shows at `uv`, each channel in [0, 1].
 pub(super) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
-    match scene.textures()[index] {
+    match &scene.textures()[index] {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
-        Texture::Image(image) => bilinear(&scene.images()[image], uv),
+        Texture::Image(image) => bilinear(&scene.images()[*image], uv),
+        Texture::Sampled(_) => Vec3::ONE,
     }
 }
 
@@ -17,8 +18,8 @@ fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
     let (column, x) = split(repeated(u) * f64::from(image.width - 1), image.width);
     let (row, y) = split((1.0 - repeated(v)) * f64::from(image.height - 1), image.height);
     let texel = |column: usize, row: usize| {
-        let [r, g, b] = image.pixels[row * image.width as usize + column];
-        Vec3::new(f64::from(r), f64::from(g), f64::from(b))
+        let [r, g, b, _] = image.pixels.get(row * image.width as usize + column);
+        Vec3::new(r, g, b)
     };
     let (right, below) = ((column + 1).min(image.width as usize - 1), (row + 1).min(image.height as usize - 1));
     let top = texel(column, row).lerp(texel(right, row), x);
@@ -60,10 +61,10 @@ impl Frame {
 
     /// The normal of a height field: it leans away from where the height grows, by central differences of a texel.
     pub(super) fn bumped(&self, scene: &ValidScene, bump: Bump, [u, v]: [f64; 2]) -> Vec3 {
-        let [du, dv] = match scene.textures()[bump.texture] {
-            Texture::Uv => [1e-3; 2],
+        let [du, dv] = match &scene.textures()[bump.texture] {
+            Texture::Uv | Texture::Sampled(_) => [1e-3; 2],
             Texture::Image(image) => {
-                let image = &scene.images()[image];
+                let image = &scene.images()[*image];
                 [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
             }
         };
@@ -77,10 +78,12 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::valid::Texels;
 
     #[test]
     fn the_corners_of_the_unit_square_are_the_middles_of_the_corner_texels() {
-        let image = Image { width: 2, height: 2, pixels: vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]] };
+        let pixels = Texels::Rgb8(vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]]);
+        let image = Image { width: 2, height: 2, pixels };
         assert_eq!(bilinear(&image, [0.0, 1.0]), Vec3::X);
         assert_eq!(bilinear(&image, [1.0, 1.0]), Vec3::Y);
         assert_eq!(bilinear(&image, [0.0, 0.0]), Vec3::Z);

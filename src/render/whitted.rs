@@ -168,7 +168,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     fn local(&mut self, view: &View<'_>) -> Vec3 {
         match &self.scene().settings().mode {
             Mode::Gooch(parameters) if Self::can(Features::GOOCH) => self.gooch(view, parameters),
-            Mode::Phong | Mode::Gooch(_) => self.phong(view),
+            Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(view),
             Mode::Normal | Mode::Zbuffer => (view.normal + Vec3::ONE) * 0.5,
         }
     }

@@ -27,6 +27,8 @@ pub struct Camera {
     pub height: NonZeroU32,
     /// The aperture.
     pub lens: Lens,
+    /// How the rays run.
+    pub projection: ir::Projection,
 }
 
 /// A lens with at least one sample.
@@ -39,7 +41,7 @@ pub struct Lens {
 }
 
 pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camera> {
-    let ir::Camera { eye, center, right, up, size, lens } = camera;
+    let ir::Camera { eye, center, right, up, size, lens, projection } = camera;
     let ir::Lens { radius, samples } = lens;
     let eye = check.vector(*eye, at(Field::Eye));
     let center = check.vector(*center, at(Field::Center));
@@ -51,7 +53,8 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
     let (eye, center, right, up) = (eye?, center?, right?, up?);
     frustum(eye, center, right, up, check)?;
     let (width, height) = size?;
-    Some(Camera { eye, center, right, up, width, height, lens: Lens { radius: radius?, samples: samples? } })
+    let lens = Lens { radius: radius?, samples: samples? };
+    Some(Camera { eye, center, right, up, width, height, lens, projection: *projection })
 }
 
 fn at(field: Field) -> Place {

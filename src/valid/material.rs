@@ -1,6 +1,7 @@
 //! The proof of the materials.
 
 use super::check::{Check, Counts, place};
+use super::standard;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place, TextureId};
 use crate::math::{NonNegative, Positive, Vec3};
@@ -52,7 +53,15 @@ pub struct Bump {
 }
 
 pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, check: &mut Check<'_>) -> Option<Phong> {
-    let ir::Material::Phong(phong) = material;
+    let approximation;
+    let phong = match material {
+        ir::Material::Phong(phong) => phong,
+        ir::Material::Standard(material) => {
+            standard::standard(material, index, counts, check)?;
+            approximation = standard::as_phong(material);
+            &approximation
+        }
+    };
     let ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, .. } = phong;
     let at = |field| place(Noun::Material, index, field);
     let color = check.color(*color, at(Field::Color));
@@ -75,6 +84,19 @@ pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, c
         glossy_samples: glossy_samples?,
         maps: maps?,
     })
+}
+
+/// The material as the path integrator sees it.
+pub(super) fn standard(
+    material: &ir::Material,
+    index: usize,
+    counts: &Counts,
+    check: &mut Check<'_>,
+) -> Option<ir::Standard> {
+    match material {
+        ir::Material::Phong(phong) => Some(standard::from_phong(phong)),
+        ir::Material::Standard(material) => standard::standard(material, index, counts, check),
+    }
 }
 
 /// The maps that a material may have: the outer `None` is an error, the inner one absence.

@@ -11,14 +11,18 @@ mod material;
 mod mesh;
 mod settings;
 mod shape;
+mod standard;
+mod surrounding;
 
+pub use crate::ir::{Alpha, Filter, Map, Projection, Sampled, Standard, Wrap};
 pub use camera::{Camera, Lens};
-pub use image::{Image, Texture};
-pub use light::Light;
+pub use image::{Image, Texels, Texture};
+pub use light::{Emitter, Falloff, Light, Punctual};
 pub use material::{Bump, Maps, Phong};
 pub use mesh::Mesh;
-pub use settings::{Gooch, Mode, Pattern, Settings};
+pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+pub use surrounding::Environment;
 
 use crate::diag::Sink;
 use crate::ir::{self, Origins};
@@ -38,10 +42,13 @@ pub struct ValidScene {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
+    punctual: Vec<Punctual>,
+    environment: Option<Environment>,
     images: Vec<Arc<Image>>,
     textures: Vec<Texture>,
     meshes: Vec<Arc<Mesh>>,
     materials: Vec<Phong>,
+    standards: Vec<Standard>,
     surfaces: Vec<Surface>,
 }
 
@@ -58,10 +65,22 @@ impl ValidScene {
         &self.settings
     }
 
-    /// The lights.
+    /// The lights of the course.
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// The lights in physical units; those of the course among them if paths are traced.
+    #[must_use]
+    pub fn punctual(&self) -> &[Punctual] {
+        &self.punctual
+    }
+
+    /// What surrounds the scene.
+    #[must_use]
+    pub fn environment(&self) -> Option<&Environment> {
+        self.environment.as_ref()
     }
 
     /// The images.
@@ -82,10 +101,16 @@ impl ValidScene {
         &self.meshes
     }
 
-    /// The materials.
+    /// The materials, as the integrator of the course sees them.
     #[must_use]
     pub fn materials(&self) -> &[Phong] {
         &self.materials
+    }
+
+    /// The materials as the path integrator sees them; empty if no paths are traced.
+    #[must_use]
+    pub fn standards(&self) -> &[Standard] {
+        &self.standards
     }
 
     /// The surfaces, without triangles that have no area.
@@ -99,11 +124,14 @@ impl ValidScene {
 ///
 /// `None` exactly if this call reported an error.
 pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
-    let ir::Scene { camera, settings, lights, images, textures, meshes, materials, surfaces } = scene;
+    let ir::Scene { camera, settings, lights, images, textures, meshes, materials, surfaces, names: _, environment } =
+        scene;
+    let traces_paths = matches!(settings.mode, ir::Mode::Path(_));
     let mut check = Check::new(origins, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     let valid_lights = check.all(lights, light::light);
+    let valid_environment = surrounding::environment(environment.as_ref(), images, &mut check);
     let valid_images = check.all(images, image::image);
     let valid_textures =
         check.all(textures, |texture, index, check| image::texture(texture, index, images.len(), check));
@@ -111,16 +139,22 @@ pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &
     let counts = Counts { textures: textures.len(), meshes: meshes.len(), materials: materials.len() };
     let valid_materials =
         check.all(materials, |material, index, check| material::material(material, index, &counts, check));
+    let valid_standards = check.all(if traces_paths { materials } else { &[] }, |material, index, check| {
+        material::standard(material, index, &counts, check)
+    });
     let valid_surfaces = check.all(surfaces, |surface, index, check| shape::surface(surface, index, &counts, check));
     settings::budget(scene, options, &mut check);
     let valid = ValidScene {
         camera: valid_camera?,
         settings: valid_settings?,
-        lights: valid_lights?,
+        punctual: light::punctual(valid_lights.as_deref()?, traces_paths),
+        lights: light::of_the_course(&valid_lights?),
+        environment: valid_environment?,
         images: valid_images?.into_iter().map(Arc::new).collect(),
         textures: valid_textures?,
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
         materials: valid_materials?,
+        standards: valid_standards?,
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
     light::lights_inside_spheres(scene, &mut check);

@@ -45,6 +45,17 @@ pub enum Mode {
     Normal,
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
+    /// The light along all paths.
+    Path(Path),
+}
+
+/// How paths are traced.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    /// Paths a pixel.
+    pub samples: NonZeroU32,
+    /// Whether rough surfaces keep the light that bounces between their facets.
+    pub multiple_scattering: bool,
 }
 
 /// The parameters of Gooch shading, finite.
@@ -67,6 +78,10 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         ir::Mode::Zbuffer => Some(Mode::Zbuffer),
         ir::Mode::Normal => Some(Mode::Normal),
         ir::Mode::Gooch(parameters) => gooch(parameters, check),
+        ir::Mode::Path(ir::Path { samples, multiple_scattering }) => {
+            let samples = check.count(*samples, "samples", at(Field::Mode));
+            samples.map(|samples| Mode::Path(Path { samples, multiple_scattering: *multiple_scattering }))
+        }
     };
     let supersampling = check.count(*supersampling, "supersampling factor", at(Field::Supersampling));
     let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
@@ -120,13 +135,18 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
 }
 
 fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
-    let ir::Settings { supersampling, max_depth, mode: _, shadows: _, pattern: _, light_samples: _ } = scene.settings;
+    let ir::Settings { supersampling, max_depth, ref mode, shadows: _, pattern: _, light_samples: _ } = scene.settings;
+    let paths = if let ir::Mode::Path(path) = mode { u128::from(path.samples) } else { 1 };
     let ir::Lens { radius, samples } = scene.camera.lens;
     let lens = if radius == 0.0 { 1 } else { u128::from(samples) };
     let glossy = u128::from(scene.materials.iter().map(glossy_rays).max().unwrap_or(1));
     let bounces = if glossy > 1 { max_depth } else { 0 };
     let square = u128::from(supersampling) * u128::from(supersampling);
-    let rays = pixels.saturating_mul(square).saturating_mul(lens).saturating_mul(glossy.saturating_pow(bounces));
+    let rays = pixels
+        .saturating_mul(square)
+        .saturating_mul(paths)
+        .saturating_mul(lens)
+        .saturating_mul(glossy.saturating_pow(bounces));
     if rays <= MAX_RAYS {
         return;
     }
@@ -147,6 +167,5 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
 
 /// How many rays one bounce off the material makes.
 fn glossy_rays(material: &ir::Material) -> u32 {
-    let ir::Material::Phong(phong) = material;
-    if phong.ks > 0.0 { phong.glossy_samples } else { 1 }
+    material.phong().filter(|phong| phong.ks > 0.0).map_or(1, |phong| phong.glossy_samples)
 }

@@ -15,7 +15,7 @@ use base64::engine::general_purpose::STANDARD;
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
 use rtc::front::{Asset, Options, Wanted, assets};
-use rtc::ir::{Bump, Image, ImageId, Lowered, Material, Mesh, MeshId, Texture, TextureId};
+use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::source::{Loader, SourceMap, Span};
 use std::fs;
 use std::io::Cursor;
@@ -30,16 +30,11 @@ fn lowered(map: &mut SourceMap) -> Lowered {
     let mut sink = Sink::default();
     let mut lowered = rtc::pipeline::load(file, map, &rtc::pipeline::Options::default(), &mut sink).unwrap();
     assert!(!sink.has_errors(), "{sink:?}");
-    lowered.scene.images = vec![Image { name: "picture".to_owned(), width: 1, height: 1, pixels: "AAAA".to_owned() }];
+    lowered.scene.images =
+        vec![Image { name: "picture".to_owned(), width: 1, height: 1, kind: Pixels::Rgb8, pixels: "AAAA".to_owned() }];
     lowered.scene.textures = vec![Texture::Uv, Texture::Image(ImageId(0))];
-    lowered.scene.meshes = vec![Mesh {
-        name: "mesh".to_owned(),
-        positions: Vec::new(),
-        normals: Vec::new(),
-        uvs: Vec::new(),
-        triangles: Vec::new(),
-    }];
-    let Material::Phong(phong) = &mut lowered.scene.materials[0];
+    lowered.scene.meshes = vec![Mesh { name: "mesh".to_owned(), ..Mesh::default() }];
+    let phong = lowered.scene.materials[0].phong_mut().unwrap();
     phong.color_map = Some(TextureId(1));
     phong.specular_map = Some(TextureId(0));
     phong.bump = Some(Bump { texture: TextureId(1), height: 1.0 });

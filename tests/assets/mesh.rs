@@ -155,7 +155,7 @@ proptest! {
     ) {
         let text = if mixed { [head.as_bytes(), words.as_bytes()].concat() } else { bytes };
         let Outcome { mut lowered, findings: _, errors } = mesh(text);
-        let Mesh { name: _, positions, normals, uvs, triangles } = lowered.scene.meshes.remove(0);
+        let Mesh { positions, normals, uvs, triangles, .. } = lowered.scene.meshes.remove(0);
         prop_assert_eq!(triangles.is_empty(), errors);
         let count = positions.len();
         prop_assert!(triangles.iter().flatten().all(|corner| (*corner as usize) < count));

@@ -3,7 +3,7 @@
 use super::{IMAGE, Outcome, bring, encoded, folder, pixels, png, write};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
 use rtc::front::Options;
-use rtc::ir::{Material, TextureId};
+use rtc::ir::TextureId;
 
 /// Brings a picture of these bytes.
 fn picture(bytes: &[u8]) -> Outcome {
@@ -70,7 +70,7 @@ fn only_bump_maps_that_hold_normals_become_normal_maps() {
         [([128, 128, 255], true), ([190, 128, 235], true), ([128; 3], false), ([255; 3], false), ([150, 90, 40], false)]
     {
         let outcome = picture(&png(color));
-        let Material::Phong(phong) = &outcome.lowered.scene.materials[0];
+        let phong = outcome.lowered.scene.materials[0].phong().unwrap();
         let expected = if becomes { (Some(TextureId(1)), false) } else { (None, true) };
         assert_eq!((phong.normal_map, phong.bump.is_some()), expected, "{color:?}");
         assert_eq!(outcome.findings.starts_with("RE008 note"), becomes, "{}", outcome.findings);

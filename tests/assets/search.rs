@@ -5,7 +5,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rtc::diag::Sink;
 use rtc::front::{Options, Wanted, assets};
-use rtc::ir::{Material, TextureId};
+use rtc::ir::TextureId;
 use rtc::source::{SourceMap, Span};
 use std::fs;
 use tempfile::TempDir;
@@ -122,7 +122,7 @@ fn lenient_leaves_textures_and_objects_out_and_says_so() {
     let outcome = bring(&scene, IMAGE, "a.png", &lenient);
     let message = "RE001 warning scene.yaml:1:3 there is no file `a.png`; the texture is left out\n";
     assert!(outcome.findings.starts_with(message), "{}", outcome.findings);
-    let Material::Phong(phong) = &outcome.lowered.scene.materials[0];
+    let phong = outcome.lowered.scene.materials[0].phong().unwrap();
     assert_eq!((phong.color_map, phong.specular_map, &phong.bump), (None, Some(TextureId(0)), &None));
     write(&folder, "inner/cat.obj", "v 1 2 x\nv 1 2 y\n");
     let outcome = bring(&scene, MESH, "cat", &lenient);

@@ -188,8 +188,8 @@ fn parts_that_do_not_fit_together_are_refused() {
         (r#""radius":null"#, r#""radius":[null,null]"#, "IR007"),
         (r#""radius":null"#, r#""radios":null"#, "IR003"),
         (r#""shadows":true"#, r#""shadows":"yes""#, "IR003"),
-        (r#"{"irVersion":2"#, r#"{"irVersion":3"#, "IR001"),
-        (r#"{"irVersion":2"#, r#"{"irVersion":-2"#, "IR007"),
+        (r#"{"irVersion":3"#, r#"{"irVersion":4"#, "IR001"),
+        (r#"{"irVersion":3"#, r#"{"irVersion":-2"#, "IR007"),
     ];
     for (old, new, expected) in cases {
         let bad = with_header(&file, |header| {
@@ -244,7 +244,7 @@ fn newer_files_say_so_where_the_version_stands() {
     let text = "{\"irVersion\": 7, \"spectra\": []}";
     let (finding, place) = *decode(Form::Text, text.as_bytes()).unwrap_err();
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
-    assert_eq!(finding.message, "IR version 7 is newer than 2, the newest this rtc reads");
+    assert_eq!(finding.message, "IR version 7 is newer than 3, the newest this rtc reads");
     let mut file = codec::encode(Form::Binary, &small()).unwrap();
     file[8] = 2;
     let file = with_header(&file, |header| header);
@@ -263,11 +263,11 @@ fn faults_of_a_text_are_located() {
         ("59.9", "NaN", "IR002", "N", ""),
         ("\"radius\": 59.9", "\"size\": 59.9", "IR003", "\"size\"", "/surfaces/0/shape/sphere/size"),
         ("\"shadows\": true", "\"shadows\": true, \"shadows\": true", "IR003", "\"shadows\"", "/settings/shadows"),
-        ("\"irVersion\": 2", "\"irVersion\": 2, \"irVersion\": 2", "IR003", "\"irVersion\"", "/irVersion"),
+        ("\"irVersion\": 3", "\"irVersion\": 3, \"irVersion\": 3", "IR003", "\"irVersion\"", "/irVersion"),
         ("\"maxDepth\": 2", "\"maxDepth\": -2", "IR003", "-2", "/settings/maxDepth"),
         ("\"supersampling\": 4", "\"supersampling\": null", "IR003", "null", "/settings/supersampling"),
         ("\"mode\": \"phong\"", "\"mode\": \"ü\"", "IR003", "\"ü\"", "/settings/mode"),
-        ("\"irVersion\": 2", "\"irVersion\": \"2\"", "IR003", "\"2\"", "/irVersion"),
+        ("\"irVersion\": 3", "\"irVersion\": \"2\"", "IR003", "\"2\"", "/irVersion"),
     ];
     for (old, new, code, place, pointer) in cases {
         assert!(file.contains(old), "{old} is not in {file}");
@@ -279,7 +279,7 @@ fn faults_of_a_text_are_located() {
 
 #[test]
 fn hostile_texts_are_errors() {
-    let deep = format!("{{\"irVersion\": 2, \"camera\": {}", "[".repeat(100_000));
+    let deep = format!("{{\"irVersion\": 3, \"camera\": {}", "[".repeat(100_000));
     let deep_old = format!("{{\"irVersion\": 0, \"camera\": {}{}}}", "[".repeat(100_000), "]".repeat(100_000));
     for text in [deep.as_str(), &deep_old, "", "{", "\u{feff}", "null", "[]", "{\"irVersion\": 1e400}"] {
         assert!(decode(Form::Text, text.as_bytes()).is_err());

@@ -2,8 +2,9 @@
 
 use proptest::prelude::*;
 use rtc::ir::{
-    Bump, Camera, Gooch, Image, ImageId, Instance, Lens, Light, Material, MaterialId, Mesh, MeshId, Mode, Pattern,
-    Phong, Plane, PointLight, Scene, Settings, Shape, Sphere, Surface, Texture, TextureId, Triangle,
+    Alpha, Bump, Camera, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance, Lens, Light, Map, Material,
+    MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels, Plane, PointLight, Projection, Punctual, Sampled,
+    Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
@@ -26,11 +27,9 @@ fn text() -> impl Strategy<Value = String> {
 }
 
 fn image() -> impl Strategy<Value = Image> {
-    (text(), any::<[u32; 2]>(), text()).prop_map(|(name, [width, height], pixels)| Image {
-        name,
-        width,
-        height,
-        pixels,
+    (text(), any::<[u32; 2]>(), text()).prop_map(|(name, [width, height], pixels)| {
+        let kind = if width % 2 == 0 { Pixels::Rgb8 } else { Pixels::Rgb32f };
+        Image { name, width, height, kind, pixels }
     })
 }
 
@@ -39,29 +38,38 @@ fn mesh() -> impl Strategy<Value = Mesh> {
     let list = || prop::collection::vec(triple(), 0..60);
     let uvs = prop::collection::vec(pair(), 0..60);
     let triangles = prop::collection::vec(any::<[u32; 3]>(), 0..60);
-    (text(), list(), list(), uvs, triangles).prop_map(|(name, positions, normals, uvs, triangles)| Mesh {
-        name,
-        positions,
-        normals,
-        uvs,
-        triangles,
+    let wide = prop::collection::vec([number(), number(), number(), number()], 0..60);
+    (text(), list(), list(), uvs, wide, triangles).prop_map(|(name, positions, normals, uvs, tangents, triangles)| {
+        let (second_uvs, colors) = (uvs.clone(), tangents.clone());
+        Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles }
     })
 }
 
 fn texture() -> impl Strategy<Value = Texture> {
-    prop_oneof![Just(Texture::Uv), any::<u32>().prop_map(|image| Texture::Image(ImageId(image)))]
+    let sampled = any::<u32>().prop_map(|image| Sampled {
+        image: ImageId(image),
+        wrap: [Wrap::Mirror, Wrap::Clamp],
+        filter: if image % 2 == 0 { Filter::Linear } else { Filter::Nearest },
+    });
+    let image = any::<u32>().prop_map(|image| Texture::Image(ImageId(image)));
+    prop_oneof![Just(Texture::Uv), image, sampled.prop_map(Texture::Sampled)]
 }
 
 fn camera() -> impl Strategy<Value = Camera> {
     let lens = (number(), any::<u32>()).prop_map(|(radius, samples)| Lens { radius, samples });
-    (triple(), triple(), triple(), triple(), any::<[u32; 2]>(), lens)
-        .prop_map(|(eye, center, right, up, size, lens)| Camera { eye, center, right, up, size, lens })
+    (triple(), triple(), triple(), triple(), any::<[u32; 2]>(), lens).prop_map(
+        |(eye, center, right, up, size, lens)| {
+            let projection = if size[0] % 2 == 0 { Projection::Perspective } else { Projection::Orthographic };
+            Camera { eye, center, right, up, size, lens, projection }
+        },
+    )
 }
 
 fn settings() -> impl Strategy<Value = Settings> {
     let gooch = [number(), number(), number(), number()]
         .prop_map(|[b, y, alpha, beta]| Mode::Gooch(Gooch { b, y, alpha, beta }));
-    let mode = prop_oneof![Just(Mode::Phong), Just(Mode::Zbuffer), Just(Mode::Normal), gooch];
+    let path = any::<u32>().prop_map(|samples| Mode::Path(Path { samples, multiple_scattering: samples % 2 == 0 }));
+    let mode = prop_oneof![Just(Mode::Phong), Just(Mode::Zbuffer), Just(Mode::Normal), gooch, path];
     let pattern = prop::sample::select(vec![Pattern::Grid, Pattern::Jitter, Pattern::Random]);
     (mode, any::<bool>(), any::<[u32; 3]>(), pattern).prop_map(
         |(mode, shadows, [max_depth, supersampling, light_samples], pattern)| Settings {
@@ -76,11 +84,54 @@ fn settings() -> impl Strategy<Value = Settings> {
 }
 
 fn light() -> impl Strategy<Value = Light> {
-    (triple(), triple(), number())
-        .prop_map(|(position, color, radius)| Light::Point(PointLight { position, color, radius }))
+    let point = (triple(), triple(), number())
+        .prop_map(|(position, color, radius)| Light::Point(PointLight { position, color, radius }));
+    let range = || prop::option::of(number());
+    let emitter = prop_oneof![
+        triple().prop_map(|direction| Emitter::Sun { direction }),
+        (triple(), range()).prop_map(|(position, range)| Emitter::Point { position, range }),
+        (triple(), triple(), pair(), range()).prop_map(|(position, direction, [inner_angle, outer_angle], range)| {
+            Emitter::Spot { position, direction, inner_angle, outer_angle, range }
+        }),
+    ];
+    let punctual =
+        (emitter, triple()).prop_map(|(emitter, intensity)| Light::Punctual(Punctual { emitter, intensity }));
+    prop_oneof![point, punctual]
+}
+
+fn environment() -> impl Strategy<Value = Environment> {
+    let image = prop::option::of(any::<u32>().prop_map(ImageId));
+    (triple(), image, prop::option::of([triple(), triple(), triple()]))
+        .prop_map(|(radiance, image, image_from_world)| Environment { radiance, image, image_from_world })
+}
+
+/// Materials of glTF with some of the fields other than their defaults.
+fn standard() -> impl Strategy<Value = Material> {
+    let map = (any::<u32>(), 0..2_u32, prop::option::of([triple(), triple()])).prop_map(
+        |(texture, set, texture_from_surface)| Map { texture: TextureId(texture), set, texture_from_surface },
+    );
+    let alpha = prop_oneof![Just(Alpha::Opaque), number().prop_map(Alpha::Mask), Just(Alpha::Blend)];
+    (text(), triple(), prop::option::of(map), alpha, any::<bool>()).prop_map(
+        |(name, [metallic, ior, clearcoat], normal_map, alpha, double_sided)| {
+            Material::Standard(Box::new(Standard {
+                name,
+                metallic,
+                ior,
+                clearcoat,
+                normal_map,
+                alpha,
+                double_sided,
+                ..Standard::default()
+            }))
+        },
+    )
 }
 
 fn material() -> impl Strategy<Value = Material> {
+    prop_oneof![phong(), standard()]
+}
+
+fn phong() -> impl Strategy<Value = Material> {
     let map = || prop::option::of(any::<u32>().prop_map(TextureId));
     let bump = prop::option::of((any::<u32>(), number()))
         .prop_map(|bump| bump.map(|(texture, height)| Bump { texture: TextureId(texture), height }));
@@ -129,7 +180,9 @@ prop_compose! {
         meshes in prop::collection::vec(mesh(), 0..3),
         materials in prop::collection::vec(material(), 0..4),
         surfaces in prop::collection::vec(surface(), 0..9),
+        names in prop::collection::vec(text(), 0..4),
+        environment in prop::option::of(environment()),
     ) -> Scene {
-        Scene { camera, settings, lights, images, textures, meshes, materials, surfaces }
+        Scene { camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment }
     }
 }

@@ -61,7 +61,7 @@ fn exponents_that_are_none_are_refused() {
         [(-1.0, &codes::NEGATIVE_EXPONENT), (f64::NAN, &codes::NOT_FINITE), (f64::INFINITY, &codes::NOT_FINITE)];
     for (n, code) in cases {
         let mut scene = scene([]);
-        let Material::Phong(phong) = &mut scene.materials[0];
+        let phong = scene.materials[0].phong_mut().unwrap();
         phong.n = n;
         assert_eq!(check(&scene).unwrap_err(), [code.id], "n = {n}");
     }
@@ -126,7 +126,7 @@ fn of_coincident_spheres_the_first_is_seen_and_lit() {
 }
 
 fn phong() -> Phong {
-    let Material::Phong(phong) = white();
+    let Material::Phong(phong) = white() else { unreachable!() };
     phong
 }
 

@@ -37,6 +37,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             up: [0.0, 1.0, 0.0],
             size: [1, 1],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -52,6 +53,8 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
         lights: Vec::new(),
         materials: vec![white()],
         surfaces: shapes.into_iter().map(surface).collect(),
+        names: Vec::new(),
+        environment: None,
     }
 }
 

@@ -58,6 +58,12 @@ super::codes! { VA:
     BAD_ROTATION = "VA019", Error, "a transformation is none",
         "The texture of a sphere is turned by a rotation, and a mesh is placed by a map that keeps its volume: three axes \
          that span space, none of them zero.";
+    BAD_FACTOR = "VA020", Error, "a number of a glTF material is outside its range",
+        "The specification of glTF gives each factor of a material a range: colours, metallic, roughness and most \
+         weights lie in [0, 1], indices of refraction are at least 1. Maps use one of two sets of texture coordinates.";
+    BAD_LIGHT = "VA021", Error, "a light in physical units is not sound",
+        "Intensities are not negative, directions are not zero, ranges are above 0, and the angles of a spot light are \
+         0 ≤ inner < outer ≤ π/2.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";

@@ -49,7 +49,7 @@ fn refusal(fault: &DecodeError, found: &Found, wish: &Wanted) -> Diagnostic {
 fn forget(id: ImageId, scene: &mut Scene) {
     let textures = &scene.textures;
     let is_it = |texture: &TextureId| textures.get(texture.0 as usize) == Some(&Texture::Image(id));
-    for Material::Phong(phong) in &mut scene.materials {
+    for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
         for map in [&mut phong.color_map, &mut phong.specular_map, &mut phong.normal_map] {
             map.take_if(|texture| is_it(texture));
         }
@@ -59,14 +59,14 @@ fn forget(id: ImageId, scene: &mut Scene) {
 
 /// Makes normal maps of the bump maps that hold normals.
 pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
-    let Scene { materials, textures, images, camera: _, settings: _, lights: _, meshes: _, surfaces: _ } =
-        &mut lowered.scene;
+    let Scene { materials, textures, images, .. } = &mut lowered.scene;
     let image = |texture: TextureId| match textures.get(texture.0 as usize) {
         Some(Texture::Image(image)) => Some(*image),
-        Some(Texture::Uv) | None => None,
+        Some(Texture::Uv | Texture::Sampled(_)) | None => None,
     };
     let mut known: Vec<Option<bool>> = vec![None; images.len()];
-    for (index, Material::Phong(phong)) in materials.iter_mut().enumerate() {
+    for (index, material) in materials.iter_mut().enumerate() {
+        let Some(phong) = material.phong_mut() else { continue };
         let (Some(Bump { texture, height: _ }), None) = (&phong.bump, phong.normal_map) else { continue };
         let texture = *texture;
         let Some(image) = image(texture).map(|image| image.0 as usize).filter(|image| *image < images.len()) else {

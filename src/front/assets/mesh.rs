@@ -42,7 +42,8 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
             }
             if let Some(place) = lowered.scene.meshes.get_mut(id.0 as usize) {
                 let Geometry { positions, normals, uvs, triangles } = mesh;
-                *place = Mesh { name: std::mem::take(&mut place.name), positions, normals, uvs, triangles };
+                let name = std::mem::take(&mut place.name);
+                *place = Mesh { name, positions, normals, uvs, triangles, ..Mesh::default() };
             }
         }
         // Lenient, the object is left out once.

@@ -40,6 +40,7 @@ pub(super) fn placeholder() -> ir::Camera {
         up: [0.0, 1.0, 0.0],
         size: [1, 1],
         lens: ir::Lens { radius: 0.0, samples: 1 },
+        projection: ir::Projection::Perspective,
     }
 }
 
@@ -68,6 +69,7 @@ impl Lowering {
             up: up.to_array(),
             size: view_size.value.0,
             lens: ir::Lens { radius: aperture_radius.value.0, samples: aperture_samples.value.0 },
+            projection: ir::Projection::Perspective,
         };
     }
 

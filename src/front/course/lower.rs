@@ -99,6 +99,8 @@ impl Lowering {
             meshes: Vec::new(),
             materials: Vec::new(),
             surfaces: Vec::new(),
+            names: Vec::new(),
+            environment: None,
         };
         let (shared, files, fitted) = (BTreeMap::new(), Files::default(), Vec::new());
         Self { scene, shared, grey: None, files, fitted, origins: Origins::default() }

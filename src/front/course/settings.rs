@@ -200,7 +200,7 @@ impl Lowering {
 
     /// Asks enough points of each soft light, unless the file says how many; after the lights.
     pub(super) fn soften(&mut self, scene: &Scene) {
-        let soft = self.scene.lights.iter().any(|ir::Light::Point(light)| light.radius > 0.0);
+        let soft = self.scene.lights.iter().filter_map(ir::Light::point).any(|light| light.radius > 0.0);
         if soft && scene.light_samples.is_absent() {
             self.scene.settings.light_samples = SOFT_LIGHT_SAMPLES;
         }

@@ -3,7 +3,7 @@
 use super::decode::Spanned;
 use super::value::FileName;
 use crate::front::{Asset, Wanted};
-use crate::ir::{Image, ImageId, Mesh, MeshId, Scene, Texture, TextureId};
+use crate::ir::{Image, ImageId, Mesh, MeshId, Pixels, Scene, Texture, TextureId};
 use std::collections::BTreeMap;
 
 /// The word that stands for the uv of the surface in place of a file.
@@ -31,7 +31,8 @@ impl Files {
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
-        let image = Image { name: name.clone(), width: 1, height: 1, pixels: PLACEHOLDER.to_owned() };
+        let pixels = PLACEHOLDER.to_owned();
+        let image = Image { name: name.clone(), width: 1, height: 1, kind: Pixels::Rgb8, pixels };
         let image = add(&mut scene.images, image, ImageId);
         self.want(Asset::Image(image), file);
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
@@ -45,13 +46,7 @@ impl Files {
         if let Some(id) = self.meshes.get(&name) {
             return *id;
         }
-        let empty = Mesh {
-            name: name.clone(),
-            positions: Vec::new(),
-            normals: Vec::new(),
-            uvs: Vec::new(),
-            triangles: Vec::new(),
-        };
+        let empty = Mesh { name: name.clone(), ..Mesh::default() };
         let id = add(&mut scene.meshes, empty, MeshId);
         self.want(Asset::Mesh(id), file);
         self.meshes.insert(name, id);

@@ -6,7 +6,8 @@ use crate::math::{Vec3, camera_basis};
 
 impl Text {
     pub(super) fn camera(&mut self, camera: &Camera, up: Vec3) {
-        let Camera { eye, center, right: _, up: _, size: [width, height], lens: Lens { radius, samples } } = camera;
+        let Camera { eye, center, right: _, up: _, size: [width, height], lens, projection: _ } = camera;
+        let Lens { radius, samples } = lens;
         self.line(0, "Camera:");
         self.numbers("eye", eye, 2);
         self.numbers("center", center, 2);

@@ -6,7 +6,7 @@ use crate::ir::{Bump, Material, Phong, Scene, Texture, TextureId};
 
 impl Text {
     pub(super) fn material(&mut self, key: &str, material: &Material, scene: &Scene) -> Result<(), String> {
-        let Material::Phong(phong) = material;
+        let phong = material.phong().ok_or("a material of glTF has no spelling")?;
         let Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, color_map, specular_map, normal_map, bump } = phong;
         self.line(4, key);
         self.numbers("color", color, 6);
@@ -44,6 +44,7 @@ fn texture_name(TextureId(id): TextureId, scene: &Scene) -> Result<String, Strin
     let texture = scene.textures.get(id as usize).ok_or("a material refers to a texture that does not exist")?;
     match texture {
         Texture::Uv => Ok(UV.to_owned()),
+        Texture::Sampled(_) => Err("a texture of glTF has no spelling".to_owned()),
         Texture::Image(image) => {
             let image = scene.images.get(image.0 as usize).ok_or("a texture refers to an image that does not exist")?;
             file_name(&image.name)

@@ -5,7 +5,7 @@ mod material;
 mod shape;
 
 use super::settings::PATTERNS;
-use crate::ir::{Gooch, Light, MaterialId, Mode, Pattern, PointLight, Scene, Settings, Surface};
+use crate::ir::{Gooch, Light, MaterialId, Mode, Pattern, PointLight, Projection, Scene, Settings, Surface};
 use camera::camera_up;
 use std::fmt::Write as _;
 
@@ -18,12 +18,28 @@ use std::fmt::Write as _;
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.
 pub fn emit(scene: &Scene) -> Result<String, String> {
-    let Scene { camera, settings, lights, images: _, textures: _, meshes: _, materials, surfaces } = scene;
+    let Scene {
+        camera,
+        settings,
+        lights,
+        images: _,
+        textures: _,
+        meshes: _,
+        materials,
+        surfaces,
+        names: _,
+        environment,
+    } = scene;
+    if environment.is_some() || camera.projection == Projection::Orthographic {
+        return Err("the scene has an environment or an orthographic camera, which this format has not".to_owned());
+    }
     let mut text = Text::default();
     text.camera(camera, camera_up(camera)?);
-    text.settings(settings, lights);
+    text.settings(settings, lights)?;
     text.line(0, if lights.is_empty() { "Lights: []" } else { "Lights:" });
-    for Light::Point(PointLight { position, color, radius }) in lights {
+    for light in lights {
+        let PointLight { position, color, radius } =
+            light.point().ok_or("a light in physical units has no spelling")?;
         text.numbers("- position", position, 2);
         text.numbers("color", color, 4);
         if *radius != 0.0 {
@@ -76,12 +92,13 @@ impl Text {
         self.line(indent, &format!("{key}: {}", triple(*value)));
     }
 
-    fn settings(&mut self, settings: &Settings, lights: &[Light]) {
+    fn settings(&mut self, settings: &Settings, lights: &[Light]) -> Result<(), String> {
         let Settings { mode, shadows, max_depth, supersampling, pattern, light_samples } = settings;
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
             Mode::Zbuffer => self.line(0, "RenderMode: zbuffer"),
             Mode::Normal => self.line(0, "RenderMode: normal"),
+            Mode::Path(_) => return Err("path tracing has no spelling".to_owned()),
             Mode::Gooch(Gooch { b, y, alpha, beta }) => {
                 self.line(0, "RenderMode: gooch");
                 self.line(0, "GoochParameters:");
@@ -97,9 +114,10 @@ impl Text {
         if let Some((word, _)) = PATTERNS.iter().find(|(_, known)| known == pattern && *pattern != Pattern::Grid) {
             self.line(2, &format!("pattern: {word}"));
         }
-        if *light_samples != 1 || lights.iter().any(|Light::Point(light)| light.radius > 0.0) {
+        if *light_samples != 1 || lights.iter().filter_map(Light::point).any(|light| light.radius > 0.0) {
             self.line(0, &format!("LightSamples: {light_samples}"));
         }
+        Ok(())
     }
 }
 
