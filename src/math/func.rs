@@ -36,6 +36,12 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// The natural logarithm.
+#[must_use]
+pub fn log(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// `x·2^exponent`, rounded once.
 #[must_use]
 pub fn ldexp(x: f64, exponent: i32) -> f64 {

@@ -80,7 +80,7 @@ impl Plan {
             lights: scene.lights().iter().map(|_| light()).collect(),
             surfaces: vec![true; scene.surfaces().len()],
             constants: vec![None; scene.textures().len()],
-            max_depth: if let Mode::Phong = settings.mode { settings.max_depth } else { 0 },
+            max_depth: if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 },
             region: Region::default(),
             verdicts: Vec::new(),
         }

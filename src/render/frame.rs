@@ -1,6 +1,6 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{camera_ray, image_point, lens_point, lens_samples};
+use super::camera::{image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
 use super::sampler::Key;
@@ -77,7 +77,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 let place = place_in_pixel(pattern, [i, j], factor, Key::new(pixel, cell));
                 let target = image_point(camera, pixel, place);
                 for k in 0..points {
-                    let ray = camera_ray(lens_point(camera, k), target);
+                    let ray = ray_through(camera, lens_point(camera, k), target);
                     let radiance = self.radiance(ray, Key::new(pixel, sample));
                     sum += match values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
@@ -93,7 +93,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// The distance to what the middle of a pixel shows.
     fn depth(&mut self, pixel: [u32; 2]) -> Option<f64> {
         let camera = self.scene().camera();
-        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
+        let ray = ray_through(camera, camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)
     }
 }

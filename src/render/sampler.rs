@@ -20,7 +20,7 @@ impl Key {
     }
 
     /// 64 bits for one dimension of this point.
-    fn bits(self, dimension: u64) -> u64 {
+    pub(super) fn bits(self, dimension: u64) -> u64 {
         self.child(dimension).0
     }
 

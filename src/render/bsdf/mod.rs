@@ -23,6 +23,7 @@ use compensation::Compensation;
 use microfacet::{Microfacet, Way};
 use sheen::Fibres;
 use std::f64::consts::FRAC_1_PI;
+pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
 
 /// The BSDF for one pair of directions.

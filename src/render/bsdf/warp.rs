@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 #[must_use]
 #[inline]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a turn; the cast saturates")]
-pub(super) fn direction_turned(z: f64, turns: f64) -> Vec3 {
+pub(in crate::render) fn direction_turned(z: f64, turns: f64) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let sine = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
