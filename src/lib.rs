@@ -10,8 +10,9 @@
 //!    [`valid`] proves a scene sound.
 //! 6. [`plan`]: what the picture really needs, each omission with its reason.
 //! 7. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
-//! 8. [`pipeline`]: the doors the stages are joined by.
-//! 9. [`cli`]: arguments, streams, exit codes.
+//! 8. [`study`]: accuracy against time: renders, measures, reports.
+//! 9. [`pipeline`]: the doors the stages are joined by.
+//! 10. [`cli`]: arguments, streams, exit codes.
 //!
 //! The promise between the rooms: whoever holds a [`valid::ValidScene`] need not doubt a number.
 
@@ -29,4 +30,5 @@ pub mod pipeline;
 pub mod plan;
 pub mod render;
 pub mod source;
+pub mod study;
 pub mod valid;

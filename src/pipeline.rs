@@ -3,8 +3,8 @@
 pub mod trial;
 
 use crate::diag::Sink;
-use crate::front::{assets, course};
-use crate::ir::{Lowered, Origins, Scene};
+use crate::front::{assets, course, gltf};
+use crate::ir::{Lowered, Origins};
 use crate::plan::Plan;
 use crate::render::{Film, Job, render as render_planned};
 use crate::source::{FileId, SourceMap};
@@ -20,35 +20,6 @@ pub struct Options {
     pub valid: valid::Options,
 }
 
-/// Values that replace those of the scene before it is proven.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Overrides {
-    /// Width and height in pixels. The picture keeps its height in the scene, so pixels shrink or grow.
-    pub size: Option<[u32; 2]>,
-    /// Sub-samples along each side of a pixel.
-    pub supersampling: Option<u32>,
-    /// Points of each soft light.
-    pub light_samples: Option<u32>,
-    /// Bounces after the first hit.
-    pub depth: Option<u32>,
-}
-
-impl Overrides {
-    /// Writes the values given into `scene`.
-    pub fn apply(&self, scene: &mut Scene) {
-        let Self { size, supersampling, light_samples, depth } = *self;
-        if let Some(size) = size {
-            let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
-            scene.camera.right = scene.camera.right.map(|component| component * ratio);
-            scene.camera.up = scene.camera.up.map(|component| component * ratio);
-            scene.camera.size = size;
-        }
-        scene.settings.light_samples = light_samples.unwrap_or(scene.settings.light_samples);
-        scene.settings.supersampling = supersampling.unwrap_or(scene.settings.supersampling);
-        scene.settings.max_depth = depth.unwrap_or(scene.settings.max_depth);
-    }
-}
-
 /// Reads a scene in any form: the course's YAML, or the text or binary form of the IR, told apart by content. The files
 /// a YAML names come into the map.
 pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
@@ -56,6 +27,10 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
         Some(form) => {
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
+        }
+        None if gltf::recognise(map.name(file), map.bytes(file)) => {
+            gltf::check(file, map, &options.front, sink);
+            None
         }
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;

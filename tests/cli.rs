@@ -190,6 +190,22 @@ fn nothing_in_view_is_a_warning_after_the_render() {
 }
 
 #[test]
+fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
+    let folder = folder();
+    let far = SCENE.replace(", 50]", ", 1000050]").replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
+    let far = far.replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"").replace("40, 60]", "40, 1000060]");
+    fs::write(folder.path().join("far.json"), far).unwrap();
+    let warning = |arithmetic: &str| {
+        let output = rtc(&folder, &["render", "far.json", "--arithmetic", arithmetic]);
+        assert_eq!(code(&output), 0);
+        stderr(&output).lines().find(|line| line.contains("RD002")).map(str::to_owned)
+    };
+    let found = warning("f32").unwrap();
+    assert!(found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"), "{found}");
+    assert_eq!((warning("plain"), warning("robust")), (None, None));
+}
+
+#[test]
 fn color_only_where_wanted() {
     let folder = folder();
     let colored = |command: &mut Command| command.output().unwrap().stderr.contains(&0x1b);
@@ -339,4 +355,20 @@ mod unix {
     fn folder_of_inputs() -> Vec<String> {
         ["away.json", "bad.json", "ball.json"].map(str::to_owned).to_vec()
     }
+}
+
+#[test]
+fn a_study_is_written_in_the_form_asked_for() {
+    let folder = folder();
+    fs::write(folder.path().join("depth.json"), scene_with("\"phong\",", "\"zbuffer\",")).unwrap();
+    let table = rtc(&folder, &["cost", "depth.json", "--effort", "quick", "--html", "page.html"]);
+    assert_eq!(code(&table), 0, "{}", stderr(&table));
+    assert!(String::from_utf8(table.stdout).unwrap().starts_with("depth.json, xxh3:") && table.stderr.is_empty());
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().ends_with("</html>\n"));
+    let csv = rtc(&folder, &["cost", "depth.json", "--format", "csv"]);
+    assert_eq!(String::from_utf8(csv.stdout).unwrap().lines().count(), 2);
+    assert_eq!(code(&rtc(&folder, &["cost", "depth.json", "--format", "json", "-o", "cost.json"])), 0);
+    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("cost.json")).unwrap()).unwrap();
+    assert_eq!((json["schema"].as_str(), json["about"]["scene"].as_str()), (Some("rtc-cost/1"), Some("depth.json")));
+    assert_eq!(code(&rtc(&folder, &["cost", "bad.json"])), 1);
 }

@@ -11,7 +11,7 @@ use std::process::Command;
 fn ids_are_a_family_and_a_number_and_ascend() {
     for code in codes::all() {
         let (family, number) = code.id.split_at(2);
-        assert!(["IO", "SY", "SC", "RE", "VA", "IR", "RD"].contains(&family), "{code}");
+        assert!(["IO", "SY", "SC", "RE", "VA", "GL", "IR", "RD"].contains(&family), "{code}");
         assert!(number.len() == 3 && number.bytes().all(|byte| byte.is_ascii_digit()), "{code}");
     }
     let ids: Vec<&str> = codes::all().map(|code| code.id).collect();

@@ -7,7 +7,8 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::ir::Overrides;
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
@@ -79,10 +80,8 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    Overrides { supersampling: figure.supersampling, ..Overrides::default() }.apply(&mut lowered.scene);
-    if let Some(samples) = figure.aperture_samples {
-        lowered.scene.camera.lens.samples = samples;
-    }
+    let Figure { name: _, supersampling, aperture_samples, bar: _ } = *figure;
+    Overrides { supersampling, aperture_samples, ..Overrides::default() }.apply(&mut lowered.scene);
     let scene = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
     let film =
         pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap();

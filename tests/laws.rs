@@ -4,11 +4,11 @@
 
 use rtc::codec::{self, Form};
 use rtc::diag::Sink;
-use rtc::ir::{self, Lowered, Origins, Scene};
+use rtc::ir::{self, Lowered, Origins, Overrides, Scene};
 use rtc::math::ldexp;
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Crop, Film, Job, Values};
+use rtc::render::{Crop, Film, Job, Seeds, Tiles, Values};
 use rtc::source::{Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ fn bits(film: &Film) -> Vec<u64> {
     film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
 }
 
-const WHOLE: Job = Job { crop: None, values: Values::Linear };
+const WHOLE: Job = Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE };
 
 #[test]
 fn the_ir_in_any_form_makes_the_same_picture() {
@@ -90,6 +90,50 @@ fn a_crop_is_a_part_of_the_whole() {
         let wanted = rows.flat_map(|row| &row[11..31]).copied().collect::<Vec<_>>();
         assert!(part.pixels == wanted, "{}", path.display());
     }
+}
+
+/// Tiles are parts of the whole; black elsewhere.
+#[test]
+fn tiles_are_parts_of_the_whole() {
+    let scene = small(&paths()[0]);
+    let whole = film(&scene, &WHOLE, 0).image;
+    let tiles = Tiles { seed: 5, last: u64::MAX / 2 };
+    let part = film(&scene, &Job { tiles: Some(tiles), ..WHOLE }, 0);
+    let mut inside = 0;
+    for (i, (ours, wanted)) in (0_u32..).zip(part.image.pixels.iter().zip(&whole.pixels)) {
+        let is_inside = tiles.contain([i % whole.width, i / whole.width]);
+        inside += u32::from(is_inside);
+        assert_eq!(*ours, if is_inside { *wanted } else { [0.0; 3] });
+    }
+    assert!(inside > 0 && inside < whole.width * whole.height, "{inside} pixels");
+    assert_eq!(part.counts.camera, u64::from(inside) * 4, "other pixels take no ray");
+}
+
+/// A seed changes the noise, not what the picture shows.
+#[test]
+fn seeds_change_the_noise_alone() {
+    let path = paths().into_iter().find(|path| path.ends_with("bokeh.yaml")).unwrap();
+    let mut scene = small(&path);
+    let seeded =
+        |scene: &Scene, lens| film(scene, &Job { seeds: Seeds { pixel: lens, lens, path: lens }, ..WHOLE }, 0).image;
+    assert!(seeded(&scene, 1) != seeded(&scene, 2), "another seed is another picture");
+    let distance = |a: &rtc::image::Image, b: &rtc::image::Image| {
+        let squares = a.pixels.iter().flatten().zip(b.pixels.iter().flatten()).map(|(a, b)| (a - b) * (a - b));
+        (squares.sum::<f64>() / (3 * a.pixels.len()) as f64).sqrt()
+    };
+    scene.camera.lens.samples = 256;
+    let truth = seeded(&scene, 7);
+    scene.camera.lens.samples = 1;
+    let mut mean = seeded(&scene, 8);
+    let noise = distance(&mean, &truth);
+    let seeds = 64;
+    for seed in 1..seeds {
+        for (sum, more) in mean.pixels.iter_mut().zip(seeded(&scene, 8 + seed).pixels) {
+            *sum = [0, 1, 2].map(|c| sum[c] + more[c]);
+        }
+    }
+    mean.pixels.iter_mut().flatten().for_each(|sum| *sum /= seeds as f64);
+    assert!(distance(&mean, &truth) < 0.25 * noise, "64 pictures of 1 point are one of 64: {noise}");
 }
 
 /// Every length of the scene times a factor; what is a direction or a colour stays.

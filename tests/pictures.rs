@@ -6,9 +6,9 @@
 
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::{self, Lowered, Scene};
+use rtc::ir::{self, Lowered, Overrides, Scene};
 use rtc::math::{Double, Vec3, view_basis};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Counts, Film, Geometry, Job, Shape, World, camera_ray, image_point};
 use rtc::source::{Loader, SourceMap};

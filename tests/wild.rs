@@ -9,7 +9,8 @@
     reason = "a test stops at the first surprise, reads what it checks, and tells what it did"
 )]
 use rtc::diag::{Severity, Sink};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::ir::Overrides;
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::{Loader, SourceMap};
@@ -48,7 +49,7 @@ fn scenes(folder: &Path) -> Vec<PathBuf> {
 
 /// Small enough to be quick, large enough to meet every object in view.
 fn small() -> Overrides {
-    Overrides { size: Some([24, 24]), supersampling: Some(1), depth: Some(2), light_samples: None }
+    Overrides { size: Some([24, 24]), supersampling: Some(1), depth: Some(2), ..Overrides::default() }
 }
 
 /// What became of a file: the warnings of one that rendered, or the errors of one that did not.

@@ -1,7 +1,8 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
+use crate::plan;
 use crate::render::Crop;
-use crate::{diag, ir};
+use crate::{diag, ir, study};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -29,6 +30,8 @@ pub(super) enum Command {
     Compile(Compile),
     /// Render a scene to a picture
     Render(Render),
+    /// Show what accuracy costs in a scene, and which settings are worth it
+    Cost(Cost),
     /// Explain a code of a diagnostic
     Explain(Explain),
     /// Print the JSON Schema of a format
@@ -81,9 +84,15 @@ pub(super) struct Render {
     /// Sub-samples along each side of a pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) supersampling: Option<u32>,
+    /// Points of the lens each sub-sample takes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) aperture_samples: Option<u32>,
     /// Points of each soft light
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) light_samples: Option<u32>,
+    /// Rays of each glossy lobe; what is a mirror stays one
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(super) glossy_samples: Option<u32>,
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,
@@ -93,6 +102,9 @@ pub(super) struct Render {
     /// Render only this part of the picture, in pixels from the upper left
     #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
     pub(super) crop: Option<Crop>,
+    /// How rays meet shapes
+    #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
+    pub(super) arithmetic: Arithmetic,
     /// Bits a channel of a PNG [default: 8]
     #[arg(long)]
     pub(super) bits: Option<Bits>,
@@ -100,6 +112,67 @@ pub(super) struct Render {
     pub(super) reading: Reading,
     #[command(flatten)]
     pub(super) talk: Talk,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Cost {
+    /// The scene, as YAML or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// Where to write; `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
+    pub(super) output: PathBuf,
+    /// The form of the report
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(super) format: Report,
+    /// Also write a page for a browser, with plots and pictures
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) html: Option<PathBuf>,
+    /// How much work the study may be
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) effort: Effort,
+    /// Which tiles of the picture are looked at, and in which order settings are timed
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(super) seed: u64,
+    /// Threads for what is not timed [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Report {
+    /// A table of 80 columns
+    #[default]
+    Table,
+    /// The rows, as comma-separated values
+    Csv,
+    /// All there is, as JSON
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Effort {
+    /// Seconds
+    Quick,
+    /// About a minute for a simple scene
+    #[default]
+    Default,
+    /// Ten times that
+    Thorough,
+}
+
+impl From<Effort> for study::Effort {
+    fn from(effort: Effort) -> Self {
+        match effort {
+            Effort::Quick => Self::QUICK,
+            Effort::Default => Self::DEFAULT,
+            Effort::Thorough => Self::THOROUGH,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -190,6 +263,17 @@ pub(super) enum Bits {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Arithmetic {
+    /// With bounds on all errors, in f64
+    #[default]
+    Robust,
+    /// By the formulas of textbooks, in f64
+    Plain,
+    /// By the formulas of textbooks, in f32
+    F32,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// Scenes
     #[default]
@@ -213,6 +297,16 @@ pub(super) enum MessageFormat {
     Sarif,
     /// GitHub workflow commands
     Github,
+}
+
+impl From<Arithmetic> for plan::Arithmetic {
+    fn from(arithmetic: Arithmetic) -> Self {
+        match arithmetic {
+            Arithmetic::Robust => Self::Robust,
+            Arithmetic::Plain => Self::Plain,
+            Arithmetic::F32 => Self::F32,
+        }
+    }
 }
 
 impl From<MessageFormat> for diag::Format {

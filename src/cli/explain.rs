@@ -37,7 +37,8 @@ With `--message-format json` each finding is one line, an object with
 - `labels`: other places that matter, each like `primary`;
 - `hints`: what to do, each with `text` and `replacement`, which is null or
   like `primary`, its `text` being what to put there;
-- `pointer`: a JSON pointer to the culprit, or null.
+- `pointer`: a JSON pointer to the culprit, or null;
+- `alias`: the name of the finding in the glTF validator of Khronos, if it has one.
 
 If more was found than `--max-errors`, a last line `{\"omitted\": N}` says how
 much.
@@ -49,13 +50,17 @@ fn page() -> String {
 }
 
 fn entry(code: &Code) -> String {
-    let Code { id, severity, summary, explanation } = code;
+    let Code { id, severity, summary, explanation, aliases } = code;
     let severity = match severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
         Severity::Note => "note",
     };
-    format!("## {id} ({severity}): {summary}\n\n{}", fill(explanation))
+    let known = match aliases {
+        [] => String::new(),
+        names => format!("\n{}", fill(&format!("The glTF validator calls it {}.", names.join(", ")))),
+    };
+    format!("## {id} ({severity}): {summary}\n\n{}{known}", fill(explanation))
 }
 
 /// The words in lines of at most [`WIDTH`] characters.

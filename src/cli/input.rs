@@ -4,13 +4,14 @@ use super::Failure;
 use super::args::Reading;
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::ir::Lowered;
+use crate::ir::{Lowered, Scene};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, SourceMap};
 use crate::valid::ValidScene;
-use crate::{front, valid};
+use crate::{codec, front, valid};
 use std::io;
 use std::path::Path;
+use xxhash_rust::xxh3::xxh3_128;
 
 /// A scene that was read, or could not be.
 pub(super) struct Input {
@@ -90,7 +91,13 @@ pub(super) fn require(
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;
-    Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
+    proven.ok_or_else(|| Failure::Input(format!("`{}` is sound, but glTF can't be lowered yet", input.name())))
+}
+
+/// The hash of a proven scene's IR, by which a picture or a report says what it is of.
+pub(super) fn hash(scene: &Scene) -> String {
+    let bytes = codec::encode(codec::Form::Text, scene).expect("a proven scene holds finite numbers only");
+    format!("xxh3:{:032x}", xxh3_128(&bytes))
 }
 
 fn unreadable(name: &str, error: &LoadError) -> Diagnostic {

@@ -5,6 +5,7 @@
 mod args;
 mod check;
 mod compile;
+mod cost;
 mod explain;
 mod input;
 mod interrupt;
@@ -72,6 +73,7 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Check(args) => check::run(&args),
         Command::Compile(args) => compile::run(&args),
         Command::Render(args) => render::run(&args),
+        Command::Cost(args) => cost::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Schema(args) => tell::schema(&args),
         Command::Completions(args) => tell::completions(&args),

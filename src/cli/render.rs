@@ -7,21 +7,21 @@ use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
-use crate::codec::{self, Form};
 use crate::diag::{Diagnostic, codes};
 use crate::image;
-use crate::ir::{Field, Noun, Place, Scene};
-use crate::pipeline::{self, Overrides};
+use crate::ir::{Field, Noun, Overrides, Place, Scene};
+use crate::pipeline;
+use crate::plan::{self, Symptom};
 use crate::render::{Crop, Film, Job, Values};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
-use xxhash_rust::xxh3::xxh3_128;
 
 /// A render as it will be done.
 struct Plan {
     output: PathBuf,
     kind: Kind,
     overrides: Overrides,
+    arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
     threads: usize,
 }
@@ -56,9 +56,12 @@ impl Plan {
             overrides: Overrides {
                 size: args.size,
                 supersampling: args.supersampling,
+                aperture_samples: args.aperture_samples,
                 light_samples: args.light_samples,
+                glossy_samples: args.glossy_samples,
                 depth: args.depth,
             },
+            arithmetic: args.arithmetic.into(),
             crop: args.crop,
             threads: args.threads.map_or(0, usize::from),
         })
@@ -67,6 +70,10 @@ impl Plan {
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
         let window = self.window(&proven.lowered.scene)?;
+        if let Some(warning) = imprecise(&proven, self.arithmetic) {
+            input.push(warning);
+            input.tell(talk)?;
+        }
         let interrupt = Interrupt::listen()?;
         let output = Output::open(&self.output, &interrupt)?;
         let quiet = talk.is_quiet();
@@ -103,13 +110,13 @@ impl Plan {
         quiet: bool,
     ) -> Result<(Film, Duration), Failure> {
         let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
-        let job = Job { crop: Some(window), values };
+        let job = Job { crop: Some(window), values, ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let plan = crate::plan::Plan::new(&proven.scene, crate::plan::Rules::ALL);
+        let plan = plan::Plan::by(self.arithmetic, &proven.scene);
         let film = pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed);
         let elapsed = progress.finish();
         let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
@@ -132,7 +139,6 @@ impl Plan {
 
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
     fn origin(&self, scene: &Scene) -> image::Origin {
-        let bytes = codec::encode(Form::Text, scene).expect("a proven scene holds finite numbers only");
         let settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
@@ -141,7 +147,7 @@ impl Plan {
         });
         image::Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
-            scene: format!("xxh3:{:032x}", xxh3_128(&bytes)),
+            scene: input::hash(scene),
             settings: settings.to_string(),
         }
     }
@@ -174,4 +180,26 @@ fn nothing_in_view(proven: &Proven) -> Diagnostic {
     Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
         .at(camera, "this camera sees only the background")
         .hint("check where the camera stands and looks, and where the objects are")
+}
+
+/// Warns of what the arithmetic chosen loses; none of the robust one.
+fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
+    let loss = plan::loss(&proven.scene, arithmetic)?;
+    let option = if arithmetic == plan::Arithmetic::F32 { "f32" } else { "plain" };
+    let (fault, label) = match loss.symptom {
+        Symptom::SelfHit => {
+            let off = format!("rays start about {:.0e} off this surface and meet it again", loss.error);
+            ("surfaces shade or mirror themselves", off)
+        }
+        Symptom::Shape => ("curved surfaces lose their shape", format!("points are about {:.0e} off", loss.error)),
+        Symptom::Skipped => ("rays pass by what is near", "hardly larger than the 1e-5 that rays skip".to_owned()),
+    };
+    let surface = proven.scene.surfaces()[loss.surface].index;
+    let span = proven.lowered.origins.span(Place::new(Noun::Surface, surface, Field::Whole));
+    let finding = Diagnostic::new(&codes::IMPRECISE, format!("in {option} this picture will be wrong: {fault}"));
+    let others = match loss.surfaces - 1 {
+        0 => String::new(),
+        others => format!("; {others} more such surfaces"),
+    };
+    Some(finding.at(span, format!("{label}{others}")).hint(format!("leave out `--arithmetic {option}`")))
 }

@@ -57,6 +57,8 @@ pub struct Diagnostic {
     pub hints: Vec<Hint>,
     /// A JSON pointer to the culprit, for input that is JSON or has no text.
     pub pointer: Option<String>,
+    /// What the glTF validator of Khronos calls it: one of the aliases of the code.
+    pub alias: Option<&'static str>,
 }
 
 impl Diagnostic {
@@ -71,6 +73,7 @@ impl Diagnostic {
             secondary: Vec::new(),
             hints: Vec::new(),
             pointer: None,
+            alias: None,
         }
     }
 
@@ -113,5 +116,11 @@ impl Diagnostic {
     #[must_use]
     pub fn pointer(self, pointer: impl Into<String>) -> Self {
         Self { pointer: Some(pointer.into()), ..self }
+    }
+
+    /// Sets the name that the glTF validator of Khronos has for it.
+    #[must_use]
+    pub fn alias(self, alias: impl Into<Option<&'static str>>) -> Self {
+        Self { alias: alias.into(), ..self }
     }
 }

@@ -30,7 +30,7 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
-/// `eˣ`.
+/// e to the power `x`.
 #[must_use]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
@@ -38,7 +38,7 @@ pub fn exp(x: f64) -> f64 {
 
 /// The natural logarithm.
 #[must_use]
-pub fn log(x: f64) -> f64 {
+pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 

@@ -13,7 +13,7 @@ mod turns;
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
 pub use double::Double;
 pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum, unit_scale};
-pub use func::{acos, atan2, cos, exp, ldexp, log, pow, sin};
+pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};
 pub use glam::DVec3 as Vec3;
 pub use number::{NonNegative, Positive};
 pub use onb::Basis;

@@ -7,11 +7,13 @@
 
 mod effect;
 mod features;
+mod precision;
 mod region;
 mod rule;
 
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, Shapes};
+pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
@@ -84,6 +86,17 @@ impl Plan {
             region: Region::default(),
             verdicts: Vec::new(),
         }
+    }
+
+    /// Plans the picture by an arithmetic, with all rules that add exactly nothing by it: what is proven of the shapes
+    /// is proven for the robust one.
+    #[must_use]
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene) -> Self {
+        let rules = match arithmetic {
+            Arithmetic::Robust => Rules::ALL,
+            Arithmetic::Plain | Arithmetic::F32 => Rules::AT_HITS,
+        };
+        Self { arithmetic, ..Self::new(scene, rules) }
     }
 
     /// Whether the picture needs an effect, of whatever entity.

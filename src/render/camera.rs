@@ -1,6 +1,7 @@
 //! Rays of the camera: sub-samples of pixels, and points of the lens.
 
 use super::ray::Ray;
+use super::sampler::Key;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
 use crate::valid::{Camera, Lens, Projection};
 
@@ -40,18 +41,49 @@ pub(super) fn lens_samples(lens: &Lens) -> u32 {
 /// sunflower head", Mathematical Biosciences 44 (1979)).
 #[must_use]
 pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
-    let r = radius * (f64::from(k) / f64::from(n)).sqrt() / pixel;
-    let (cosine, sine) = cos_sin_turns(golden_turns(u64::from(k)));
-    [r * cosine, r * sine]
+    Twist::NONE.vogel(k, n, radius, pixel)
 }
+
+/// How a spiral is turned, and how far its points are pushed outwards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Twist {
+    /// In units of 2⁻⁶⁴ turns.
+    rotation: u64,
+    /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is uniform.
+    shift: f64,
+}
+
+impl Twist {
+    /// The plain spiral.
+    const NONE: Self = Self { rotation: 0, shift: 0.0 };
+
+    /// The twist of a sub-sample; that of seed 0 is none.
+    #[must_use]
+    pub(super) fn new(seed: u64, key: Key) -> Self {
+        if seed == 0 {
+            return Self::NONE;
+        }
+        let key = key.child(LENS).seeded(seed);
+        Self { rotation: key.bits(0), shift: key.uniform(1) }
+    }
+
+    fn vogel(self, k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
+        let r = radius * ((f64::from(k) + self.shift) / f64::from(n)).sqrt() / pixel;
+        let (cosine, sine) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        [r * cosine, r * sine]
+    }
+}
+
+/// Keeps the numbers of the lens apart from those of sub-samples and paths.
+const LENS: u64 = u64::MAX - 1;
 
 /// The origin of ray k of a sub-sample.
 #[must_use]
-pub fn lens_point(camera: &Camera, k: u32) -> Vec3 {
+pub(super) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {
     let n = lens_samples(&camera.lens);
-    if n == 1 {
+    if n == 1 && twist == Twist::NONE {
         return camera.eye;
     }
-    let [across, upward] = vogel(k, n, camera.lens.radius.get(), camera.up.length());
+    let [across, upward] = twist.vogel(k, n, camera.lens.radius.get(), camera.up.length());
     camera.eye + camera.right * across + camera.up * upward
 }

@@ -1,5 +1,6 @@
 //! The film: a picture, and the rays it took.
 
+use super::sampler::mix;
 use crate::image::Image;
 
 /// What to render of a world.
@@ -9,6 +10,53 @@ pub struct Job {
     pub crop: Option<Crop>,
     /// Which values the film holds.
     pub values: Values,
+    /// Tiles the render keeps to; pixels elsewhere stay black.
+    pub tiles: Option<Tiles>,
+    /// Where sampling starts.
+    pub seeds: Seeds,
+}
+
+/// Where each kind of sampling starts: 0 is the one of every render, any other number gives a picture that is
+/// independent of it but for what they show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seeds {
+    /// Of the places of sub-samples, where their pattern is random.
+    pub pixel: u64,
+    /// Of the points of the lens: not 0 turns their spiral for each sub-sample, and spreads them without bias.
+    pub lens: u64,
+    /// Of soft lights and glossy lobes.
+    pub path: u64,
+}
+
+/// Square tiles strewn over a picture: those whose rank is at most `last`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiles {
+    /// Which tiles come first.
+    pub seed: u64,
+    /// The rank of the last tile.
+    pub last: u64,
+}
+
+impl Seeds {
+    /// Those of every render.
+    pub const NONE: Self = Self { pixel: 0, lens: 0, path: 0 };
+}
+
+impl Tiles {
+    /// The side of a tile in pixels.
+    pub const SIDE: u32 = 16;
+
+    /// The rank of a tile, given by its column and row of tiles; differs from tile to tile.
+    #[must_use]
+    pub fn rank(seed: u64, tile: [u32; 2]) -> u64 {
+        mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
+    }
+
+    /// Whether a pixel lies in one of the tiles.
+    #[must_use]
+    pub fn contain(&self, pixel: [u32; 2]) -> bool {
+        Self::rank(self.seed, pixel.map(|at| at / Self::SIDE)) <= self.last
+    }
 }
 
 /// A rectangle of pixels, y downwards.

@@ -1,6 +1,6 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{image_point, lens_point, lens_samples, ray_through};
+use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
 use super::sampler::Key;
@@ -28,7 +28,7 @@ impl<S: Geometry> World<S> {
                 Some(Film { image, counts })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
-                let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job.values);
+                let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
                 let (pixels, counts) = self.tiles(crop, proceed, pixel)?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
             }
@@ -62,8 +62,11 @@ impl<S: Geometry> World<S> {
 }
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
-    /// The mean of all sub-samples and points of the lens.
-    fn pixel(&mut self, pixel: [u32; 2], values: Values) -> [f64; 3] {
+    /// The mean of all sub-samples and points of the lens; black outside the tiles.
+    fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> [f64; 3] {
+        if job.tiles.is_some_and(|tiles| !tiles.contain(pixel)) {
+            return [0.0; 3];
+        }
         let scene = self.scene();
         let camera = scene.camera();
         let factor = if Self::can(Features::CAMERA) { scene.settings().supersampling.get() } else { 1 };
@@ -73,13 +76,15 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         for j in 0..factor {
             for i in 0..factor {
                 let cell = u64::from(j) * u64::from(factor) + u64::from(i);
+                let key = Key::new(pixel, cell);
                 let pattern = if Self::can(Features::CAMERA) { scene.settings().pattern } else { Pattern::Grid };
-                let place = place_in_pixel(pattern, [i, j], factor, Key::new(pixel, cell));
+                let place = place_in_pixel(pattern, [i, j], factor, key.seeded(job.seeds.pixel));
                 let target = image_point(camera, pixel, place);
+                let twist = Twist::new(job.seeds.lens, key);
                 for k in 0..points {
-                    let ray = ray_through(camera, lens_point(camera, k), target);
-                    let radiance = self.radiance(ray, Key::new(pixel, sample));
-                    sum += match values {
+                    let ray = ray_through(camera, lens_point(camera, k, twist), target);
+                    let radiance = self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path));
+                    sum += match job.values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
                         Values::Linear => radiance,
                     };

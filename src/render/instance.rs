@@ -29,6 +29,16 @@ impl PreparedMesh {
         let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
         Self { mesh: Arc::clone(mesh), bvh: Bvh::build(&boxes), triangles, indices }
     }
+
+    /// The triangles that have an area.
+    pub(super) fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// The hierarchy of the triangles.
+    pub(super) fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
 }
 
 /// A mesh in the world.
@@ -60,6 +70,11 @@ impl Instance {
             instance.bounds = instance.bounds.union(Bounds::around(point, instance.rounding(*corner)));
         }
         instance
+    }
+
+    /// The rows of the inverse of the axes.
+    pub(super) fn inverse(&self) -> [Vec3; 3] {
+        self.inverse
     }
 
     /// How far rounding may move a point between the two spaces.

@@ -4,9 +4,10 @@ use super::basic::Basic;
 use super::film::{Film, Job};
 use super::geometry::Geometry;
 use super::path::Strategy;
+use super::plain::PlainShape;
 use super::shape::Shape;
 use super::world::World;
-use crate::plan::{Features, Plan, Shapes};
+use crate::plan::{Arithmetic, Features, Plan, Shapes};
 use crate::valid::{Mode, ValidScene};
 
 /// An integrator compiled for a set of features.
@@ -53,9 +54,11 @@ pub fn choose(needed: Features) -> usize {
 /// `proceed` is called from all threads after each pixel with the number of rays it took.
 #[must_use]
 pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
-    match plan.shapes {
-        Shapes::Basic => World::<Basic>::prepare(scene, plan).render(job, proceed),
-        Shapes::All => World::<Shape>::prepare(scene, plan).render(job, proceed),
+    match (plan.arithmetic, plan.shapes) {
+        (Arithmetic::Robust, Shapes::Basic) => World::<Basic>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::Robust, Shapes::All) => World::<Shape>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, plan).render(job, proceed),
     }
 }
 

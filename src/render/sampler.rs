@@ -13,6 +13,12 @@ impl Key {
         Self(mix(u64::from(pixel[0]) << 32 | u64::from(pixel[1]))).child(sample)
     }
 
+    /// The key with a seed mixed in; 0 changes nothing.
+    #[must_use]
+    pub(super) fn seeded(self, seed: u64) -> Self {
+        if seed == 0 { self } else { self.child(mix(seed)) }
+    }
+
     /// The key of branch `branch` of the path.
     #[must_use]
     pub(super) fn child(self, branch: u64) -> Self {
@@ -33,7 +39,7 @@ impl Key {
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
-fn mix(x: u64) -> u64 {
+pub(super) fn mix(x: u64) -> u64 {
     let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

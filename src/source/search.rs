@@ -148,6 +148,31 @@ impl Search {
         other_case.ok_or(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
     }
 
+    /// The file at exactly the path `written`, relative and with `/` between components, below the folder of the scene
+    /// or the one the user allows.
+    ///
+    /// # Errors
+    /// Why there is none, with the places that were looked at.
+    pub fn below(&self, written: &str) -> Result<Found, Missing> {
+        let Some(scene) = self.folders.first() else { return Err(Missing::NoFolder) };
+        let name = Name::new(written);
+        if name.leads_out() || written.contains('\\') {
+            return Err(Missing::Outside(Vec::new()));
+        }
+        let allowed = self.folders.iter().skip(1).find(|folder| Some(&folder.resolved) == self.allowed.as_ref());
+        let (mut looked, mut outside) = (Vec::new(), false);
+        for folder in std::iter::once(scene).chain(allowed) {
+            let shown = folder.shown.join(written);
+            match self.at(folder, Path::new(written)) {
+                At::File(path) => return Ok(Found { path, shown, elsewhere: false }),
+                At::LinkOut => outside = true,
+                At::Nothing => {}
+            }
+            looked.push(shown);
+        }
+        Err(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
+    }
+
     /// The file at a name with `..` in front, which only the folder the user allows can hold.
     fn climb(&self, scene: &Folder, name: &Name) -> Option<PathBuf> {
         let allowed = self.allowed.as_ref().filter(|_| name.climbs > 0 && !name.is_absolute)?;

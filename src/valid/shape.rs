@@ -13,6 +13,8 @@ pub struct Surface {
     pub shape: Shape,
     /// An index into [`super::ValidScene::materials`], in range.
     pub material: usize,
+    /// Its index in the IR, which holds triangles without an area as well.
+    pub index: usize,
 }
 
 /// A shape of any kind.
@@ -153,7 +155,7 @@ pub(super) fn surface(
         ir::Shape::Instance(shape) => proof.instance(shape, counts).map(Some),
     };
     let material = material?;
-    Some(shape?.map(|shape| Surface { shape, material }))
+    Some(shape?.map(|shape| Surface { shape, material, index }))
 }
 
 /// The proof of one surface.

@@ -9,7 +9,7 @@ use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Ray, Values, render};
 
 fn film(scene: &ir::Scene) -> Film {
-    let job = Job { crop: None, values: Values::Linear };
+    let job = Job { values: Values::Linear, ..Job::default() };
     let scene = proven(scene);
     render(&scene, &Plan::new(&scene, Rules::ALL), &job, &|_| true).unwrap()
 }

@@ -1,11 +1,12 @@
 //! The table of codes, one row each, in families that are the passes; a code is stable for ever.
 //!
-//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values, `IR` the container, `RD` what a render found.
+//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values, `GL` glTF, `IR` the container, `RD` what a render found.
 
 use std::fmt;
 
 mod container;
 mod files;
+mod gltf;
 mod picture;
 mod references;
 mod shape;
@@ -14,6 +15,7 @@ mod values;
 
 pub use container::*;
 pub use files::*;
+pub use gltf::*;
 pub use picture::*;
 pub use references::*;
 pub use shape::*;
@@ -42,6 +44,8 @@ pub struct Code {
     pub summary: &'static str,
     /// The long text of `rtc explain`.
     pub explanation: &'static str,
+    /// The names that the glTF validator of Khronos has for it; none outside `GL`.
+    pub aliases: &'static [&'static str],
 }
 
 impl fmt::Display for Code {
@@ -52,7 +56,8 @@ impl fmt::Display for Code {
 
 /// Declares a family: a static for each row, and `FAMILY`, all of them in order.
 macro_rules! codes {
-    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal, $explanation:literal;)*) => {
+    ($family:ident: $($name:ident = $id:literal, $severity:ident, $summary:literal, $explanation:literal
+        $(, [$($alias:literal),*])?;)*) => {
         $(
             #[doc = $summary]
             pub static $name: $crate::diag::Code = $crate::diag::Code {
@@ -60,6 +65,7 @@ macro_rules! codes {
                 severity: $crate::diag::Severity::$severity,
                 summary: $summary,
                 explanation: $explanation,
+                aliases: &[$($($alias),*)?],
             };
         )*
         /// The rows of this family, in order.
@@ -70,7 +76,7 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, IR, RD].into_iter().flatten().copied()
+    [IO, SY, SC, RE, VA, GL, IR, RD].into_iter().flatten().copied()
 }
 
 /// The code with the id given, in any case.

@@ -4,4 +4,10 @@ super::codes! { RD:
     NOTHING_IN_VIEW = "RD001", Warning, "no ray of the camera hit anything",
         "The picture is all background. Most often the camera looks the wrong way, or stands inside or behind what it \
          should see. Check `eye`, `center` and the positions of the objects.";
+    IMPRECISE = "RD002", Warning, "the arithmetic chosen is too coarse for the scene",
+        "`--arithmetic plain` and `f32` show what ray tracers lose that bound no errors: formulas that cancel, and hits \
+         within 1e-5 that count as none. Where the rounding of a point is larger than that, surfaces shade themselves; \
+         where it is large beside the surface, curved ones lose their shape; where things are hardly larger than 1e-5, \
+         rays pass through them. The warning is an estimate from the sizes and distances in the scene. Without the \
+         option rtc bounds its errors, and none of this happens.";
 }

@@ -30,7 +30,7 @@ pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> Strin
 }
 
 fn report<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Group<'a>> {
-    let Diagnostic { code, severity, message, primary: _, secondary: _, hints, pointer } = diagnostic;
+    let Diagnostic { code, severity, message, primary: _, secondary: _, hints, pointer, alias: _ } = diagnostic;
     let title = level(*severity).primary_title(clean(message)).id(code.id);
     let mut first = Group::with_title(title).elements(marks(diagnostic, map));
     if let Some(pointer) = pointer.as_ref().filter(|_| diagnostic.primary.is_none()) {

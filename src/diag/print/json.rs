@@ -27,6 +27,9 @@ struct Finding<'a> {
     hints: Vec<Advice<'a>>,
     /// A JSON pointer to the culprit, or null.
     pointer: Option<&'a str>,
+    /// What the glTF validator of Khronos calls it; absent for what it has no name for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    alias: Option<&'a str>,
 }
 
 /// A place and what is there, or what to put there.
@@ -49,7 +52,7 @@ struct Advice<'a> {
 
 /// One finding of the file `name`.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
-    let Diagnostic { code, severity: level, message, primary, secondary, hints, pointer } = diagnostic;
+    let Diagnostic { code, severity: level, message, primary, secondary, hints, pointer, alias } = diagnostic;
     let finding = Finding {
         code: code.id,
         severity: severity(*level),
@@ -59,6 +62,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         labels: secondary.iter().map(|label| labelled(map, label)).collect(),
         hints: hints.iter().map(|hint| advice(map, hint)).collect(),
         pointer: pointer.as_deref(),
+        alias: *alias,
     };
     line(&finding)
 }

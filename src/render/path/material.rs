@@ -4,7 +4,7 @@ use super::super::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, di
 use super::super::instance::Details;
 use super::super::ray::Interaction;
 use super::texture::{Content, Places, look_up};
-use crate::math::{Basis, Vec3, cos, cross, log, sin};
+use crate::math::{Basis, Vec3, cos, cross, ln, sin};
 use crate::valid::{Alpha, Map, Standard as Material, ValidScene};
 
 /// A material of the scene with what a surface says of one point.
@@ -146,7 +146,7 @@ impl<'world> Point<'world> {
     pub(super) fn absorption(&self) -> Vec3 {
         let Some(distance) = self.material.attenuation_distance else { return Vec3::ZERO };
         // −ln of the least positive number stands for black.
-        Vec3::from_array(self.material.attenuation_color).map(|c| -log(c.max(f64::MIN_POSITIVE)) / distance)
+        Vec3::from_array(self.material.attenuation_color).map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance)
     }
 
     /// The frame with the normal map applied, and the normal of the clearcoat.

@@ -53,7 +53,9 @@ impl<S: Geometry> World<S> {
             let mut tracer = Tracer::new(self, &lights, path, strategy);
             for (x, pixel) in (crop.x..).zip(row) {
                 let before = tracer.counts.rays();
-                *pixel = shown(tracer.pixel([x, y]), job.values);
+                if job.tiles.is_none_or(|tiles| tiles.contain([x, y])) {
+                    *pixel = shown(tracer.pixel([x, y], job.seeds), job.values);
+                }
                 if !proceed(tracer.counts.rays() - before) {
                     return None;
                 }

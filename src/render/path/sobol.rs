@@ -4,25 +4,41 @@
 //! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). A pair depends on pixel, sample and dimension
 //! alone.
 
+use super::super::film::Seeds;
 use super::super::sampler::Key;
+
+/// The pair of the place in the pixel.
+pub(super) const FILM: u32 = 0;
+
+/// The pair of the place on the lens.
+pub(super) const LENS: u32 = 1;
+
+/// The first pair of what comes after.
+pub(super) const CORNERS: u32 = 2;
 
 /// The numbers of one path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sobol {
     pixel: Key,
     index: u32,
+    seeds: Seeds,
 }
 
 impl Sobol {
     /// Those of path `index` of a pixel.
-    pub(super) fn new(pixel: [u32; 2], index: u32) -> Self {
-        Self { pixel: Key::new(pixel, 0), index }
+    pub(super) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
+        Self { pixel: Key::new(pixel, 0), index, seeds }
     }
 
     /// Pair `dimension` of this path, both numbers in [0, 1).
     #[inline]
     pub(super) fn pair(&self, dimension: u32) -> [f64; 2] {
-        let bits = self.pixel.child(u64::from(dimension)).bits(0);
+        let seed = match dimension {
+            FILM => self.seeds.pixel,
+            LENS => self.seeds.lens,
+            _ => self.seeds.path,
+        };
+        let bits = self.pixel.seeded(seed).bits(u64::from(dimension));
         let (low, high) = (bits as u32, (bits >> 32) as u32);
         // The index is read from its lowest bit on: scrambling it from there shuffles the points and keeps each first 2^k
         // of them together.
@@ -34,7 +50,8 @@ impl Sobol {
 
     /// A number in [0, 1) for what is outside of the sequence, as how often a path goes through a veil.
     pub(super) fn uniform(&self, dimension: u32, turn: u32) -> f64 {
-        self.pixel.child(u64::from(self.index) << 32 | u64::from(turn)).uniform(u64::from(dimension))
+        let key = self.pixel.seeded(self.seeds.path).child(u64::from(self.index) << 32 | u64::from(turn));
+        key.uniform(u64::from(dimension))
     }
 }
 
@@ -67,7 +84,7 @@ mod tests {
     fn the_first_points_of_every_power_of_two_fill_all_elementary_intervals() {
         for log in 1..=8_u32 {
             let count = 1_u32 << log;
-            let points = (0..count).map(|k| Sobol::new([3, 5], k).pair(2)).collect::<Vec<_>>();
+            let points = (0..count).map(|k| Sobol::new([3, 5], k, Seeds::NONE).pair(2)).collect::<Vec<_>>();
             for across in 0..=log {
                 let (columns, rows) = (1_u32 << across, 1_u32 << (log - across));
                 let mut cells = points
@@ -84,8 +101,8 @@ mod tests {
     #[test]
     fn pairs_are_independent_of_each_other() {
         // The covariance of two dimensions of different pairs vanishes as that of random numbers does.
-        let n = 4096;
-        let product = |k| (Sobol::new([0, 0], k).pair(0)[0] - 0.5) * (Sobol::new([0, 0], k).pair(1)[0] - 0.5);
+        let (n, at) = (4096, |k| Sobol::new([0, 0], k, Seeds::NONE));
+        let product = |k| (at(k).pair(0)[0] - 0.5) * (at(k).pair(1)[0] - 0.5);
         let covariance = (0..n).map(product).sum::<f64>() / f64::from(n);
         assert!(covariance.abs() < 4.0 / 12.0 / f64::from(n).sqrt(), "{covariance}");
     }

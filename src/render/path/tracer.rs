@@ -2,14 +2,14 @@
 
 use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
-use super::super::film::Counts;
+use super::super::film::{Counts, Seeds};
 use super::super::geometry::Geometry;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
 use super::lights::{Incident, Lights};
 use super::material::{Frame, Point};
-use super::sobol::Sobol;
+use super::sobol::{CORNERS, FILM, LENS, Sobol};
 use crate::math::{Vec3, cos_sin_turns, exp};
 use crate::valid::{Alpha, Path};
 
@@ -19,10 +19,7 @@ const SPARED: u32 = 3;
 /// Veils that a ray goes through at most.
 const VEILS: u32 = 1 << 10;
 
-/// Pairs of numbers: of the camera, and of each corner.
-const FILM: u32 = 0;
-const LENS: u32 = 1;
-const CORNERS: u32 = 2;
+/// Pairs of numbers that a corner takes.
 const PAIRS: u32 = 4;
 
 /// Follows paths through a world.
@@ -77,10 +74,10 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
-    pub(super) fn pixel(&mut self, pixel: [u32; 2]) -> Vec3 {
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for index in 0..self.path.samples.get() {
-            let sobol = Sobol::new(pixel, index);
+            let sobol = Sobol::new(pixel, index, seeds);
             let ray = self.camera_ray(pixel, &sobol);
             let radiance = self.radiance(ray, sobol);
             // A number that overflowed says nothing.

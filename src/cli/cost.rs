@@ -1,0 +1,70 @@
+//! `rtc cost`: what accuracy costs in a scene, as a table, for programs, and as a page.
+
+use super::Failure;
+use super::args::{self, Report};
+use super::input::{self, Input};
+use super::interrupt::Interrupt;
+use super::output::Output;
+use super::talk::Talk;
+use crate::ir::Scene;
+use crate::source::{Loader, SourceMap};
+use crate::study::{self, About, Bench, Clock, Stopped, Study};
+use cpu_time::ThreadTime;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Studies the scene and writes the report.
+pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
+    let mut talk = Talk::beside_result(&args.talk);
+    let outcome = carry_out(args, &mut Input::read(&args.file, &args.reading), &mut talk);
+    talk.finish()?;
+    outcome
+}
+
+fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+    let proven = input::require(input, talk, |_| ())?;
+    let interrupt = Interrupt::listen()?;
+    let output = Output::open(&args.output, &interrupt)?;
+    let page = args.html.as_deref().map(|path| Output::open(path, &interrupt)).transpose()?;
+    let about = about(input.name(), &proven.lowered.scene);
+    let study = measure(args, about, &proven.lowered.scene, &interrupt)?;
+    let report = match args.format {
+        Report::Table => study::table(&study),
+        Report::Csv => study::csv(&study),
+        Report::Json => study::json(&study),
+    };
+    if let Some(page) = page {
+        page.commit(study::html(&study).as_bytes(), &interrupt)?;
+    }
+    output.commit(report.as_bytes(), &interrupt)
+}
+
+#[expect(clippy::disallowed_methods, reason = "the study is handed the clock from here")]
+fn measure(args: &args::Cost, about: About, scene: &Scene, interrupt: &Interrupt) -> Result<Study, Failure> {
+    let start = Instant::now();
+    let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
+    let wall = || start.elapsed();
+    let proceed = |_| !interrupt.is_raised();
+    let bench = Bench::new(args.threads.map_or(0, usize::from), Clock { cpu: &cpu, wall: &wall }, &proceed);
+    let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+    study::study(scene, about, args.effort.into(), args.seed, &bench).map_err(|Stopped| Failure::Interrupted)
+}
+
+fn about(name: &str, scene: &Scene) -> About {
+    About {
+        scene: Path::new(name).file_name().map_or_else(|| name.to_owned(), |name| name.to_string_lossy().into_owned()),
+        hash: input::hash(scene),
+        software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
+        processor: processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
+        cores: std::thread::available_parallelism().map_or(1, usize::from),
+    }
+}
+
+/// The name of the processor, where the system tells it in a file.
+fn processor() -> Option<String> {
+    let mut map = SourceMap::default();
+    let file = Loader.file(Path::new("/proc/cpuinfo"), &mut map).ok()?;
+    let text = String::from_utf8_lossy(map.bytes(file)).into_owned();
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}

@@ -1,0 +1,336 @@
+//! Accessors: elements of one type within views, and whether they lie where they say.
+
+use super::buffer::{Purpose, Purposes};
+use super::document::Document;
+use super::field::Fields;
+use super::json::{Kind, NodeId};
+use super::report::Report;
+use crate::diag::codes;
+
+/// The most bytes of an accessor that has no data of its own and stands for zeros.
+const MAX_ZEROS: u64 = 1 << 26;
+
+/// The type of a component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    pub(super) fn from_code(code: u64) -> Option<Self> {
+        Some(match code {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return None,
+        })
+    }
+
+    /// Its size in bytes.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+
+    /// The least and the greatest value of an integer type.
+    pub(super) fn range(self) -> Option<[f64; 2]> {
+        Some(match self {
+            Self::I8 => [f64::from(i8::MIN), f64::from(i8::MAX)],
+            Self::U8 => [0.0, f64::from(u8::MAX)],
+            Self::I16 => [f64::from(i16::MIN), f64::from(i16::MAX)],
+            Self::U16 => [0.0, f64::from(u16::MAX)],
+            Self::U32 => [0.0, f64::from(u32::MAX)],
+            Self::F32 => return None,
+        })
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::I8 => "i8",
+            Self::U8 => "u8",
+            Self::I16 => "i16",
+            Self::U16 => "u16",
+            Self::U32 => "u32",
+            Self::F32 => "f32",
+        }
+    }
+}
+
+/// How an element is laid out: columns of components, each column of a matrix starting at a multiple of four bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub(super) component: Component,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// Integers stand for fractions of the greatest.
+    pub(super) normalized: bool,
+}
+
+impl Layout {
+    /// How many components an element has.
+    pub(super) fn components(self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Bytes from one column to the next.
+    pub(super) fn column(self) -> usize {
+        let bytes = self.rows * self.component.size();
+        if self.columns > 1 { bytes.next_multiple_of(4) } else { bytes }
+    }
+
+    /// Bytes from one element to the next where nothing lies between.
+    pub(super) fn packed(self) -> usize {
+        self.columns * self.column()
+    }
+
+    /// Bytes of an element without what pads it.
+    fn size(self) -> usize {
+        self.packed() - self.column() + self.rows * self.component.size()
+    }
+
+    /// As messages call it: `vec3 of f32`.
+    pub(super) fn name(self) -> String {
+        let shape = match (self.columns, self.rows) {
+            (1, 1) => "scalar".to_owned(),
+            (1, rows) => format!("vec{rows}"),
+            (columns, _) => format!("mat{columns}"),
+        };
+        format!("{shape} of {}{}", if self.normalized { "normalised " } else { "" }, self.component.name())
+    }
+}
+
+/// Elements.
+#[derive(Debug)]
+pub(super) struct Accessor {
+    pub(super) at: NodeId,
+    pub(super) view: Option<usize>,
+    pub(super) offset: usize,
+    pub(super) count: Option<usize>,
+    pub(super) layout: Option<Layout>,
+    pub(super) min: Option<Vec<f64>>,
+    pub(super) max: Option<Vec<f64>>,
+    pub(super) sparse: Option<Sparse>,
+}
+
+/// Elements that replace some of an accessor's.
+#[derive(Debug)]
+pub(super) struct Sparse {
+    pub(super) at: NodeId,
+    pub(super) count: usize,
+    /// The view of the indices, the offset in it, and their type.
+    pub(super) indices: (usize, usize, Component),
+    /// The view of the elements and the offset in it.
+    pub(super) values: (usize, usize),
+}
+
+impl Accessor {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        Self {
+            at: fields.at,
+            view: fields.index("bufferView"),
+            offset: fields.index("byteOffset").unwrap_or(0),
+            count: fields.index("count").filter(|count| *count > 0),
+            layout: layout(fields),
+            min: fields.numbers("min"),
+            max: fields.numbers("max"),
+            sparse: fields.object("sparse").and_then(sparse),
+        }
+    }
+
+    /// True if both bounds are given.
+    pub(super) fn has_bounds(&self) -> bool {
+        self.min.is_some() && self.max.is_some()
+    }
+}
+
+fn layout(fields: Fields<'_, '_>) -> Option<Layout> {
+    let component = Component::from_code(fields.whole("componentType")?)?;
+    let (columns, rows) = match fields.text("type")?.as_str() {
+        "SCALAR" => (1, 1),
+        "VEC2" => (1, 2),
+        "VEC3" => (1, 3),
+        "VEC4" => (1, 4),
+        "MAT2" => (2, 2),
+        "MAT3" => (3, 3),
+        "MAT4" => (4, 4),
+        _ => return None,
+    };
+    Some(Layout { component, columns, rows, normalized: fields.truth("normalized") })
+}
+
+fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
+    let (indices, values) = (fields.object("indices")?, fields.object("values")?);
+    let component = Component::from_code(indices.whole("componentType")?)?;
+    Some(Sparse {
+        at: fields.at,
+        count: fields.index("count").filter(|count| *count > 0)?,
+        indices: (indices.index("bufferView")?, indices.index("byteOffset").unwrap_or(0), component),
+        values: (values.index("bufferView")?, values.index("byteOffset").unwrap_or(0)),
+    })
+}
+
+/// Checks each accessor for itself and against its views.
+pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
+    for accessor in &doc.accessors {
+        let Some(layout) = accessor.layout else { continue };
+        alone(accessor, layout, report);
+        let Some(count) = accessor.count else { continue };
+        if let Some(view) = accessor.view {
+            let stride = doc.views.get(view).and_then(|view| view.stride);
+            if let Some(stride) = stride.filter(|stride| *stride < layout.size()) {
+                let message = format!("the stride of the view is {stride}, and an element has {} bytes", layout.size());
+                report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_SMALL_BYTESTRIDE", accessor.at, message);
+            }
+            let bytes = (stride.unwrap_or(layout.packed()) as u64).saturating_mul(count as u64 - 1);
+            let place = (view, accessor.offset, layout.component.size());
+            fits(doc, place, bytes.saturating_add(layout.size() as u64), accessor.at, report);
+        }
+        if let Some(sparse) = &accessor.sparse {
+            check_sparse(doc, sparse, (layout, count), purposes, report);
+        }
+    }
+}
+
+/// What can be said without looking at a view.
+fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
+    let fields = Fields::new(report.json, accessor.at);
+    if let Some(at) = fields.node("byteOffset") {
+        if accessor.view.is_none() && !fields.has("bufferView") {
+            let message = "there is an offset, and no view that it could be in".to_owned();
+            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        }
+        if layout.columns > 1 && !accessor.offset.is_multiple_of(4) {
+            let message = format!("matrices start at multiples of 4 bytes, and the offset is {}", accessor.offset);
+            report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_MATRIX_ALIGNMENT", at, message);
+        }
+    }
+    if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
+        let at = report.json.at_or(accessor.at, "normalized");
+        let message = format!("{} is not normalised, only bytes and shorts are", layout.component.name());
+        report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_NORMALIZED_INVALID", at, message);
+    }
+    for key in ["min", "max"] {
+        let Some(list) = fields.node(key).filter(|list| report.json.kind(*list) == Kind::List) else { continue };
+        bound(list, key, layout, report);
+    }
+}
+
+/// One bound: as many numbers as an element has, each one that the component type can hold.
+fn bound(list: NodeId, key: &str, layout: Layout, report: &mut Report<'_, '_>) {
+    let items: Vec<NodeId> = report.json.items(list).collect();
+    if items.len() != layout.components() {
+        let message = format!("`{key}` has {} numbers, and an element has {}", items.len(), layout.components());
+        report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", list, message);
+    }
+    let Some([least, most]) = layout.component.range() else { return };
+    for item in items {
+        let Some(number) = report.json.number(item) else { continue };
+        if number.fract() != 0.0 {
+            let message = format!("`{key}` is {}, and the components are whole numbers", report.shown(item));
+            report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
+        } else if !(least..=most).contains(&number) {
+            let message = format!("`{key}` is {}, which no {} is", report.shown(item), layout.component.name());
+            report.say(&codes::GLTF_VALUE, "INVALID_GL_VALUE", item, message);
+        }
+    }
+}
+
+/// Checks that `bytes` bytes of components lie within a view, given with the offset in it and the size of a component.
+fn fits(
+    doc: &Document<'_>,
+    (view, offset, size): (usize, usize, usize),
+    bytes: u64,
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    let Some(holder) = doc.views.get(view) else { return };
+    let code = &codes::GLTF_ACCESSOR;
+    let place = report.json.at_or(at, "byteOffset");
+    if !offset.is_multiple_of(size) {
+        let message = format!("the offset {offset} is not a multiple of {size}, the size of a component");
+        report.say(code, "ACCESSOR_OFFSET_ALIGNMENT", place, message);
+    }
+    let total = holder.offset.saturating_add(offset);
+    if !total.is_multiple_of(size) {
+        let message = format!("the offset in the buffer is {total}, not a multiple of {size}, the size of a component");
+        report.say(code, "ACCESSOR_TOTAL_OFFSET_ALIGNMENT", at, message);
+    }
+    let end = bytes.saturating_add(offset as u64);
+    if let Some(length) = holder.length.filter(|length| end > *length as u64) {
+        let at = if offset > length { place } else { at };
+        let message = format!("the elements end at byte {end} of buffer view {view}, which has {length}");
+        report.say(code, "ACCESSOR_TOO_LONG", at, message);
+    }
+}
+
+fn check_sparse(
+    doc: &Document<'_>,
+    sparse: &Sparse,
+    (layout, count): (Layout, usize),
+    purposes: &mut Purposes,
+    report: &mut Report<'_, '_>,
+) {
+    if sparse.count > count {
+        let at = report.json.at_or(sparse.at, "count");
+        let message = format!("{} elements are replaced, and there are {count}", sparse.count);
+        report.say(&codes::GLTF_SPARSE, "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", at, message);
+    }
+    let (indices, values) = (report.json.at_or(sparse.at, "indices"), report.json.at_or(sparse.at, "values"));
+    for (part, view) in [(indices, sparse.indices.0), (values, sparse.values.0)] {
+        let at = report.json.at_or(part, "bufferView");
+        purposes.set(Some(view), Purpose::Other, at, report);
+        if doc.views.get(view).is_some_and(|view| view.stride.is_some()) {
+            let message = "only a view of vertices has a stride".to_owned();
+            report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_INVALID_BYTE_STRIDE", at, message);
+        }
+    }
+    let ((view, offset, component), of) = (sparse.indices, sparse.count as u64);
+    let size = component.size();
+    fits(doc, (view, offset, size), of.saturating_mul(size as u64), indices, report);
+    let ((view, offset), size) = (sparse.values, layout.component.size());
+    fits(doc, (view, offset, size), of.saturating_mul((size * layout.components()) as u64), values, report);
+}
+
+/// Refuses accessors that stand for more zeros than any asset needs; `filled` are those that a decoder fills.
+pub(super) fn check_claims(doc: &Document<'_>, filled: &[usize], report: &mut Report<'_, '_>) {
+    for (index, accessor) in doc.accessors.iter().enumerate() {
+        let (Some(layout), Some(count), None) = (accessor.layout, accessor.count, accessor.view) else { continue };
+        let bytes = (count as u64).saturating_mul(layout.packed() as u64);
+        if bytes > MAX_ZEROS && filled.binary_search(&index).is_err() {
+            let at = report.json.at_or(accessor.at, "count");
+            let message = format!("the accessor has no view and claims {count} elements of zeros, {bytes} bytes");
+            report.say(&codes::GLTF_HUGE, "", at, message);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_of_matrices_are_padded_as_the_specification_says() {
+        let layout = |component, columns, rows| Layout { component, columns, rows, normalized: false };
+        let sizes = |component, columns, rows| {
+            let layout = layout(component, columns, rows);
+            (layout.size(), layout.packed())
+        };
+        assert_eq!(sizes(Component::U8, 2, 2), (6, 8));
+        assert_eq!(sizes(Component::I8, 3, 3), (11, 12));
+        assert_eq!(sizes(Component::U16, 3, 3), (22, 24));
+        assert_eq!(sizes(Component::U16, 2, 2), (8, 8));
+        assert_eq!(sizes(Component::F32, 4, 4), (64, 64));
+        assert_eq!(sizes(Component::U8, 1, 3), (3, 3));
+    }
+}

@@ -1,0 +1,183 @@
+//! Attributes of vertices: their names, their formats, and where they lie.
+
+use super::accessor::{Accessor, Component, Layout};
+use super::contents::{Demand, Demands};
+use super::document::Document;
+use super::json::NodeId;
+use super::mesh::{Attribute, Primitive, is_aligned};
+use super::report::{Report, shown};
+use crate::diag::codes;
+use std::collections::BTreeMap;
+
+/// What an attribute says of a vertex, with the number of its set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Semantic {
+    Position,
+    Normal,
+    Tangent,
+    Uv(u64),
+    Color(u64),
+    Joints(u64),
+    Weights(u64),
+    /// It starts with an underscore, and we don't know.
+    Custom,
+    /// It is no name of an attribute.
+    None,
+}
+
+impl Semantic {
+    pub(super) fn of(name: &str) -> Self {
+        match name {
+            "POSITION" => return Self::Position,
+            "NORMAL" => return Self::Normal,
+            "TANGENT" => return Self::Tangent,
+            name if name.starts_with('_') => return Self::Custom,
+            _ => {}
+        }
+        let Some((kind, set)) = name.split_once('_') else { return Self::None };
+        let digits = set.bytes().all(|byte| byte.is_ascii_digit()) && (set.len() == 1 || !set.starts_with('0'));
+        let Some(set) = set.parse().ok().filter(|_| digits) else { return Self::None };
+        match kind {
+            "TEXCOORD" => Self::Uv(set),
+            "COLOR" => Self::Color(set),
+            "JOINTS" => Self::Joints(set),
+            "WEIGHTS" => Self::Weights(set),
+            _ => Self::None,
+        }
+    }
+}
+
+/// Checks the names of the attributes of a primitive, and that none is missing.
+pub(super) fn check_names(primitive: &Primitive, report: &mut Report<'_, '_>) {
+    let semantics: Vec<Semantic> = primitive.attributes.iter().map(|attribute| Semantic::of(&attribute.name)).collect();
+    for attribute in primitive.attributes.iter().filter(|attribute| Semantic::of(&attribute.name) == Semantic::None) {
+        let message = format!("`{}` is no name of an attribute", shown(&attribute.name));
+        report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INVALID_ATTRIBUTE", attribute.at, message);
+    }
+    let has = |semantic| semantics.contains(&semantic);
+    let at = report.json.at_or(primitive.at, "attributes");
+    if !primitive.attributes.is_empty() && !has(Semantic::Position) {
+        let message = "the primitive has no `POSITION`, so nothing of it shows".to_owned();
+        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_NO_POSITION", at, message);
+    }
+    if has(Semantic::Tangent) && !has(Semantic::Normal) {
+        let at = report.json.at_or(at, "TANGENT");
+        let message = "there are tangents and no normals".to_owned();
+        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL", at, message);
+    }
+    check_sets(&semantics, at, report);
+}
+
+fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut Report<'_, '_>) {
+    type Kind = fn(u64) -> Semantic;
+    let kinds: [(&str, Kind); 4] = [
+        ("TEXCOORD", Semantic::Uv),
+        ("COLOR", Semantic::Color),
+        ("JOINTS", Semantic::Joints),
+        ("WEIGHTS", Semantic::Weights),
+    ];
+    let mut counts = [0; 4];
+    for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
+        // A set number that no attribute has ends the sets; what lies beyond it is left over.
+        *count =
+            semantics.iter().filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0))).count();
+        let gap = (0..*count as u64).find(|set| !semantics.contains(&kind(*set)));
+        if let Some(gap) = gap {
+            let message = format!("there are {count} sets of `{name}`, and none has the number {gap}");
+            report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY", at, message);
+        }
+    }
+    let [_, _, joints, weights] = counts;
+    if joints != weights {
+        let message = format!("{joints} sets of joints, and {weights} of weights");
+        report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH", at, message);
+    }
+}
+
+/// Checks that an attribute of a primitive, or of a morph target, has a format that its name allows.
+pub(super) fn check_format(
+    doc: &Document<'_>,
+    attribute: &Attribute,
+    accessor: &Accessor,
+    in_target: bool,
+    report: &mut Report<'_, '_>,
+) {
+    let semantic = Semantic::of(&attribute.name);
+    if semantic == Semantic::Position && !accessor.has_bounds() {
+        let message = "positions come without `min` and `max`".to_owned();
+        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", attribute.at, message);
+    }
+    let Some(layout) = accessor.layout else { return };
+    let quantized = doc.uses("KHR_mesh_quantization");
+    if !allows(semantic, layout, quantized, in_target) {
+        let message = format!("`{}` is {}, which no `{}` is", attribute.name, layout.name(), attribute.name);
+        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", attribute.at, message);
+    } else if semantic == Semantic::Custom && layout.component == Component::U32 {
+        let message = "attributes of vertices are not u32".to_owned();
+        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT", attribute.at, message);
+    }
+}
+
+/// True if the specification, or `KHR_mesh_quantization`, has the format for the attribute.
+fn allows(semantic: Semantic, layout: Layout, quantized: bool, in_target: bool) -> bool {
+    use Component::{F32, I8, I16, U8, U16, U32};
+    let Layout { component, columns, rows, normalized } = layout;
+    let is = |rows_of: &[usize]| columns == 1 && rows_of.contains(&rows);
+    let float = component == F32 && !normalized;
+    let unsigned_fraction = normalized && matches!(component, U8 | U16);
+    let signed_fraction = normalized && matches!(component, I8 | I16);
+    let small = matches!(component, I8 | U8 | I16 | U16);
+    let signed = matches!(component, I8 | I16);
+    match semantic {
+        Semantic::Position => is(&[3]) && (float || quantized && if in_target { signed } else { small }),
+        Semantic::Normal => is(&[3]) && (float || quantized && signed_fraction),
+        Semantic::Tangent => {
+            let rows: &[usize] = if in_target { &[3] } else { &[4] };
+            is(rows) && (float || quantized && signed_fraction)
+        }
+        Semantic::Uv(_) => is(&[2]) && (float || unsigned_fraction || quantized && small),
+        Semantic::Color(_) => is(&[3, 4]) && (float || unsigned_fraction || in_target && signed_fraction),
+        Semantic::Joints(_) => is(&[4]) && !normalized && matches!(component, U8 | U16),
+        Semantic::Weights(_) => is(&[4]) && (float || unsigned_fraction),
+        Semantic::Custom | Semantic::None => component != U32 || semantic == Semantic::Custom,
+    }
+}
+
+/// Checks that vertex data is aligned, and has a stride where accessors share a view; `streams` has those seen before.
+pub(super) fn check_place(
+    doc: &Document<'_>,
+    attribute: &Attribute,
+    accessor: &Accessor,
+    streams: &mut BTreeMap<usize, usize>,
+    report: &mut Report<'_, '_>,
+) {
+    let Some((index, view)) = accessor.view.and_then(|view| Some((view, doc.views.get(view)?))) else { return };
+    if !is_aligned(accessor, view.stride) {
+        let message = "vertices start at multiples of 4 bytes, and these don't".to_owned();
+        report.say(&codes::GLTF_ACCESSOR, "MESH_PRIMITIVE_ACCESSOR_UNALIGNED", attribute.at, message);
+    }
+    if view.stride.is_none() && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor {
+        let message = format!("buffer view {index} holds several attributes and has no stride");
+        report.say(&codes::GLTF_VIEW, "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", attribute.at, message);
+    }
+}
+
+/// What the elements of an attribute must be.
+pub(super) fn demand(attribute: &Attribute, accessor: &Accessor, demands: &mut Demands) {
+    let mut add = |demand| demands.add(attribute.accessor, demand, attribute.at);
+    match Semantic::of(&attribute.name) {
+        Semantic::Normal => add(Demand::Unit),
+        Semantic::Tangent if accessor.layout.is_some_and(|layout| layout.components() == 4) => {
+            add(Demand::Unit);
+            add(Demand::Sign);
+        }
+        Semantic::Color(_) => add(Demand::Clamped),
+        Semantic::Position
+        | Semantic::Tangent
+        | Semantic::Uv(_)
+        | Semantic::Joints(_)
+        | Semantic::Weights(_)
+        | Semantic::Custom
+        | Semantic::None => {}
+    }
+}

@@ -1,0 +1,159 @@
+//! Buffers and the views of them: their bytes, and whether the views lie within and serve one purpose.
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+use std::borrow::Cow;
+use std::rc::Rc;
+
+/// Bytes.
+#[derive(Debug)]
+pub(super) struct Buffer<'s> {
+    pub(super) at: NodeId,
+    /// Its `byteLength`.
+    pub(super) length: Option<usize>,
+    /// The bytes, at least `length` of them; none if they could not be had, or are none of ours.
+    pub(super) bytes: Option<Bytes<'s>>,
+    /// Its data is that of a compression extension.
+    pub(super) is_fallback: bool,
+}
+
+/// Bytes that several buffers may share.
+pub(super) type Bytes<'s> = Rc<Cow<'s, [u8]>>;
+
+impl Buffer<'_> {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let compressed = |name| fields.extension(name).is_some_and(|fields| fields.truth("fallback"));
+        Self {
+            at: fields.at,
+            length: fields.index("byteLength"),
+            bytes: None,
+            is_fallback: compressed("EXT_meshopt_compression") || compressed("KHR_meshopt_compression"),
+        }
+    }
+}
+
+/// A stretch of a buffer.
+#[derive(Debug)]
+pub(super) struct View {
+    pub(super) at: NodeId,
+    pub(super) buffer: Option<usize>,
+    pub(super) offset: usize,
+    pub(super) length: Option<usize>,
+    pub(super) stride: Option<usize>,
+    /// What its `target` says.
+    target: Option<Purpose>,
+    /// What was compressed, decompressed.
+    pub(super) decoded: Option<Vec<u8>>,
+}
+
+/// What the bytes of a view are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    Vertices,
+    Indices,
+    InverseBindMatrices,
+    Image,
+    /// Keyframes, and the parts of sparse accessors.
+    Other,
+}
+
+impl Purpose {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "vertices",
+            Self::Indices => "indices",
+            Self::InverseBindMatrices => "inverse bind matrices",
+            Self::Image => "an image",
+            Self::Other => "keyframes or sparse elements",
+        }
+    }
+}
+
+impl View {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        Self {
+            at: fields.at,
+            buffer: fields.index("buffer"),
+            offset: fields.index("byteOffset").unwrap_or(0),
+            length: fields.index("byteLength"),
+            stride: fields.index("byteStride").filter(|stride| (4..=252).contains(stride)),
+            target: match fields.whole("target") {
+                Some(34962) => Some(Purpose::Vertices),
+                Some(34963) => Some(Purpose::Indices),
+                _ => None,
+            },
+            decoded: None,
+        }
+    }
+}
+
+impl Document<'_> {
+    /// The bytes of a view, if they are all there.
+    pub(super) fn view_bytes(&self, view: usize) -> Option<&[u8]> {
+        let view = self.views.get(view)?;
+        if let Some(decoded) = &view.decoded {
+            return Some(decoded);
+        }
+        let buffer = self.buffers.get(view.buffer?)?;
+        let bytes = buffer.bytes.as_ref()?.get(..buffer.length?)?;
+        bytes.get(view.offset..view.offset.checked_add(view.length?)?)
+    }
+}
+
+/// Checks that each view lies in its buffer.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for view in &doc.views {
+        stride(view, report);
+        let (Some(buffer), Some(length)) = (view.buffer, view.length) else { continue };
+        let Some(size) = doc.buffers.get(buffer).and_then(|buffer| buffer.length) else { continue };
+        let end = view.offset.saturating_add(length);
+        if end > size {
+            let key = if view.offset >= size { "byteOffset" } else { "byteLength" };
+            let at = report.json.at_or(view.at, key);
+            let message = format!("the view ends at byte {end} of buffer {buffer}, which has {size}");
+            report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_LONG", at, message);
+        }
+    }
+}
+
+fn stride(view: &View, report: &mut Report<'_, '_>) {
+    let Some(stride) = view.stride else { return };
+    let at = report.json.at_or(view.at, "byteStride");
+    if !stride.is_multiple_of(4) {
+        let message = format!("the stride is {stride}, not a multiple of 4");
+        report.say(&codes::GLTF_VALUE, "VALUE_MULTIPLE_OF", at, message);
+    }
+    if let Some(length) = view.length.filter(|length| *length < stride) {
+        let message = format!("the stride is {stride}, longer than the view, which has {length} bytes");
+        report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", at, message);
+    }
+    if view.target == Some(Purpose::Indices) {
+        let message = "a view of indices has a stride".to_owned();
+        report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_INVALID_BYTE_STRIDE", at, message);
+    }
+}
+
+/// What each view was seen to be for.
+pub(super) struct Purposes(Vec<Option<Purpose>>);
+
+impl Purposes {
+    pub(super) fn new(doc: &Document<'_>) -> Self {
+        Self(doc.views.iter().map(|view| view.target).collect())
+    }
+
+    /// Takes down that the node `at` uses a view for a purpose; two purposes don't go together.
+    pub(super) fn set(&mut self, view: Option<usize>, purpose: Purpose, at: NodeId, report: &mut Report<'_, '_>) {
+        let Some(slot) = view.and_then(|view| self.0.get_mut(view)) else { return };
+        match slot {
+            None => *slot = Some(purpose),
+            Some(first) if *first != purpose => {
+                let message = format!("the view is used for {} here, and is for {}", purpose.name(), first.name());
+                report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TARGET_OVERRIDE", at, message);
+            }
+            Some(_) => {}
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Cameras: perspective or orthographic.
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+
+/// A camera; it looks along its negative z axis, y is up.
+#[derive(Debug)]
+pub(super) struct Camera {
+    pub(super) at: NodeId,
+    pub(super) name: String,
+    pub(super) projection: Option<Projection>,
+}
+
+/// How a camera makes a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Projection {
+    /// The vertical opening in radians, and width over height if the picture's own does not count.
+    Perspective { yfov: f64, aspect: Option<f64> },
+    /// Half the width and half the height of what is seen.
+    Orthographic { xmag: f64, ymag: f64 },
+}
+
+impl Camera {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let perspective = fields.object("perspective").filter(|_| fields.is("type", "perspective"));
+        let perspective = perspective.and_then(|fields| {
+            let yfov = fields.number("yfov").filter(|yfov| *yfov > 0.0)?;
+            Some(Projection::Perspective { yfov, aspect: fields.number("aspectRatio").filter(|ratio| *ratio > 0.0) })
+        });
+        let orthographic = fields.object("orthographic").filter(|_| fields.is("type", "orthographic"));
+        let orthographic = orthographic.and_then(|fields| {
+            Some(Projection::Orthographic { xmag: fields.number("xmag")?, ymag: fields.number("ymag")? })
+        });
+        Self { at: fields.at, name: fields.name(), projection: perspective.or(orthographic) }
+    }
+}
+
+/// Checks all cameras.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for camera in &doc.cameras {
+        let fields = Fields::new(report.json, camera.at);
+        let (perspective, orthographic) = (fields.object("perspective"), fields.object("orthographic"));
+        if fields.has("perspective") && fields.has("orthographic") {
+            let message = "a camera is perspective or orthographic, not both".to_owned();
+            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", camera.at, message);
+        }
+        for kind in ["perspective", "orthographic"] {
+            if fields.is("type", kind) && !fields.has(kind) {
+                let message = format!("the camera has no `{kind}`");
+                report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", camera.at, message);
+            }
+        }
+        for part in [perspective, orthographic].into_iter().flatten() {
+            if let (Some(near), Some(far)) = (part.number("znear"), part.number("zfar"))
+                && far <= near
+            {
+                let message = format!("the far plane at {far} is no farther than the near one at {near}");
+                report.say(&codes::GLTF_VALUE, "CAMERA_ZFAR_LEQUAL_ZNEAR", part.at, message);
+            }
+        }
+        if let Some(part) = perspective.filter(|part| part.number_or("yfov", 0.0) >= std::f64::consts::PI) {
+            let message = "the camera opens half a turn or more".to_owned();
+            report.say(&codes::GLTF_MATERIAL_ODD, "CAMERA_YFOV_GEQUAL_PI", part.at, message);
+        }
+        if let Some(part) = orthographic {
+            let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
+            if mags.contains(&0.0) {
+                let message = "the picture of the camera has no width or no height".to_owned();
+                report.say(&codes::GLTF_VALUE, "CAMERA_XMAG_YMAG_ZERO", part.at, message);
+            } else if mags.iter().any(|mag| *mag < 0.0) {
+                let message = "a negative `xmag` or `ymag` mirrors the picture".to_owned();
+                report.say(&codes::GLTF_MATERIAL_ODD, "CAMERA_XMAG_YMAG_NEGATIVE", part.at, message);
+            }
+        }
+    }
+}

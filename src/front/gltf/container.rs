@@ -1,0 +1,215 @@
+//! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and `.gltf` alike.
+
+use crate::diag::{Code, Diagnostic, Sink, codes};
+use crate::source::{FileId, Span};
+use std::ops::Range;
+
+/// The first bytes of a `.glb` file.
+const MAGIC: &[u8] = b"glTF";
+/// The types of the chunks, as they stand in the file.
+const JSON: &[u8] = b"JSON";
+const BIN: &[u8] = b"BIN\0";
+/// Bytes of the header of the file and of a chunk.
+const HEADER: usize = 12;
+const CHUNK_HEADER: usize = 8;
+
+/// The parts of an asset, as ranges of its file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Parts {
+    /// The text.
+    pub(super) json: Range<usize>,
+    /// The binary chunk, if there is one.
+    pub(super) bin: Option<Range<usize>>,
+    /// It is a `.glb`.
+    pub(super) is_glb: bool,
+}
+
+/// True if the bytes are a `.glb`, be it with a damaged beginning; `name` decides where they don't.
+pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
+    let named = name.len() >= 4 && name.is_char_boundary(name.len() - 4) && name[name.len() - 4..] == *".glb";
+    bytes.starts_with(MAGIC) || bytes.get(16..20) == Some(JSON) || named
+}
+
+/// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
+pub(super) fn open(file: FileId, bytes: &[u8], sink: &mut Sink) -> Option<Parts> {
+    let mut scan = Scan { file, bytes, sink, json: None, bin: None, chunks: 0 };
+    scan.header()?;
+    scan.chunks()?;
+    let Scan { json, bin, .. } = scan;
+    json.map(|json| Parts { json, bin, is_glb: true })
+}
+
+struct Scan<'a> {
+    file: FileId,
+    bytes: &'a [u8],
+    sink: &'a mut Sink,
+    json: Option<Range<usize>>,
+    bin: Option<Range<usize>>,
+    /// How many chunks came before.
+    chunks: usize,
+}
+
+impl Scan<'_> {
+    fn say(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
+        let offset = |at: usize| u32::try_from(at.min(self.bytes.len())).unwrap_or(u32::MAX);
+        let span = Span::new(self.file, offset(at.start), offset(at.end));
+        self.sink.push(Diagnostic::new(code, message).at(span, "").alias(alias));
+    }
+
+    fn word(&self, at: usize) -> Option<usize> {
+        let word = self.bytes.get(at..at + 4)?;
+        usize::try_from(u32::from_le_bytes([word[0], word[1], word[2], word[3]])).ok()
+    }
+
+    /// The header; `None` if what follows can't be trusted.
+    fn header(&mut self) -> Option<()> {
+        let code = &codes::GLB_HEADER;
+        let size = self.bytes.len();
+        if size >= MAGIC.len() && !self.bytes.starts_with(MAGIC) {
+            let found = String::from_utf8_lossy(&self.bytes[..4]).escape_debug().to_string();
+            self.say(code, "GLB_INVALID_MAGIC", 0..4, format!("the file starts with `{found}`, not with `glTF`"));
+            return None;
+        }
+        let (Some(version), Some(length)) = (self.word(4), self.word(8)) else {
+            let message = format!("the file ends within its header, after {size} of {HEADER} bytes");
+            self.say(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
+            return None;
+        };
+        if version != 2 {
+            self.say(code, "GLB_INVALID_VERSION", 4..8, format!("the container has version {version}, not 2"));
+            return None;
+        }
+        if length < HEADER {
+            let message = format!("the header gives the file a length of {length} bytes, less than its own");
+            self.say(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
+        }
+        Some(())
+    }
+
+    /// The chunks; `None` if the file ends within one.
+    fn chunks(&mut self) -> Option<()> {
+        let (declared, size) = (self.word(8)?, self.bytes.len());
+        let mut at = HEADER;
+        while at < declared.min(size) || (at < declared && at == HEADER) {
+            let (Some(length), Some(kind)) = (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER)) else {
+                let message = "the file ends within the header of a chunk".to_owned();
+                self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", at..size, message);
+                return None;
+            };
+            let kind = [kind[0], kind[1], kind[2], kind[3]];
+            let start = at + CHUNK_HEADER;
+            let end = start + length;
+            self.chunk(kind, at, start..end.min(size), end, declared);
+            if end > size {
+                let message = format!("the file ends {} bytes before its chunk does", end - size);
+                self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_DATA", size..size, message);
+                return None;
+            }
+            at = end;
+        }
+        if size > declared && at == declared {
+            let message = format!("{} bytes after the last chunk are ignored", size - declared);
+            self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
+        } else if at != declared {
+            let message = format!("the header gives the file a length of {declared} bytes, and it has {at}");
+            self.say(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
+        }
+        Some(())
+    }
+
+    /// One chunk, whose header is at `at` and whose content should end at `end`.
+    fn chunk(&mut self, kind: [u8; 4], at: usize, content: Range<usize>, end: usize, declared: usize) {
+        let (header, code) = (at..at + CHUNK_HEADER, &codes::GLB_CHUNK);
+        let name = shown(kind);
+        self.chunks += 1;
+        if !(end - content.start).is_multiple_of(4) {
+            let message = format!("the length of the {name} chunk is not a multiple of 4");
+            self.say(code, "GLB_CHUNK_LENGTH_UNALIGNED", header.clone(), message);
+        }
+        if end > declared {
+            let message = format!("the {name} chunk ends {} bytes after the file should", end - declared);
+            self.say(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
+        }
+        if self.chunks == 1 && kind != JSON {
+            let message = format!("the first chunk is of type {name}, not JSON");
+            self.say(code, "GLB_UNEXPECTED_FIRST_CHUNK", header.clone(), message);
+        }
+        if kind == BIN && content.is_empty() {
+            let message = "an empty binary chunk may as well be left out".to_owned();
+            self.say(&codes::GLTF_REMARK, "GLB_EMPTY_BIN_CHUNK", header.clone(), message);
+        }
+        if kind == BIN && self.chunks > 2 && self.bin.is_none() {
+            let message = "the binary chunk is not the second one".to_owned();
+            self.say(code, "GLB_UNEXPECTED_BIN_CHUNK", header.clone(), message);
+        }
+        if kind == JSON && content.is_empty() {
+            self.say(code, "GLB_EMPTY_CHUNK", header.clone(), "the JSON chunk is empty".to_owned());
+        }
+        let slot = match &kind[..] {
+            JSON => &mut self.json,
+            BIN => &mut self.bin,
+            _ => {
+                let message = format!("a chunk of the unknown type {name} is ignored");
+                return self.say(&codes::GLB_EXTRA, "GLB_UNKNOWN_CHUNK_TYPE", header, message);
+            }
+        };
+        if slot.is_some() {
+            let message = format!("this is the second {name} chunk");
+            self.say(code, "GLB_DUPLICATE_CHUNK", header, message);
+        } else if kind == BIN || !content.is_empty() {
+            *slot = Some(content);
+        }
+    }
+}
+
+/// The type of a chunk, for a message.
+fn shown(kind: [u8; 4]) -> String {
+    let letters: Vec<u8> = kind.into_iter().take_while(|byte| *byte != 0).collect();
+    if letters.iter().all(u8::is_ascii_graphic) && !letters.is_empty() {
+        String::from_utf8_lossy(&letters).into_owned()
+    } else {
+        format!("{:#010x}", u32::from_le_bytes(kind))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+
+    fn open_bytes(bytes: &[u8]) -> (Option<Parts>, Vec<&'static str>) {
+        let mut map = SourceMap::default();
+        let file = map.add("x.glb", bytes.to_vec());
+        let mut sink = Sink::default();
+        let parts = open(file, map.bytes(file), &mut sink);
+        (parts, sink.kept().iter().filter_map(|finding| finding.alias).collect())
+    }
+
+    fn glb(chunks: &[(&[u8], &[u8])]) -> Vec<u8> {
+        let body: Vec<u8> = chunks
+            .iter()
+            .flat_map(|(kind, content)| {
+                [&u32::try_from(content.len()).unwrap().to_le_bytes()[..], kind, content].concat()
+            })
+            .collect();
+        let length = u32::try_from(body.len() + HEADER).unwrap();
+        [MAGIC, &2u32.to_le_bytes()[..], &length.to_le_bytes()[..], &body].concat()
+    }
+
+    #[test]
+    fn parts_are_where_the_chunks_say() {
+        let bytes = glb(&[(JSON, b"{}  "), (BIN, b"12345678")]);
+        let (parts, faults) = open_bytes(&bytes);
+        assert_eq!(parts, Some(Parts { json: 20..24, bin: Some(32..40), is_glb: true }));
+        assert!(faults.is_empty(), "{faults:?}");
+    }
+
+    #[test]
+    fn every_cut_is_found() {
+        let bytes = glb(&[(JSON, b"{}  "), (BIN, b"12345678")]);
+        for length in 0..bytes.len() {
+            let (_, faults) = open_bytes(&bytes[..length]);
+            assert!(!faults.is_empty(), "cut to {length} bytes");
+        }
+    }
+}

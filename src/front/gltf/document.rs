@@ -1,0 +1,79 @@
+//! A whole asset, typed: every part with the node it was read from, references as indices.
+
+use super::accessor::Accessor;
+use super::animation::Animation;
+use super::buffer::{Buffer, View};
+use super::camera::Camera;
+use super::field::Fields;
+use super::image::Image;
+use super::json::{NodeId, Tree};
+use super::mesh::Mesh;
+use super::node::Node;
+use super::skin::Skin;
+use super::texture::{Sampler, Texture};
+
+/// An asset.
+#[derive(Debug)]
+pub(super) struct Document<'s> {
+    pub(super) buffers: Vec<Buffer<'s>>,
+    pub(super) views: Vec<View>,
+    pub(super) accessors: Vec<Accessor>,
+    pub(super) images: Vec<Image>,
+    pub(super) samplers: Vec<Sampler>,
+    pub(super) textures: Vec<Texture>,
+    /// Where each material was written; its many optional parts are read when it is lowered.
+    pub(super) materials: Vec<NodeId>,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) skins: Vec<Skin>,
+    pub(super) animations: Vec<Animation>,
+    pub(super) cameras: Vec<Camera>,
+    /// Where each light was written.
+    pub(super) lights: Vec<NodeId>,
+    pub(super) scenes: Vec<Scene>,
+    /// The names in `extensionsUsed`.
+    pub(super) extensions: Vec<String>,
+    /// It is a `.glb`.
+    pub(super) is_glb: bool,
+}
+
+/// A scene: the roots that it shows.
+#[derive(Debug)]
+pub(super) struct Scene {
+    pub(super) at: NodeId,
+    pub(super) nodes: Vec<usize>,
+}
+
+impl Document<'_> {
+    /// Reads the parts; buffers are still empty.
+    pub(super) fn read(json: &Tree<'_>, is_glb: bool) -> Self {
+        fn each<'t, 's: 't, T>(root: Fields<'t, 's>, key: &str, read: impl Fn(Fields<'t, 's>) -> T) -> Vec<T> {
+            root.objects(key).map(read).collect()
+        }
+        let root = Fields::new(json, json.root());
+        let lights = root.extension("KHR_lights_punctual");
+        let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
+        Self {
+            buffers: each(root, "buffers", Buffer::read),
+            views: each(root, "bufferViews", View::read),
+            accessors: each(root, "accessors", Accessor::read),
+            images: each(root, "images", Image::read),
+            samplers: each(root, "samplers", Sampler::read),
+            textures: each(root, "textures", Texture::read),
+            materials: each(root, "materials", |fields| fields.at),
+            meshes: each(root, "meshes", Mesh::read),
+            nodes: each(root, "nodes", Node::read),
+            skins: each(root, "skins", Skin::read),
+            animations: each(root, "animations", Animation::read),
+            cameras: each(root, "cameras", Camera::read),
+            lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
+            scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
+            extensions: texts.map(std::borrow::Cow::into_owned).collect(),
+            is_glb,
+        }
+    }
+
+    pub(super) fn uses(&self, extension: &str) -> bool {
+        self.extensions.iter().any(|name| name == extension)
+    }
+}

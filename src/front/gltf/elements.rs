@@ -1,0 +1,153 @@
+//! The elements of an accessor one after another, from packed, interleaved or sparse data, or none.
+
+use super::accessor::{Accessor, Component, Layout};
+use super::document::Document;
+
+/// The components of an element; a matrix has the most.
+pub(super) type Element = [f64; 16];
+
+/// Where the elements of an accessor are; all of them lie there.
+pub(super) struct Elements<'d> {
+    pub(super) layout: Layout,
+    pub(super) count: usize,
+    /// The first element and the bytes from one to the next; none for zeros.
+    base: Option<(&'d [u8], usize)>,
+    /// The indices and the elements in their places.
+    sparse: Option<(Integers<'d>, &'d [u8])>,
+}
+
+/// Whole numbers one after another.
+#[derive(Clone, Copy)]
+pub(super) struct Integers<'d> {
+    bytes: &'d [u8],
+    component: Component,
+}
+
+impl Integers<'_> {
+    pub(super) fn len(&self) -> usize {
+        self.bytes.len() / self.component.size()
+    }
+
+    pub(super) fn get(&self, at: usize) -> Option<usize> {
+        let size = self.component.size();
+        let bytes = self.bytes.get(at * size..(at + 1) * size)?;
+        Some(bytes.iter().rev().fold(0, |number, byte| number << 8 | usize::from(*byte)))
+    }
+}
+
+impl<'d> Elements<'d> {
+    /// The elements of an accessor; none if some of them can't be had.
+    pub(super) fn of(doc: &'d Document<'_>, accessor: &Accessor) -> Option<Self> {
+        let (layout, count) = (accessor.layout?, accessor.count?);
+        let base = match accessor.view {
+            None => None,
+            Some(view) => {
+                let stride = doc.views.get(view)?.stride.unwrap_or(layout.packed());
+                let end = stride.checked_mul(count - 1)?.checked_add(extent(layout))?;
+                let bytes = doc.view_bytes(view)?.get(accessor.offset..accessor.offset.checked_add(end)?)?;
+                (stride >= extent(layout)).then_some((bytes, stride))
+            }
+        };
+        if accessor.view.is_some() && base.is_none() {
+            return None;
+        }
+        let sparse = match &accessor.sparse {
+            None => None,
+            Some(sparse) => {
+                let part = |view, offset: usize, size: usize| {
+                    doc.view_bytes(view)?.get(offset..offset.checked_add(sparse.count.checked_mul(size)?)?)
+                };
+                let (view, offset, component) = sparse.indices;
+                let indices = Integers { bytes: part(view, offset, component.size())?, component };
+                let size = layout.components() * layout.component.size();
+                Some((indices, part(sparse.values.0, sparse.values.1, size)?))
+            }
+        };
+        Some(Self { layout, count, base, sparse })
+    }
+
+    /// The indices of the elements that are replaced.
+    pub(super) fn replaced(&self) -> Option<Integers<'d>> {
+        self.sparse.as_ref().map(|(indices, _)| *indices)
+    }
+
+    /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do are put in place.
+    pub(super) fn each(&self, mut see: impl FnMut(usize, &[f64])) {
+        let (layout, mut element) = (self.layout, Element::default());
+        let components = layout.components();
+        let mut next = self.replaced().and_then(|indices| indices.get(0));
+        let mut place = 0;
+        for at in 0..self.count {
+            if let (true, Some((indices, values))) = (next == Some(at), &self.sparse) {
+                let flat = Layout { columns: 1, rows: components, ..layout };
+                read(&values[place * flat.packed()..], flat, &mut element);
+                place += 1;
+                next = indices.get(place);
+            } else if let Some((bytes, stride)) = self.base {
+                read(&bytes[at * stride..], layout, &mut element);
+            } else {
+                element = Element::default();
+            }
+            see(at, &element[..components]);
+        }
+    }
+
+    /// All elements, of `N` components; integers as the fractions they stand for, if they are normalised.
+    pub(super) fn vectors<const N: usize>(&self) -> Vec<[f64; N]> {
+        let mut vectors = Vec::with_capacity(self.count);
+        self.each(|_, element| {
+            let mut vector = [0.0; N];
+            vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from));
+            vectors.push(vector);
+        });
+        vectors
+    }
+
+    /// All components as whole numbers, of elements that are indices.
+    pub(super) fn integers(&self) -> Vec<u32> {
+        let mut integers = Vec::with_capacity(self.count * self.layout.components());
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "the number of an u32, or cut off"
+        )]
+        self.each(|_, element| integers.extend(element.iter().map(|number| *number as u32)));
+        integers
+    }
+
+    /// What a component stands for (glTF 2.0, section 3.6.2.2).
+    pub(super) fn fraction(&self, number: f64) -> f64 {
+        match self.layout.component.range() {
+            Some([_, most]) if self.layout.normalized => (number / most).max(-1.0),
+            _ => number,
+        }
+    }
+}
+
+/// Bytes of an element from its first to its last component.
+fn extent(layout: Layout) -> usize {
+    layout.column() * (layout.columns - 1) + layout.rows * layout.component.size()
+}
+
+/// Reads one element that `bytes` start with.
+fn read(bytes: &[u8], layout: Layout, element: &mut Element) {
+    let size = layout.component.size();
+    for column in 0..layout.columns {
+        let bytes = &bytes[column * layout.column()..];
+        for row in 0..layout.rows {
+            element[column * layout.rows + row] = number(layout.component, &bytes[row * size..]);
+        }
+    }
+}
+
+fn number(component: Component, bytes: &[u8]) -> f64 {
+    let four = || [bytes[0], bytes[1], bytes[2], bytes[3]];
+    match component {
+        Component::I8 => f64::from(bytes[0].cast_signed()),
+        Component::U8 => f64::from(bytes[0]),
+        Component::I16 => f64::from(i16::from_le_bytes([bytes[0], bytes[1]])),
+        Component::U16 => f64::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        Component::U32 => f64::from(u32::from_le_bytes(four())),
+        Component::F32 => f64::from(f32::from_le_bytes(four())),
+    }
+}

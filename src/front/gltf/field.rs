@@ -1,0 +1,97 @@
+//! The properties of an object as values, once its shape was checked: what is absent or wrong is simply not there.
+
+use super::json::{Kind, NodeId, Tree};
+
+/// The object at a node.
+#[derive(Clone, Copy)]
+pub(super) struct Fields<'t, 's> {
+    pub(super) json: &'t Tree<'s>,
+    pub(super) at: NodeId,
+}
+
+impl<'t, 's> Fields<'t, 's> {
+    pub(super) fn new(json: &'t Tree<'s>, at: NodeId) -> Self {
+        Self { json, at }
+    }
+
+    pub(super) fn node(&self, key: &str) -> Option<NodeId> {
+        self.json.get(self.at, key)
+    }
+
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.node(key).is_some()
+    }
+
+    /// The object that `key` holds.
+    pub(super) fn object(&self, key: &str) -> Option<Self> {
+        let at = self.node(key).filter(|at| self.json.kind(*at) == Kind::Map)?;
+        Some(Self { at, ..*self })
+    }
+
+    /// The object of an extension.
+    pub(super) fn extension(&self, name: &str) -> Option<Self> {
+        self.object("extensions")?.object(name)
+    }
+
+    /// The objects of the list that `key` holds.
+    pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
+        let (json, list) = (self.json, self.node(key));
+        let list = list.filter(|list| json.kind(*list) == Kind::List);
+        list.into_iter().flat_map(|list| json.items(list)).map(|at| Self { json, at })
+    }
+
+    pub(super) fn whole(&self, key: &str) -> Option<u64> {
+        self.json.whole(self.node(key)?)
+    }
+
+    /// An index or a size.
+    pub(super) fn index(&self, key: &str) -> Option<usize> {
+        self.whole(key).and_then(|number| usize::try_from(number).ok())
+    }
+
+    pub(super) fn indices(&self, key: &str) -> Vec<usize> {
+        let items = self.json.list(self.at, key);
+        items.filter_map(|item| usize::try_from(self.json.whole(item)?).ok()).collect()
+    }
+
+    /// A finite number.
+    pub(super) fn number(&self, key: &str) -> Option<f64> {
+        self.json.number(self.node(key)?).filter(|number| number.is_finite())
+    }
+
+    pub(super) fn number_or(&self, key: &str, default: f64) -> f64 {
+        self.number(key).unwrap_or(default)
+    }
+
+    /// A list of finite numbers, whatever their number.
+    pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        let list = self.node(key).filter(|list| self.json.kind(*list) == Kind::List)?;
+        self.json.items(list).map(|item| self.json.number(item).filter(|number| number.is_finite())).collect()
+    }
+
+    /// A list of just so many finite numbers.
+    pub(super) fn vector<const N: usize>(&self, key: &str) -> Option<[f64; N]> {
+        self.numbers(key)?.try_into().ok()
+    }
+
+    pub(super) fn vector_or<const N: usize>(&self, key: &str, default: [f64; N]) -> [f64; N] {
+        self.vector(key).unwrap_or(default)
+    }
+
+    pub(super) fn truth(&self, key: &str) -> bool {
+        self.node(key).and_then(|node| self.json.truth(node)).unwrap_or_default()
+    }
+
+    pub(super) fn text(&self, key: &str) -> Option<String> {
+        self.json.text(self.node(key)?).map(std::borrow::Cow::into_owned)
+    }
+
+    /// True if `key` holds the text given.
+    pub(super) fn is(&self, key: &str, text: &str) -> bool {
+        self.node(key).is_some_and(|node| self.json.is(node, text))
+    }
+
+    pub(super) fn name(&self) -> String {
+        self.text("name").unwrap_or_default()
+    }
+}

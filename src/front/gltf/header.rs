@@ -1,0 +1,139 @@
+//! What an asset says about itself: its version and its extensions.
+
+use super::field::Fields;
+use super::report::{Report, shown};
+use super::schema;
+use crate::diag::codes;
+
+/// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of several vendors.
+const PREFIXES: &[&str] = &[
+    "3DTILES",
+    "ADOBE",
+    "AGI",
+    "AGT",
+    "ALCM",
+    "ALI",
+    "AMZN",
+    "ANIMECH",
+    "ASOBO",
+    "AVR",
+    "BLENDER",
+    "CAPTURE",
+    "CESIUM",
+    "CITRUS",
+    "CLO",
+    "CVTOOLS",
+    "EPIC",
+    "EXT",
+    "FB",
+    "FOXIT",
+    "FRAUNHOFER",
+    "GODOT",
+    "GOOGLE",
+    "GRIFFEL",
+    "INTEL",
+    "KDAB",
+    "KHR",
+    "LLQ",
+    "MAXAR",
+    "MESHOPT",
+    "MOZ",
+    "MPEG",
+    "MSFT",
+    "NEEDLE",
+    "NV",
+    "OFT",
+    "OMI",
+    "OWLII",
+    "PANDA3D",
+    "POLUTROPON",
+    "PTC",
+    "S8S",
+    "SEIN",
+    "SI",
+    "SKFB",
+    "SKYLINE",
+    "SOHU",
+    "SPECTRUM",
+    "TRYON",
+    "UX3D",
+    "VIZUALIST",
+    "VRMC",
+    "WEB3D",
+];
+
+/// Checks the version.
+pub(super) fn check_version(report: &mut Report<'_, '_>) {
+    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else { return };
+    let Some((at, (major, minor))) = version(asset, "version") else { return };
+    if major != 2 {
+        let message = format!("the asset is glTF {major}.{minor}, not 2");
+        report.say(&codes::GLTF_VERSION, "UNKNOWN_ASSET_MAJOR_VERSION", at, message);
+    } else if minor > 0 {
+        let message = format!("the asset is glTF {major}.{minor} and is read as 2.0");
+        report.say(&codes::GLTF_MINOR_VERSION, "UNKNOWN_ASSET_MINOR_VERSION", at, message);
+    }
+    let Some((at, least)) = version(asset, "minVersion") else { return };
+    if least > (major, minor) {
+        let message = format!("the asset needs glTF {}.{}, and says that it is {major}.{minor}", least.0, least.1);
+        report.say(&codes::GLTF_VERSION, "ASSET_MIN_VERSION_GREATER_THAN_VERSION", at, message);
+    } else if least > (2, 0) {
+        let message = format!("the asset needs glTF {}.{}, and this rtc reads 2.0", least.0, least.1);
+        report.say(&codes::GLTF_VERSION, "", at, message);
+    }
+}
+
+fn version(asset: Fields<'_, '_>, key: &str) -> Option<(super::json::NodeId, (u64, u64))> {
+    let text = asset.text(key)?;
+    let (major, minor) = text.split_once('.')?;
+    Some((asset.node(key)?, (major.parse().ok()?, minor.parse().ok()?)))
+}
+
+/// Checks the lists of extensions; one that is required and not supported is refused.
+pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
+    let json = report.json;
+    let texts = |key| -> Vec<_> { json.list(json.root(), key).filter_map(|at| Some((at, json.text(at)?))).collect() };
+    let (used, required) = (texts("extensionsUsed"), texts("extensionsRequired"));
+    let has_used = json.get(json.root(), "extensionsUsed").is_some();
+    if let Some(at) = json.get(json.root(), "extensionsRequired").filter(|_| !has_used) {
+        let message = "extensions are required, and none is listed in `extensionsUsed`".to_owned();
+        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+    }
+    for (at, name) in &required {
+        if has_used && !used.iter().any(|(_, own)| own == name) {
+            let message = format!("`{}` is required and not listed in `extensionsUsed`", shown(name));
+            report.say(&codes::GLTF_EXTENSION, "UNUSED_EXTENSION_REQUIRED", *at, message);
+        }
+        if !schema::is_supported(name) {
+            let message = format!("the asset requires the extension `{}`, which is not supported", shown(name));
+            let hint = "export the asset without it".to_owned();
+            report.advise(&codes::GLTF_REQUIRES, "UNSUPPORTED_EXTENSION", *at, message, hint);
+        }
+    }
+    for (at, name) in &used {
+        let is_required = required.iter().any(|(_, own)| own == name);
+        let needed = name == "KHR_mesh_quantization";
+        if needed && !is_required {
+            let message = format!("no reader can do without `{name}`, so it must be required");
+            report.say(&codes::GLTF_EXTENSION, "NON_REQUIRED_EXTENSION", *at, message);
+        }
+        if !is_required && !schema::is_supported(name) {
+            let message = format!("the extension `{}` has no effect", shown(name));
+            let alias =
+                if schema::find(name).is_none() { "UNSUPPORTED_EXTENSION" } else { "INCOMPLETE_EXTENSION_SUPPORT" };
+            report.say(&codes::GLTF_IGNORES, alias, *at, message);
+        }
+        match name.split_once('_') {
+            Some((prefix, rest)) if !prefix.is_empty() && !rest.is_empty() => {
+                if !PREFIXES.contains(&prefix) {
+                    let message = format!("`{}` is no registered prefix of extensions", shown(prefix));
+                    report.say(&codes::GLTF_EXTENSION_ODD, "UNRESERVED_EXTENSION_PREFIX", *at, message);
+                }
+            }
+            _ => {
+                let message = format!("`{}` is no name of an extension, as `KHR_lights_punctual` is", shown(name));
+                report.say(&codes::GLTF_EXTENSION_ODD, "INVALID_EXTENSION_NAME_FORMAT", *at, message);
+            }
+        }
+    }
+}

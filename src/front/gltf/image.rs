@@ -1,0 +1,196 @@
+//! Images: where their bytes are, what they say of themselves, and whether they can be decoded.
+
+use super::buffer::{Bytes, Purpose, Purposes};
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+use crate::image::{DecodeError, MAX_PIXELS, decode};
+
+/// An image.
+#[derive(Debug)]
+pub(super) struct Image {
+    pub(super) at: NodeId,
+    pub(super) name: String,
+    pub(super) view: Option<usize>,
+    /// What `mimeType`, or else a data URI, says.
+    pub(super) media: Option<String>,
+    /// What its first bytes say.
+    pub(super) format: Option<Format>,
+    /// The bytes of its file or URI; those of a view stay there.
+    pub(super) bytes: Option<Bytes<'static>>,
+    /// It was decoded once and is sound.
+    pub(super) is_sound: bool,
+}
+
+/// A format of images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Format {
+    Png,
+    Jpeg,
+    WebP,
+}
+
+impl Format {
+    pub(super) fn media(self) -> &'static str {
+        match self {
+            Self::Png => "image/png",
+            Self::Jpeg => "image/jpeg",
+            Self::WebP => "image/webp",
+        }
+    }
+
+    fn of(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+            Some(Self::Png)
+        } else if bytes.starts_with(b"\xff\xd8") {
+            Some(Self::Jpeg)
+        } else if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+            Some(Self::WebP)
+        } else {
+            None
+        }
+    }
+
+    /// True if the bytes end before the size of the image is told.
+    fn ends_early(self, bytes: &[u8]) -> bool {
+        match self {
+            Self::Png => bytes.len() < 33,
+            Self::Jpeg => jpeg_ends_early(bytes),
+            Self::WebP => bytes.len() < 30,
+        }
+    }
+}
+
+/// Walks over the segments of a JPEG up to its frame header.
+fn jpeg_ends_early(bytes: &[u8]) -> bool {
+    let mut at = 2;
+    loop {
+        match (bytes.get(at), bytes.get(at + 1)) {
+            (Some(0xff), Some(0xff)) => at += 1,
+            (Some(0xff), Some(0xc0..=0xc3 | 0xc5..=0xc7 | 0xc9..=0xcb | 0xcd..=0xcf)) => return bytes.len() < at + 9,
+            (Some(0xff), Some(0x01 | 0xd0..=0xd7)) => at += 2,
+            (Some(0xff), Some(_)) => match bytes.get(at + 2..at + 4) {
+                Some(length) => {
+                    let length = usize::from(u16::from_be_bytes([length[0], length[1]]));
+                    if length < 2 {
+                        return false;
+                    }
+                    at += 2 + length;
+                }
+                None => return true,
+            },
+            (Some(_), _) => return false,
+            (None, _) => return true,
+        }
+    }
+}
+
+impl Image {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        Self {
+            at: fields.at,
+            name: fields.name(),
+            view: fields.index("bufferView"),
+            media: fields.text("mimeType"),
+            format: None,
+            bytes: None,
+            is_sound: false,
+        }
+    }
+}
+
+impl Document<'_> {
+    /// The bytes of an image, if they can be had.
+    pub(super) fn image_bytes<'a>(&'a self, image: &'a Image) -> Option<&'a [u8]> {
+        match (&image.bytes, image.view) {
+            (Some(bytes), _) => Some(bytes),
+            (None, Some(view)) => self.view_bytes(view),
+            (None, None) => None,
+        }
+    }
+}
+
+/// Checks what is written about each image.
+pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
+    for image in &doc.images {
+        let fields = Fields::new(report.json, image.at);
+        if fields.has("uri") == fields.has("bufferView") {
+            let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
+            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
+        }
+        let Some(at) = fields.node("bufferView") else { continue };
+        if !fields.has("mimeType") {
+            let message = "an image in a buffer view has a `mimeType`, and this has none".to_owned();
+            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        }
+        purposes.set(image.view, Purpose::Image, at, report);
+        if image.view.and_then(|view| doc.views.get(view)).is_some_and(|view| view.stride.is_some()) {
+            let message = "the view of an image has a stride".to_owned();
+            report.say(&codes::GLTF_VIEW, "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", at, message);
+        }
+    }
+}
+
+/// Looks at the bytes of each image, and decodes it once to see that it is sound.
+pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    let mut budget = MAX_PIXELS;
+    for index in 0..doc.images.len() {
+        let image = &doc.images[index];
+        let Some(bytes) = doc.image_bytes(image) else { continue };
+        let (at, media) = (image.at, image.media.as_deref());
+        let Some(format) = Format::of(bytes) else {
+            let message = "the image is neither PNG nor JPEG nor WebP".to_owned();
+            report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_UNRECOGNIZED_FORMAT", at, message);
+            continue;
+        };
+        if let Some(media) = media.filter(|media| *media != format.media()) {
+            let message = format!("the image is {}, not {}, as is said", format.media(), super::report::shown(media));
+            report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
+        }
+        if format == Format::WebP && !doc.uses("EXT_texture_webp") {
+            let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
+            report.say(&codes::GLTF_IMAGE, "IMAGE_NON_ENABLED_MIME_TYPE", at, message);
+        }
+        let is_sound = format.ends_early(bytes).then(|| ends_early(at, report)).is_none()
+            && decodes(bytes, at, &mut budget, report);
+        let image = &mut doc.images[index];
+        (image.format, image.is_sound) = (Some(format), is_sound);
+    }
+}
+
+fn ends_early(at: NodeId, report: &mut Report<'_, '_>) {
+    let message = "the image ends before it tells its size".to_owned();
+    report.say(&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", at, message);
+}
+
+/// Decodes an image within the pixels that are left for all of them.
+fn decodes(bytes: &[u8], at: NodeId, budget: &mut u64, report: &mut Report<'_, '_>) -> bool {
+    match decode(bytes) {
+        Ok(pixels) => {
+            let count = u64::from(pixels.width) * u64::from(pixels.height);
+            if !pixels.width.is_power_of_two() || !pixels.height.is_power_of_two() {
+                let message = format!("the image has {} × {} pixels", pixels.width, pixels.height);
+                report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
+            }
+            if count > *budget {
+                let message = "the images together have more than 16384 × 16384 pixels".to_owned();
+                report.say(&codes::GLTF_HUGE_IMAGE, "", at, message);
+                return false;
+            }
+            *budget -= count;
+            true
+        }
+        Err(fault) => {
+            let message = format!("the image {fault}");
+            match fault {
+                DecodeError::TooLarge { width: _, height: _ } => report.say(&codes::GLTF_HUGE_IMAGE, "", at, message),
+                DecodeError::Format(_) | DecodeError::Damaged(_) => {
+                    report.say(&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID", at, message);
+                }
+            }
+            false
+        }
+    }
+}

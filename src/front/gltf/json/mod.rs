@@ -1,0 +1,259 @@
+//! JSON as one flat vector of nodes, each with the bytes it was written in and its way from the root.
+//!
+//! A list or map knows where its descendants end, so nothing recurses, and a node costs 24 bytes, whatever it is.
+
+mod scan;
+mod text;
+
+pub(super) use scan::parse;
+
+use crate::source::{FileId, Span};
+use std::borrow::Cow;
+
+/// Names a node of a [`Tree`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct NodeId(u32);
+
+/// What a node is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `null`.
+    Null,
+    /// `true` or `false`.
+    Truth,
+    /// A number.
+    Number,
+    /// A text; also each key of a map.
+    Text,
+    /// A list.
+    List,
+    /// A map: its keys and values are nodes in turn.
+    Map,
+}
+
+impl Kind {
+    /// As messages call it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Null => "null",
+            Self::Truth => "a truth value",
+            Self::Number => "a number",
+            Self::Text => "a text",
+            Self::List => "a list",
+            Self::Map => "an object",
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    start: u32,
+    end: u32,
+    /// One past the last descendant.
+    after: u32,
+    /// The list or map this node lies in; the root lies in itself.
+    parent: u32,
+    /// The index in a list; 0 elsewhere.
+    slot: u32,
+    kind: Kind,
+}
+
+/// A parsed text; offsets are those of the text, spans those of the file.
+#[derive(Debug)]
+pub(super) struct Tree<'s> {
+    text: &'s str,
+    base: u32,
+    file: FileId,
+    nodes: Vec<Node>,
+    twice: Vec<(NodeId, NodeId)>,
+}
+
+impl<'s> Tree<'s> {
+    /// The node of the whole document.
+    pub(super) fn root(&self) -> NodeId {
+        NodeId(0)
+    }
+
+    fn node(&self, id: NodeId) -> Node {
+        self.nodes[id.0 as usize]
+    }
+
+    /// What the node is.
+    pub(super) fn kind(&self, id: NodeId) -> Kind {
+        self.node(id).kind
+    }
+
+    /// Where the node was written.
+    pub(super) fn span(&self, id: NodeId) -> Span {
+        let node = self.node(id);
+        Span::new(self.file, node.start + self.base, node.end + self.base)
+    }
+
+    /// As written.
+    pub(super) fn written(&self, id: NodeId) -> &'s str {
+        let node = self.node(id);
+        &self.text[node.start as usize..node.end as usize]
+    }
+
+    /// The items of a list; of a map, its keys and values in turn.
+    pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+        let node = self.node(id);
+        let end = if matches!(node.kind, Kind::List | Kind::Map) { node.after } else { 0 };
+        let inside = move |id: u32| (id < end).then_some(NodeId(id));
+        std::iter::successors(inside(id.0 + 1), move |id| inside(self.node(*id).after))
+    }
+
+    /// The items of the list that `key` of a map holds; none if there is no such list.
+    pub(super) fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
+        let list = self.get(map, key).filter(|list| self.kind(*list) == Kind::List);
+        list.into_iter().flat_map(|list| self.items(list))
+    }
+
+    /// The keys and values of a map; of anything else, nothing.
+    pub(super) fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
+        let mut items = self.items(id).take(if self.kind(id) == Kind::Map { usize::MAX } else { 0 });
+        std::iter::from_fn(move || Some((items.next()?, items.next()?)))
+    }
+
+    /// The value of `key` in a map.
+    pub(super) fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
+        self.pairs(map).find(|(name, _)| self.is(*name, key)).map(|(_, value)| value)
+    }
+
+    /// The value at the end of a way of keys.
+    pub(super) fn at(&self, map: NodeId, keys: &[&str]) -> Option<NodeId> {
+        keys.iter().try_fold(map, |map, key| self.get(map, key))
+    }
+
+    /// The value of `key`, or the map itself where it has none: the best place to point at.
+    pub(super) fn at_or(&self, map: NodeId, key: &str) -> NodeId {
+        self.get(map, key).unwrap_or(map)
+    }
+
+    /// True if the node is the text given.
+    pub(super) fn is(&self, id: NodeId, text: &str) -> bool {
+        self.text(id).is_some_and(|own| own == text)
+    }
+
+    /// The text of a text.
+    pub(super) fn text(&self, id: NodeId) -> Option<Cow<'s, str>> {
+        (self.kind(id) == Kind::Text).then(|| text::value(self.written(id)))
+    }
+
+    /// The number of a number; infinite if a 64-bit float can't hold it.
+    pub(super) fn number(&self, id: NodeId) -> Option<f64> {
+        let written = self.written(id);
+        (self.kind(id) == Kind::Number).then(|| written.parse().unwrap_or(f64::INFINITY))
+    }
+
+    /// The number of a number that is whole, not negative and below 2^53, however it is written.
+    pub(super) fn whole(&self, id: NodeId) -> Option<u64> {
+        const EXACT: f64 = 9_007_199_254_740_992.0;
+        let number = self.number(id).filter(|number| (0.0..EXACT).contains(number) && number.fract() == 0.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range, see above")]
+        number.map(|number| number as u64)
+    }
+
+    /// The truth of a truth value.
+    pub(super) fn truth(&self, id: NodeId) -> Option<bool> {
+        (self.kind(id) == Kind::Truth).then(|| self.written(id) == "true")
+    }
+
+    /// The keys that stand twice in their map: an earlier one and a later.
+    pub(super) fn twice(&self) -> &[(NodeId, NodeId)] {
+        &self.twice
+    }
+
+    /// The list or map the node lies in; the root lies in itself.
+    pub(super) fn parent(&self, id: NodeId) -> NodeId {
+        NodeId(self.node(id).parent)
+    }
+
+    /// The way from the root to the node, a JSON pointer (RFC 6901).
+    pub(super) fn pointer(&self, id: NodeId) -> String {
+        let mut steps = Vec::new();
+        let mut at = id;
+        while at != self.root() {
+            let node = self.node(at);
+            let parent = NodeId(node.parent);
+            steps.push(if self.kind(parent) == Kind::List { node.slot.to_string() } else { self.key(at) });
+            at = parent;
+        }
+        steps.iter().rev().map(|step| format!("/{}", step.replace('~', "~0").replace('/', "~1"))).collect()
+    }
+
+    /// The key of a value of a map; of a key, itself.
+    fn key(&self, id: NodeId) -> String {
+        let before = NodeId(id.0 - 1);
+        let node = self.node(id);
+        let is_key = self.text.as_bytes()[node.end as usize..].trim_ascii_start().first() == Some(&b':');
+        self.text(if is_key { id } else { before }).unwrap_or_default().into_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::SourceMap;
+
+    fn file() -> FileId {
+        SourceMap::default().add("x", Vec::new())
+    }
+
+    #[test]
+    fn nodes_know_their_way_and_their_bytes() {
+        let text = r#" {"a": [1, {"b/c": "x\u00e9\ud83d\ude00"}, true], "d": {}, "e": -2.5e1} "#;
+        let tree = parse(file(), 10, text).unwrap();
+        let at = |keys: &[&str]| tree.at(tree.root(), keys).unwrap();
+        let inner = tree.items(at(&["a"])).nth(1).unwrap();
+        let text = tree.get(inner, "b/c").unwrap();
+        assert_eq!((tree.pointer(text).as_str(), tree.text(text).unwrap().as_ref()), ("/a/1/b~1c", "xé😀"));
+        assert_eq!((tree.number(at(&["e"])), tree.whole(at(&["e"]))), (Some(-25.0), None));
+        assert_eq!(tree.items(at(&["a"])).filter_map(|id| tree.truth(id)).next(), Some(true));
+        assert_eq!((tree.pairs(at(&["d"])).count(), tree.pairs(tree.root()).count()), (0, 3));
+        assert_eq!(tree.span(tree.root()).start, 11);
+        let (key, _) = tree.pairs(tree.root()).nth(1).unwrap();
+        assert_eq!(tree.pointer(key), "/d");
+    }
+
+    #[test]
+    fn what_is_no_json_is_found_where_it_is() {
+        for (text, at) in [
+            ("", 0),
+            ("{", 1),
+            ("[1,]", 3),
+            ("{\"a\" 1}", 5),
+            ("{\"a\":1,}", 7),
+            ("01", 1),
+            ("1.", 2),
+            ("tru", 0),
+            ("\"a", 2),
+            ("\"\\x\"", 1),
+            ("[1 2]", 3),
+            ("{} {}", 3),
+            ("\"\n\"", 1),
+            ("-", 1),
+            ("1e", 2),
+            ("nan", 0),
+        ] {
+            assert_eq!(parse(file(), 0, text).unwrap_err().at, at, "{text}");
+        }
+    }
+
+    #[test]
+    fn keys_that_stand_twice_are_found_in_small_maps_and_large() {
+        let twice = |text: &str| {
+            let tree = parse(file(), 0, text).unwrap();
+            tree.twice().iter().map(|(_, later)| tree.span(*later).start as usize).collect::<Vec<_>>()
+        };
+        assert_eq!(twice(r#"{"a":1,"\u0061":2}"#), [7]);
+        let many: String = (0..100).map(|key| format!("\"{key}\":0,")).collect();
+        assert_eq!(twice(&format!("{{{many}\"50\":1}}")), [many.len() + 1]);
+    }
+
+    #[test]
+    fn depth_is_bounded() {
+        assert!(parse(file(), 0, &("[".repeat(500) + &"]".repeat(500))).is_ok());
+        assert_eq!(parse(file(), 0, &"[".repeat(100_000)).unwrap_err().at, 512);
+    }
+}

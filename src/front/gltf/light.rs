@@ -1,0 +1,29 @@
+//! Punctual lights: what goes together.
+
+use super::document::Document;
+use super::field::Fields;
+use super::report::Report;
+use crate::diag::codes;
+
+/// Checks all lights.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for light in &doc.lights {
+        let fields = Fields::new(report.json, *light);
+        if fields.is("type", "spot") && !fields.has("spot") {
+            let message = "the light has no `spot`".to_owned();
+            report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", fields.at, message);
+        }
+        if let Some(at) = fields.node("range").filter(|_| fields.is("type", "directional")) {
+            let message = "a directional light reaches everywhere".to_owned();
+            report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
+        }
+        let Some(spot) = fields.object("spot") else { continue };
+        let inner = spot.number_or("innerConeAngle", 0.0);
+        let outer = spot.number_or("outerConeAngle", std::f64::consts::FRAC_PI_4);
+        if outer <= inner {
+            let at = report.json.at_or(spot.at, "outerConeAngle");
+            let message = format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
+            report.say(&codes::GLTF_VALUE, "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", at, message);
+        }
+    }
+}

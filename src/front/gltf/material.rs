@@ -1,0 +1,147 @@
+//! Materials: what can be said of them without looking at their textures.
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::{Kind, NodeId, Tree};
+use super::report::Report;
+use crate::diag::codes;
+
+/// Each texture of a material with the set of texture coordinates it asks for.
+pub(super) fn texture_coordinates(json: &Tree<'_>, material: NodeId) -> Vec<(NodeId, u64)> {
+    let parts = json.at(material, &["pbrMetallicRoughness"]).into_iter();
+    let extensions = json.get(material, "extensions").into_iter().flat_map(|all| json.pairs(all).map(|(_, one)| one));
+    let holders = std::iter::once(material).chain(parts).chain(extensions);
+    let mut found = Vec::new();
+    for (key, at) in holders.flat_map(|holder| json.pairs(holder)) {
+        let is_texture = json.text(key).is_some_and(|key| key.ends_with("Texture")) && json.kind(at) == Kind::Map;
+        if !is_texture || json.get(at, "index").is_none() {
+            continue;
+        }
+        let fields = Fields::new(json, at);
+        let transform =
+            fields.extension("KHR_texture_transform").and_then(|fields| Some((fields.at, fields.whole("texCoord")?)));
+        found.push(transform.unwrap_or((at, fields.whole("texCoord").unwrap_or(0))));
+    }
+    found
+}
+
+/// Checks all materials.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for material in &doc.materials {
+        let fields = Fields::new(report.json, *material);
+        if let Some(at) = fields.node("alphaCutoff").filter(|_| !fields.is("alphaMode", "MASK")) {
+            let message = "the cutoff has no effect without the mode `MASK`".to_owned();
+            report.say(&codes::GLTF_MATERIAL_ODD, "MATERIAL_ALPHA_CUTOFF_INVALID_MODE", at, message);
+        }
+        check_models(fields, report);
+        check_ior(fields, report);
+        check_iridescence(fields, report);
+        check_volume(fields, report);
+        check_coats(fields, report);
+        check_emission(fields, report);
+    }
+}
+
+/// Unlit and specular-glossiness replace the model that other extensions extend.
+fn check_models(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(extensions) = fields.node("extensions") else { return };
+    let count = report.json.pairs(extensions).count();
+    for name in ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"] {
+        if let Some(one) = fields.extension(name).filter(|_| count > 1) {
+            let message = format!("`{name}` does not go together with other extensions");
+            report.say(&codes::GLTF_EXTENSION_ODD, "MULTIPLE_EXTENSIONS", one.at, message);
+        }
+    }
+}
+
+fn check_ior(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(ior) = fields.extension("KHR_materials_ior") else { return };
+    if let (Some(at), Some(value)) = (ior.node("ior"), ior.number("ior"))
+        && value > 0.0
+        && value < 1.0
+    {
+        let message = format!("the index of refraction is {value}, neither 0 nor 1 or more");
+        report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", at, message);
+    }
+}
+
+fn check_iridescence(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(film) = fields.extension("KHR_materials_iridescence") else { return };
+    let [least, most] =
+        [film.number_or("iridescenceThicknessMinimum", 100.0), film.number_or("iridescenceThicknessMaximum", 400.0)];
+    let texture = film.has("iridescenceThicknessTexture");
+    if let Some(at) = film.node("iridescenceThicknessMinimum").filter(|_| !texture) {
+        let message = "the least thickness has no effect without a texture".to_owned();
+        let alias = "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE";
+        report.say(&codes::GLTF_REMARK, alias, at, message);
+    }
+    if texture && least > most {
+        let message = format!("the least thickness is {least}, above the greatest, which is {most}");
+        report.say(&codes::GLTF_VALUE, "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID", film.at, message);
+    } else if texture && least - most == 0.0 {
+        let at = report.json.at_or(film.at, "iridescenceThicknessTexture");
+        let message = "the texture has no effect: the least thickness is the greatest".to_owned();
+        report.say(&codes::GLTF_REMARK, "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED", at, message);
+    }
+}
+
+fn check_volume(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(volume) = fields.extension("KHR_materials_volume") else { return };
+    let code = &codes::GLTF_MATERIAL_ODD;
+    let entered = ["KHR_materials_transmission", "KHR_materials_diffuse_transmission"];
+    if !entered.iter().any(|name| fields.extension(name).is_some()) {
+        let message = "no light enters the volume: the material has no transmission".to_owned();
+        report.say(code, "KHR_MATERIALS_VOLUME_NO_TRANSMISSION", volume.at, message);
+    }
+    if fields.truth("doubleSided") && volume.number_or("thicknessFactor", 0.0) > 0.0 {
+        let message = "a volume has one outside, and the material two".to_owned();
+        report.say(code, "KHR_MATERIALS_VOLUME_DOUBLE_SIDED", volume.at, message);
+    }
+}
+
+/// Textures that share tangents use the texture coordinates of the normal map.
+fn check_coats(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let set = |texture: Fields<'_, '_>| texture.whole("texCoord").unwrap_or(0);
+    let Some(normal) = fields.object("normalTexture").map(set) else { return };
+    for (name, key, alias) in [
+        (
+            "KHR_materials_clearcoat",
+            "clearcoatNormalTexture",
+            "KHR_MATERIALS_CLEARCOAT_CLEARCOAT_NORMAL_TEXTURE_TEXCOORD",
+        ),
+        ("KHR_materials_anisotropy", "anisotropyTexture", "KHR_MATERIALS_ANISOTROPY_ANISOTROPY_TEXTURE_TEXCOORD"),
+    ] {
+        let texture = fields.extension(name).and_then(|fields| fields.object(key));
+        if let Some(texture) = texture.filter(|texture| set(*texture) != normal) {
+            let message = "the texture and the normal map use different texture coordinates".to_owned();
+            report.say(&codes::GLTF_MATERIAL_ODD, alias, texture.at, message);
+        }
+    }
+}
+
+fn check_emission(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(strength) = fields.extension("KHR_materials_emissive_strength") else { return };
+    if fields.vector_or("emissiveFactor", [0.0; 3]).iter().all(|channel| *channel == 0.0) {
+        let message = "nothing emits: the emissive factor is zero".to_owned();
+        report.say(&codes::GLTF_MATERIAL_ODD, "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR", strength.at, message);
+    }
+}
+
+/// Checks that each primitive has one material a variant.
+pub(super) fn check_variants(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for primitive in doc.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        let Some(variants) = Fields::new(report.json, primitive.at).extension("KHR_materials_variants") else {
+            continue;
+        };
+        let mut seen = std::collections::BTreeSet::new();
+        for mapping in variants.objects("mappings") {
+            for item in report.json.list(mapping.at, "variants") {
+                let Some(variant) = report.json.whole(item) else { continue };
+                if !seen.insert(variant) {
+                    let message = format!("the primitive has a material for variant {variant} already");
+                    report.say(&codes::GLTF_DUPLICATE, "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", item, message);
+                }
+            }
+        }
+    }
+}

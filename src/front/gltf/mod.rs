@@ -1,0 +1,155 @@
+//! glTF 2.0, from bytes to an asset that is known to be sound: container, JSON, structure, references, contents.
+//!
+//! All mistakes are reported, each with its bytes and its JSON pointer. Nothing recurses, nothing is read outside the
+//! folder of the asset, and what the asset claims is looked at before memory is taken.
+
+mod accessor;
+mod animation;
+mod attribute;
+mod buffer;
+mod camera;
+mod container;
+mod contents;
+mod document;
+mod elements;
+mod field;
+mod header;
+mod image;
+mod json;
+mod light;
+mod material;
+mod mesh;
+mod node;
+mod report;
+mod resource;
+mod schema;
+mod skin;
+mod texture;
+mod uri;
+mod usage;
+
+use super::Options;
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::source::{FileId, Search, SourceMap, Span};
+use buffer::Purposes;
+use container::Parts;
+use contents::Demands;
+use document::Document;
+use json::Tree;
+use report::Report;
+use resource::Resources;
+use usage::Usages;
+
+/// The mark that some programs put before a text, and glTF forbids.
+const BOM: &str = "\u{feff}";
+
+/// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is that of the file.
+#[must_use]
+pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+    let text = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes).trim_ascii_start();
+    let named = name.len() >= 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..] == *".gltf";
+    let is_json = text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""));
+    let says_so = || memchr::memmem::find(text, b"\"asset\"").is_some();
+    container::is_glb(name, bytes) || named || (is_json && says_so())
+}
+
+/// Checks an asset; the sink says what is wrong with it.
+pub fn check(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) {
+    let bytes = map.bytes(file);
+    let Some(parts) = parts(file, map, sink) else { return };
+    let Some((base, text)) = text(file, bytes, &parts, sink) else { return };
+    let tree = match json::parse(file, base, text) {
+        Ok(tree) => tree,
+        Err(fault) => {
+            let at = base + u32::try_from(fault.at).unwrap_or(u32::MAX - base);
+            sink.push(not_json(Span::new(file, at, at), &format!("the text is not JSON: {}", fault.what)));
+            return;
+        }
+    };
+    keys_twice(&tree, sink);
+    let mut report = Report::new(&tree, sink, options);
+    let search = Search::new(map.folder(file), options.asset_root.as_deref());
+    let chunk = parts.bin.map(|range| &bytes[range]);
+    read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
+}
+
+fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
+    let bytes = map.bytes(file);
+    if container::is_glb(map.name(file), bytes) {
+        container::open(file, bytes, sink)
+    } else {
+        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false })
+    }
+}
+
+/// The text of an asset, and where it begins in its file.
+fn text<'s>(file: FileId, bytes: &'s [u8], parts: &Parts, sink: &mut Sink) -> Option<(u32, &'s str)> {
+    let offset = |at: usize| u32::try_from(parts.json.start + at).unwrap_or(u32::MAX);
+    let text = match std::str::from_utf8(&bytes[parts.json.clone()]) {
+        Ok(text) => text,
+        Err(error) => {
+            let at = offset(error.valid_up_to());
+            sink.push(not_json(Span::new(file, at, at + 1), "the text is not UTF-8"));
+            return None;
+        }
+    };
+    let Some(rest) = text.strip_prefix(BOM) else { return Some((offset(0), text)) };
+    sink.push(not_json(Span::new(file, offset(0), offset(BOM.len())), "the text starts with a byte order mark"));
+    Some((offset(BOM.len()), rest))
+}
+
+fn not_json(span: Span, message: &str) -> Diagnostic {
+    Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(span, "here").alias("INVALID_JSON")
+}
+
+fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
+    for (first, second) in tree.twice() {
+        let key = report::shown(&tree.text(*second).unwrap_or_default());
+        let message = format!("the key `{key}` stands twice in one object");
+        let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
+        sink.push(finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second)));
+    }
+}
+
+/// Checks the asset from its JSON to its contents.
+fn read<'s>(
+    tree: &'s Tree<'s>,
+    (is_glb, chunk): (bool, Option<&'s [u8]>),
+    mut resources: Resources,
+    report: &mut Report<'_, 's>,
+) -> Document<'s> {
+    schema::walk(report);
+    header::check_version(report);
+    header::check_extensions(report);
+    let mut doc = Document::read(tree, is_glb);
+    resources.bring_buffers(&mut doc, chunk, report);
+    resources.bring_images(&mut doc, report);
+    let demands = check_links(&doc, report);
+    contents::check(&doc, demands, report);
+    image::inspect(&mut doc, report);
+    texture::check(&doc, report);
+    doc
+}
+
+/// Checks how the parts fit together; what that asks of the accessors comes back.
+fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
+    let mut purposes = Purposes::new(doc);
+    let mut usages = Usages::new(doc.accessors.len());
+    let mut demands = Demands::default();
+    buffer::check(doc, report);
+    accessor::check(doc, &mut purposes, report);
+    accessor::check_claims(doc, &[], report);
+    image::check(doc, &mut purposes, report);
+    camera::check(doc, report);
+    light::check(doc, report);
+    material::check(doc, report);
+    material::check_variants(doc, report);
+    let mut streams = std::collections::BTreeMap::new();
+    let mut links =
+        mesh::Links { purposes: &mut purposes, usages: &mut usages, demands: &mut demands, streams: &mut streams };
+    mesh::check(doc, &mut links, report);
+    let forest = node::check(doc, report);
+    skin::check(doc, &forest, (&mut purposes, &mut usages, &mut demands), report);
+    animation::check(doc, &mut (&mut purposes, &mut usages, &mut demands), report);
+    demands
+}

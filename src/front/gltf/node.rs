@@ -1,0 +1,235 @@
+//! Nodes: transformations and the tree that they form, found without recursion, however deep it is.
+
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::mesh::Mesh;
+use super::report::Report;
+use crate::diag::codes;
+
+/// How far a rotation may be from length 1.
+const UNIT: f64 = 0.007_69;
+const IDENTITY: [f64; 16] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+
+/// A node.
+#[derive(Debug)]
+pub(super) struct Node {
+    pub(super) at: NodeId,
+    pub(super) name: String,
+    pub(super) transform: Transform,
+    pub(super) children: Vec<usize>,
+    pub(super) mesh: Option<usize>,
+    pub(super) skin: Option<usize>,
+    pub(super) camera: Option<usize>,
+    pub(super) light: Option<usize>,
+    /// The weights of morph targets, in place of those of the mesh.
+    pub(super) weights: Vec<f64>,
+    /// What it shows does show.
+    pub(super) visible: bool,
+    /// Accessors that place many of its mesh: translation, rotation, scale.
+    pub(super) instances: Option<[Option<usize>; 3]>,
+}
+
+/// How a node is placed in its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Transform {
+    /// Column by column.
+    Matrix([f64; 16]),
+    /// Scale first, then rotation, then translation.
+    Parts { translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3] },
+}
+
+impl Node {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let parts = Transform::Parts {
+            translation: fields.vector_or("translation", [0.0; 3]),
+            rotation: fields.vector_or("rotation", [0.0, 0.0, 0.0, 1.0]),
+            scale: fields.vector_or("scale", [1.0; 3]),
+        };
+        let instancing = fields.extension("EXT_mesh_gpu_instancing").and_then(|fields| fields.object("attributes"));
+        Self {
+            at: fields.at,
+            name: fields.name(),
+            transform: fields.vector("matrix").map_or(parts, Transform::Matrix),
+            children: fields.indices("children"),
+            mesh: fields.index("mesh"),
+            skin: fields.index("skin"),
+            camera: fields.index("camera"),
+            light: fields.extension("KHR_lights_punctual").and_then(|fields| fields.index("light")),
+            weights: fields.numbers("weights").unwrap_or_default(),
+            visible: fields
+                .extension("KHR_node_visibility")
+                .is_none_or(|fields| !fields.has("visible") || fields.truth("visible")),
+            instances: instancing.map(|fields| ["TRANSLATION", "ROTATION", "SCALE"].map(|name| fields.index(name))),
+        }
+    }
+}
+
+/// Who is whose parent.
+pub(super) struct Forest {
+    pub(super) parents: Vec<Option<usize>>,
+    /// The root above each node; none in a loop.
+    pub(super) roots: Vec<Option<usize>>,
+}
+
+/// Checks each node, and that they form trees.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
+    for node in &doc.nodes {
+        check_transform(node, report);
+        check_mesh(doc, node, report);
+        check_empty(node, report);
+    }
+    let mut parents = vec![None; doc.nodes.len()];
+    for (index, node) in doc.nodes.iter().enumerate() {
+        for (place, child) in node.children.iter().enumerate() {
+            match parents.get_mut(*child) {
+                Some(parent @ None) => *parent = Some(index),
+                Some(Some(parent)) if *parent != index => {
+                    let before = std::mem::replace(parent, index);
+                    let list = report.json.at_or(node.at, "children");
+                    let at = report.json.items(list).nth(place).unwrap_or(list);
+                    let message = format!("node {child} is a child of node {before} already");
+                    report.say(&codes::GLTF_NODES, "NODE_PARENT_OVERRIDE", at, message);
+                }
+                Some(Some(_)) | None => {}
+            }
+        }
+    }
+    let roots = roots(doc, &parents, report);
+    for scene in &doc.scenes {
+        for (place, node) in scene.nodes.iter().enumerate() {
+            if parents.get(*node).is_some_and(Option::is_some) {
+                let list = report.json.at_or(scene.at, "nodes");
+                let at = report.json.items(list).nth(place).unwrap_or(list);
+                let message = format!("node {node} is a child, and a scene lists roots");
+                report.say(&codes::GLTF_NODES, "SCENE_NON_ROOT_NODE", at, message);
+            }
+        }
+    }
+    Forest { parents, roots }
+}
+
+/// Walks up from each node until one whose root is known; a walk that meets itself is a loop.
+fn roots(doc: &Document<'_>, parents: &[Option<usize>], report: &mut Report<'_, '_>) -> Vec<Option<usize>> {
+    #[derive(Clone, Copy)]
+    enum State {
+        New,
+        OnWay,
+        Done(Option<usize>),
+    }
+    let mut states = vec![State::New; parents.len()];
+    for start in 0..parents.len() {
+        let (mut way, mut at): (Vec<usize>, usize) = (Vec::new(), start);
+        let root = loop {
+            match states[at] {
+                State::Done(root) => break root,
+                State::OnWay => {
+                    let first = way.iter().position(|node| *node == at).unwrap_or(0);
+                    for node in &way[first..] {
+                        let message = format!("node {node} lies below itself");
+                        report.say(&codes::GLTF_NODES, "NODE_LOOP", doc.nodes[*node].at, message);
+                    }
+                    break None;
+                }
+                State::New => {
+                    states[at] = State::OnWay;
+                    way.push(at);
+                    match parents[at] {
+                        Some(parent) => at = parent,
+                        None => break Some(at),
+                    }
+                }
+            }
+        };
+        way.into_iter().for_each(|node| states[node] = State::Done(root));
+    }
+    let root = |state: &State| if let State::Done(root) = state { *root } else { None };
+    states.iter().map(root).collect()
+}
+
+fn check_transform(node: &Node, report: &mut Report<'_, '_>) {
+    match node.transform {
+        Transform::Matrix(matrix) => {
+            let at = report.json.at_or(node.at, "matrix");
+            let fields = Fields::new(report.json, node.at);
+            if ["translation", "rotation", "scale"].iter().any(|key| fields.has(key)) {
+                let message = "a node has a matrix or its parts, not both".to_owned();
+                report.say(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
+            }
+            if matrix == IDENTITY {
+                let message = "the matrix is the one that a node has anyway".to_owned();
+                report.say(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
+            } else if !is_invertible(&matrix) {
+                let message = "the matrix is not made of translation, rotation and scale".to_owned();
+                report.say(&codes::GLTF_MATRIX, "NODE_MATRIX_NON_TRS", at, message);
+            } else if is_sheared(&matrix) {
+                let message = "the matrix shears, which not all readers of glTF follow".to_owned();
+                report.say(&codes::GLTF_REMARK, "", at, message);
+            }
+        }
+        Transform::Parts { translation: _, rotation, scale: _ } => {
+            let length = rotation.iter().map(|part| part * part).sum::<f64>().sqrt();
+            if (length - 1.0).abs() > UNIT {
+                let at = report.json.at_or(node.at, "rotation");
+                let message = format!("the rotation has length {length}, not 1");
+                report.say(&codes::GLTF_VALUE, "ROTATION_NON_UNIT", at, message);
+            }
+        }
+    }
+}
+
+fn columns(matrix: &[f64; 16]) -> [glam::DVec3; 3] {
+    [0, 4, 8].map(|at| glam::DVec3::new(matrix[at], matrix[at + 1], matrix[at + 2]))
+}
+
+/// True if a matrix is affine and keeps space three-dimensional.
+fn is_invertible(matrix: &[f64; 16]) -> bool {
+    let [x, y, z] = columns(matrix);
+    let last_row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
+    last_row.iter().all(|part| *part == 0.0) && x.cross(y).dot(z) != 0.0
+}
+
+/// True if the axes are not at right angles, to within what 32-bit floats and careless exporters leave.
+fn is_sheared(matrix: &[f64; 16]) -> bool {
+    const RIGHT_ANGLE: f64 = 1e-3;
+    let [x, y, z] = columns(matrix).map(glam::DVec3::normalize_or_zero);
+    [x.dot(y), y.dot(z), z.dot(x)].iter().any(|cosine| cosine.abs() > RIGHT_ANGLE)
+}
+
+fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
+    let mesh = node.mesh.and_then(|mesh| doc.meshes.get(mesh));
+    let fields = Fields::new(report.json, node.at);
+    if let Some(at) = fields.node("weights") {
+        let targets = mesh.map_or(0, Mesh::targets);
+        if node.mesh.is_none() {
+            let message = "there are weights, and no mesh that they could move".to_owned();
+            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+        } else if mesh.is_some() && node.weights.len() != targets {
+            let message = format!("{} weights for {targets} morph targets", node.weights.len());
+            report.say(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
+        }
+    }
+    if let Some(at) = fields.node("skin").filter(|_| !fields.has("mesh")) {
+        let message = "there is a skin, and no mesh that it could move".to_owned();
+        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+    }
+    match (mesh, node.skin) {
+        (Some(mesh), Some(_)) if !mesh.is_skinned() => {
+            let message = "the node has a skin, and its mesh no joints".to_owned();
+            report.say(&codes::GLTF_SKIN, "NODE_SKIN_WITH_NON_SKINNED_MESH", node.at, message);
+        }
+        (Some(mesh), None) if mesh.is_skinned() => {
+            let message = "the mesh has joints, and the node no skin".to_owned();
+            report.say(&codes::GLTF_SKIN_ODD, "NODE_SKINNED_MESH_WITHOUT_SKIN", node.at, message);
+        }
+        (_, _) => {}
+    }
+}
+
+fn check_empty(node: &Node, report: &mut Report<'_, '_>) {
+    let fields = Fields::new(report.json, node.at);
+    let says = ["children", "mesh", "camera", "extensions", "extras"];
+    if !says.iter().any(|key| fields.has(key)) {
+        report.say(&codes::GLTF_REMARK, "NODE_EMPTY", node.at, "the node holds nothing");
+    }
+}

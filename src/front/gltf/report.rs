@@ -1,0 +1,80 @@
+//! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator of Khronos has for it.
+
+use super::json::{NodeId, Tree};
+use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
+use crate::front::Options;
+
+/// Takes the findings about one asset.
+pub(super) struct Report<'r, 's> {
+    /// The text that they are about.
+    pub(super) json: &'r Tree<'s>,
+    sink: &'r mut Sink,
+    options: &'r Options,
+}
+
+impl<'r, 's> Report<'r, 's> {
+    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options) -> Self {
+        Self { json, sink, options }
+    }
+
+    /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
+    pub(super) fn say(&mut self, code: &'static Code, alias: &'static str, at: NodeId, message: impl Into<String>) {
+        let finding = self.finding(code, alias, at, message.into());
+        self.sink.push(finding);
+    }
+
+    /// The same, with what to do.
+    pub(super) fn advise(
+        &mut self,
+        code: &'static Code,
+        alias: &'static str,
+        at: NodeId,
+        message: String,
+        hint: String,
+    ) {
+        let finding = self.finding(code, alias, at, message);
+        self.sink.push(finding.hint(hint));
+    }
+
+    fn finding(&self, code: &'static Code, alias: &'static str, at: NodeId, message: String) -> Diagnostic {
+        debug_assert!(alias.is_empty() || code.aliases.contains(&alias), "{code} has no alias {alias}");
+        let pointer = self.json.pointer(at);
+        let label = if pointer.is_empty() { "the asset".to_owned() } else { pointer.clone() };
+        Diagnostic::new(code, message)
+            .severity(self.severity(code))
+            .at(self.json.span(at), label)
+            .pointer(pointer)
+            .alias((!alias.is_empty()).then_some(alias))
+    }
+
+    fn severity(&self, code: &'static Code) -> Severity {
+        let repaired = [&codes::GLTF_BOUNDS, &codes::GLTF_VECTOR, &codes::GLTF_MATRIX];
+        if self.options.lenient && repaired.contains(&code) {
+            Severity::Warning
+        } else if self.options.strict && *code == codes::GLTF_UNKNOWN {
+            Severity::Error
+        } else {
+            code.severity
+        }
+    }
+
+    /// True if an error was reported, here or before.
+    pub(super) fn has_errors(&self) -> bool {
+        self.sink.has_errors()
+    }
+
+    /// The value of a node as it may stand in a message.
+    pub(super) fn shown(&self, at: NodeId) -> String {
+        shown(self.json.written(at))
+    }
+}
+
+/// A stretch of the text, short and without control characters.
+pub(super) fn shown(written: &str) -> String {
+    const LONG: usize = 40;
+    let mut text: String = written.chars().take(LONG).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    if text.len() < written.len() {
+        text.push('…');
+    }
+    text.replace('`', "'")
+}

@@ -1,0 +1,167 @@
+//! The bytes that an asset names: its chunk, data URIs, and files below its folder, each file read once.
+
+use super::buffer::Bytes;
+use super::document::Document;
+use super::field::Fields;
+use super::json::NodeId;
+use super::report::{Report, shown};
+use super::uri::{self, Fault, Uri};
+use crate::diag::codes;
+use crate::source::{Loader, Missing, Search};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+
+/// The largest file read, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Reads files, and remembers them.
+pub(super) struct Resources {
+    search: Search,
+    files: BTreeMap<PathBuf, Bytes<'static>>,
+}
+
+/// What is behind a URI: bytes, and the media type of a data URI.
+type Found = (Bytes<'static>, Option<String>);
+
+impl Resources {
+    pub(super) fn new(search: Search) -> Self {
+        Self { search, files: BTreeMap::new() }
+    }
+
+    /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
+    pub(super) fn bring_buffers<'s>(
+        &mut self,
+        doc: &mut Document<'s>,
+        chunk: Option<&'s [u8]>,
+        report: &mut Report<'_, 's>,
+    ) {
+        let is_glb = doc.is_glb;
+        for (index, buffer) in doc.buffers.iter_mut().enumerate() {
+            let fields = Fields::new(report.json, buffer.at);
+            let bytes: Option<Bytes<'s>> = if let Some(at) = fields.node("uri") {
+                remark_uri(is_glb, at, report);
+                self.fetch(at, is_glb, report)
+                    .and_then(|(bytes, media)| is_buffer(media.as_deref(), at, report).then_some(bytes))
+            } else if is_glb && index == 0 && !buffer.is_fallback {
+                if chunk.is_none() {
+                    let message = "the buffer is the binary chunk, and there is none".to_owned();
+                    report.say(&codes::GLTF_BUFFER, "BUFFER_MISSING_GLB_DATA", buffer.at, message);
+                }
+                chunk.map(|chunk| Rc::new(Cow::Borrowed(chunk)))
+            } else {
+                None
+            };
+            let (Some(bytes), Some(length)) = (bytes, buffer.length) else { continue };
+            if bytes.len() < length {
+                let message = format!("the buffer has {} bytes, and `byteLength` says {length}", bytes.len());
+                report.say(&codes::GLTF_BUFFER, "BUFFER_BYTE_LENGTH_MISMATCH", buffer.at, message);
+                continue;
+            }
+            let extra = bytes.len() - length;
+            if !fields.has("uri") && extra >= 4 {
+                let message = format!("the binary chunk has {extra} bytes more than the buffer");
+                report.say(&codes::GLB_EXTRA, "BUFFER_GLB_CHUNK_TOO_BIG", buffer.at, message);
+            }
+            buffer.bytes = Some(bytes);
+        }
+    }
+
+    /// Brings the bytes of all images that are not in a view.
+    pub(super) fn bring_images(&mut self, doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+        let is_glb = doc.is_glb;
+        for image in &mut doc.images {
+            let Some(at) = report.json.get(image.at, "uri") else { continue };
+            remark_uri(is_glb, at, report);
+            let Some((bytes, media)) = self.fetch(at, is_glb, report) else { continue };
+            image.media = image.media.take().or(media.filter(|media| !media.is_empty()));
+            image.bytes = Some(bytes);
+        }
+    }
+
+    /// The bytes behind the URI at a node; why there are none is reported.
+    fn fetch(&mut self, at: NodeId, is_glb: bool, report: &mut Report<'_, '_>) -> Option<Found> {
+        let text = report.json.text(at)?;
+        match uri::parse(&text) {
+            Ok(Uri::Data { media, bytes }) => {
+                if is_glb {
+                    let message = "data is written in Base64 where a chunk would do".to_owned();
+                    report.say(&codes::GLB_EXTRA, "DATA_URI_GLB", at, message);
+                }
+                Some((Rc::new(Cow::Owned(bytes)), Some(media)))
+            }
+            Ok(Uri::Path(path)) => self.file(&path, at, report).map(|bytes| (bytes, None)),
+            Err(Fault::Malformed(why)) => {
+                let message = format!("`{}` is no URI: {why}", shown(&text));
+                report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
+                None
+            }
+            Err(Fault::Outside(how)) => {
+                outside(&text, how, at, report);
+                None
+            }
+        }
+    }
+
+    fn file(&mut self, path: &str, at: NodeId, report: &mut Report<'_, '_>) -> Option<Bytes<'static>> {
+        let found = match self.search.below(path) {
+            Ok(found) => found,
+            Err(Missing::Outside(_)) => {
+                outside(path, "a link leads out", at, report);
+                return None;
+            }
+            Err(Missing::NoFolder) => {
+                let message = format!("`{}` can't be looked for: an asset from a stream has no folder", shown(path));
+                let hint = "name the folder of its files by `--asset-root`".to_owned();
+                report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
+                return None;
+            }
+            Err(Missing::Absent(places)) => {
+                let message = format!("there is no file `{}`", shown(path));
+                let places: Vec<String> = places.iter().map(|place| format!("`{}`", place.display())).collect();
+                let hint = format!("looked for it at {}", places.join(", "));
+                report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
+                return None;
+            }
+        };
+        if let Some(bytes) = self.files.get(&found.path) {
+            return Some(Rc::clone(bytes));
+        }
+        match Loader.bytes(&found.path, MAX_BYTES) {
+            Ok(bytes) => {
+                let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
+                self.files.insert(found.path, Rc::clone(&bytes));
+                Some(bytes)
+            }
+            Err(error) => {
+                let message = format!("can't read `{}`: {error}", found.shown.display());
+                report.say(&codes::GLTF_NO_FILE, "IO_ERROR", at, message);
+                None
+            }
+        }
+    }
+}
+
+fn remark_uri(is_glb: bool, at: NodeId, report: &mut Report<'_, '_>) {
+    if is_glb {
+        report.say(&codes::GLTF_REMARK, "URI_GLB", at, "a .glb could hold this itself");
+    }
+}
+
+fn outside(text: &str, how: &str, at: NodeId, report: &mut Report<'_, '_>) {
+    let message = format!("`{}` leads out of the folder of the asset: {how}", shown(text));
+    let hint = "put the file beside the asset and name it by a relative path".to_owned();
+    report.advise(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
+}
+
+/// True if a data URI says that it holds a buffer, or is none.
+fn is_buffer(media: Option<&str>, at: NodeId, report: &mut Report<'_, '_>) -> bool {
+    let Some(media) = media else { return true };
+    let is_buffer = ["application/octet-stream", "application/gltf-buffer"].contains(&media);
+    if !is_buffer {
+        let message = format!("the media type of a buffer is application/octet-stream, not `{}`", shown(media));
+        report.say(&codes::GLTF_URI, "BUFFER_DATA_URI_MIME_TYPE_INVALID", at, message);
+    }
+    is_buffer
+}

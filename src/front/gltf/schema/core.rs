@@ -1,0 +1,274 @@
+//! The objects of glTF 2.0 itself (specification, chapter 5).
+
+use super::Value::{
+    Attributes, Choice, Elements, Index, Indices, Many, Number, Numbers, One, Targets, Text, Texts, Truth, Version,
+    Whole, Word,
+};
+use super::{FACTOR, FREE, Key, Object, POSITIVE, Pool, SIGNED, UNIT, optional, required};
+
+/// The greatest number a property takes that has no other bound: up to it floats hold every whole number.
+const MANY: u64 = (1 << 53) - 1;
+const NAME: Key = optional("name", Text);
+
+pub(super) static ROOT: Object = Object {
+    name: "asset",
+    keys: &[
+        optional("extensionsUsed", Texts),
+        optional("extensionsRequired", Texts),
+        optional("accessors", Many(&ACCESSOR)),
+        optional("animations", Many(&ANIMATION)),
+        required("asset", One(&ASSET)),
+        optional("buffers", Many(&BUFFER)),
+        optional("bufferViews", Many(&BUFFER_VIEW)),
+        optional("cameras", Many(&CAMERA)),
+        optional("images", Many(&IMAGE)),
+        optional("materials", Many(&MATERIAL)),
+        optional("meshes", Many(&MESH)),
+        optional("nodes", Many(&NODE)),
+        optional("samplers", Many(&SAMPLER)),
+        optional("scene", Index(Pool::Scenes)),
+        optional("scenes", Many(&SCENE)),
+        optional("skins", Many(&SKIN)),
+        optional("textures", Many(&TEXTURE)),
+    ],
+};
+
+static ASSET: Object = Object {
+    name: "asset header",
+    keys: &[
+        optional("copyright", Text),
+        optional("generator", Text),
+        required("version", Version),
+        optional("minVersion", Version),
+    ],
+};
+
+static ACCESSOR: Object = Object {
+    name: "accessor",
+    keys: &[
+        NAME,
+        optional("bufferView", Index(Pool::BufferViews)),
+        optional("byteOffset", Whole(0, MANY)),
+        required("componentType", Choice(&[5120, 5121, 5122, 5123, 5125, 5126])),
+        optional("normalized", Truth),
+        required("count", Whole(1, MANY)),
+        required("type", Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
+        optional("min", Elements),
+        optional("max", Elements),
+        optional("sparse", One(&SPARSE)),
+    ],
+};
+
+static SPARSE: Object = Object {
+    name: "sparse part",
+    keys: &[
+        required("count", Whole(1, MANY)),
+        required("indices", One(&SPARSE_INDICES)),
+        required("values", One(&SPARSE_VALUES)),
+    ],
+};
+
+static SPARSE_INDICES: Object = Object {
+    name: "sparse indices",
+    keys: &[
+        required("bufferView", Index(Pool::BufferViews)),
+        optional("byteOffset", Whole(0, MANY)),
+        required("componentType", Choice(&[5121, 5123, 5125])),
+    ],
+};
+
+static SPARSE_VALUES: Object = Object {
+    name: "sparse values",
+    keys: &[required("bufferView", Index(Pool::BufferViews)), optional("byteOffset", Whole(0, MANY))],
+};
+
+static BUFFER: Object =
+    Object { name: "buffer", keys: &[NAME, optional("uri", Text), required("byteLength", Whole(1, MANY))] };
+
+static BUFFER_VIEW: Object = Object {
+    name: "buffer view",
+    keys: &[
+        NAME,
+        required("buffer", Index(Pool::Buffers)),
+        optional("byteOffset", Whole(0, MANY)),
+        required("byteLength", Whole(1, MANY)),
+        optional("byteStride", Whole(4, 252)),
+        optional("target", Choice(&[34962, 34963])),
+    ],
+};
+
+static CAMERA: Object = Object {
+    name: "camera",
+    keys: &[
+        NAME,
+        required("type", Word(&["perspective", "orthographic"])),
+        optional("perspective", One(&PERSPECTIVE)),
+        optional("orthographic", One(&ORTHOGRAPHIC)),
+    ],
+};
+
+static PERSPECTIVE: Object = Object {
+    name: "perspective",
+    keys: &[
+        optional("aspectRatio", Number(POSITIVE)),
+        required("yfov", Number(POSITIVE)),
+        optional("zfar", Number(POSITIVE)),
+        required("znear", Number(POSITIVE)),
+    ],
+};
+
+static ORTHOGRAPHIC: Object = Object {
+    name: "orthographic projection",
+    keys: &[
+        required("xmag", Number(FREE)),
+        required("ymag", Number(FREE)),
+        required("zfar", Number(POSITIVE)),
+        required("znear", Number(FACTOR)),
+    ],
+};
+
+static IMAGE: Object = Object {
+    name: "image",
+    keys: &[
+        NAME,
+        optional("uri", Text),
+        optional("mimeType", Word(&["image/jpeg", "image/png", "image/webp"])),
+        optional("bufferView", Index(Pool::BufferViews)),
+    ],
+};
+
+static TEXTURE: Object = Object {
+    name: "texture",
+    keys: &[NAME, optional("sampler", Index(Pool::Samplers)), optional("source", Index(Pool::Images))],
+};
+
+const WRAPS: super::Value = Choice(&[33071, 33648, 10497]);
+
+static SAMPLER: Object = Object {
+    name: "sampler",
+    keys: &[
+        NAME,
+        optional("magFilter", Choice(&[9728, 9729])),
+        optional("minFilter", Choice(&[9728, 9729, 9984, 9985, 9986, 9987])),
+        optional("wrapS", WRAPS),
+        optional("wrapT", WRAPS),
+    ],
+};
+
+pub(super) static TEXTURE_INFO: Object = Object {
+    name: "texture info",
+    keys: &[required("index", Index(Pool::Textures)), optional("texCoord", Whole(0, MANY))],
+};
+
+pub(super) static NORMAL_TEXTURE: Object = Object {
+    name: "texture info",
+    keys: &[
+        required("index", Index(Pool::Textures)),
+        optional("texCoord", Whole(0, MANY)),
+        optional("scale", Number(FREE)),
+    ],
+};
+
+static OCCLUSION_TEXTURE: Object = Object {
+    name: "texture info",
+    keys: &[
+        required("index", Index(Pool::Textures)),
+        optional("texCoord", Whole(0, MANY)),
+        optional("strength", Number(UNIT)),
+    ],
+};
+
+static MATERIAL: Object = Object {
+    name: "material",
+    keys: &[
+        NAME,
+        optional("pbrMetallicRoughness", One(&METALLIC_ROUGHNESS)),
+        optional("normalTexture", One(&NORMAL_TEXTURE)),
+        optional("occlusionTexture", One(&OCCLUSION_TEXTURE)),
+        optional("emissiveTexture", One(&TEXTURE_INFO)),
+        optional("emissiveFactor", Numbers(&[3], UNIT)),
+        optional("alphaMode", Word(&["OPAQUE", "MASK", "BLEND"])),
+        optional("alphaCutoff", Number(FACTOR)),
+        optional("doubleSided", Truth),
+    ],
+};
+
+static METALLIC_ROUGHNESS: Object = Object {
+    name: "metallic-roughness model",
+    keys: &[
+        optional("baseColorFactor", Numbers(&[4], UNIT)),
+        optional("baseColorTexture", One(&TEXTURE_INFO)),
+        optional("metallicFactor", Number(UNIT)),
+        optional("roughnessFactor", Number(UNIT)),
+        optional("metallicRoughnessTexture", One(&TEXTURE_INFO)),
+    ],
+};
+
+static MESH: Object = Object {
+    name: "mesh",
+    keys: &[NAME, required("primitives", Many(&PRIMITIVE)), optional("weights", Numbers(&[], FREE))],
+};
+
+static PRIMITIVE: Object = Object {
+    name: "primitive",
+    keys: &[
+        required("attributes", Attributes),
+        optional("indices", Index(Pool::Accessors)),
+        optional("material", Index(Pool::Materials)),
+        optional("mode", Choice(&[0, 1, 2, 3, 4, 5, 6])),
+        optional("targets", Targets),
+    ],
+};
+
+static NODE: Object = Object {
+    name: "node",
+    keys: &[
+        NAME,
+        optional("camera", Index(Pool::Cameras)),
+        optional("children", Indices(Pool::Nodes)),
+        optional("skin", Index(Pool::Skins)),
+        optional("matrix", Numbers(&[16], FREE)),
+        optional("mesh", Index(Pool::Meshes)),
+        optional("rotation", Numbers(&[4], SIGNED)),
+        optional("scale", Numbers(&[3], FREE)),
+        optional("translation", Numbers(&[3], FREE)),
+        optional("weights", Numbers(&[], FREE)),
+    ],
+};
+
+static SCENE: Object = Object { name: "scene", keys: &[NAME, optional("nodes", Indices(Pool::Nodes))] };
+
+static SKIN: Object = Object {
+    name: "skin",
+    keys: &[
+        NAME,
+        optional("inverseBindMatrices", Index(Pool::Accessors)),
+        optional("skeleton", Index(Pool::Nodes)),
+        required("joints", Indices(Pool::Nodes)),
+    ],
+};
+
+static ANIMATION: Object = Object {
+    name: "animation",
+    keys: &[NAME, required("channels", Many(&CHANNEL)), required("samplers", Many(&ANIMATION_SAMPLER))],
+};
+
+static CHANNEL: Object =
+    Object { name: "channel", keys: &[required("sampler", Index(Pool::Own)), required("target", One(&TARGET))] };
+
+static TARGET: Object = Object {
+    name: "channel target",
+    keys: &[
+        optional("node", Index(Pool::Nodes)),
+        required("path", Word(&["translation", "rotation", "scale", "weights", "pointer"])),
+    ],
+};
+
+static ANIMATION_SAMPLER: Object = Object {
+    name: "animation sampler",
+    keys: &[
+        required("input", Index(Pool::Accessors)),
+        optional("interpolation", Word(&["LINEAR", "STEP", "CUBICSPLINE"])),
+        required("output", Index(Pool::Accessors)),
+    ],
+};

@@ -1,0 +1,122 @@
+//! What glTF 2.0 lays down about the JSON alone: tables of objects and their properties, and the walk that checks them.
+
+mod core;
+mod extension;
+mod value;
+mod walk;
+
+pub(super) use extension::{find, is_supported};
+pub(super) use walk::walk;
+
+/// A kind of object.
+#[derive(Debug)]
+pub(super) struct Object {
+    /// As messages call it, and as extensions say where they belong.
+    name: &'static str,
+    /// Its properties, but for `extensions` and `extras`, which all have.
+    keys: &'static [Key],
+}
+
+/// A property.
+#[derive(Debug)]
+struct Key {
+    name: &'static str,
+    value: Value,
+    required: bool,
+}
+
+const fn required(name: &'static str, value: Value) -> Key {
+    Key { name, value, required: true }
+}
+
+const fn optional(name: &'static str, value: Value) -> Key {
+    Key { name, value, required: false }
+}
+
+/// What a property takes.
+#[derive(Debug)]
+enum Value {
+    Truth,
+    Text,
+    /// One of these words.
+    Word(&'static [&'static str]),
+    /// `major.minor`.
+    Version,
+    /// A JSON pointer.
+    Pointer,
+    /// A whole number within bounds, both included.
+    Whole(u64, u64),
+    /// One of these numbers.
+    Choice(&'static [u64]),
+    Number(Bounds),
+    /// A list of as many numbers as one of these says; at least one if none does.
+    Numbers(&'static [usize], Bounds),
+    /// A list of numbers, as many as another property says.
+    Elements,
+    /// A list of different texts.
+    Texts,
+    /// A reference.
+    Index(Pool),
+    /// A list of different references.
+    Indices(Pool),
+    /// Names of attributes and the accessors that hold them.
+    Attributes,
+    /// A list of such.
+    Targets,
+    One(&'static Object),
+    Many(&'static Object),
+}
+
+/// Bounds of a number; infinite ones don't bind.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    min: f64,
+    max: f64,
+    /// The minimum itself is out.
+    above: bool,
+}
+
+const FREE: Bounds = Bounds { min: f64::NEG_INFINITY, max: f64::INFINITY, above: false };
+const UNIT: Bounds = Bounds { min: 0.0, max: 1.0, above: false };
+const SIGNED: Bounds = Bounds { min: -1.0, max: 1.0, above: false };
+const FACTOR: Bounds = Bounds { min: 0.0, max: f64::INFINITY, above: false };
+const POSITIVE: Bounds = Bounds { min: 0.0, max: f64::INFINITY, above: true };
+
+/// The lists that references count in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Pool {
+    Accessors,
+    Buffers,
+    BufferViews,
+    Cameras,
+    Images,
+    Materials,
+    Meshes,
+    Nodes,
+    Samplers,
+    Scenes,
+    Skins,
+    Textures,
+    Lights,
+    Variants,
+    /// The samplers of the animation itself, which the walk does not know.
+    Own,
+}
+
+/// Each pool that lies at one place, and the way to it.
+const POOLS: [(Pool, &[&str]); 14] = [
+    (Pool::Accessors, &["accessors"]),
+    (Pool::Buffers, &["buffers"]),
+    (Pool::BufferViews, &["bufferViews"]),
+    (Pool::Cameras, &["cameras"]),
+    (Pool::Images, &["images"]),
+    (Pool::Materials, &["materials"]),
+    (Pool::Meshes, &["meshes"]),
+    (Pool::Nodes, &["nodes"]),
+    (Pool::Samplers, &["samplers"]),
+    (Pool::Scenes, &["scenes"]),
+    (Pool::Skins, &["skins"]),
+    (Pool::Textures, &["textures"]),
+    (Pool::Lights, &["extensions", "KHR_lights_punctual", "lights"]),
+    (Pool::Variants, &["extensions", "KHR_materials_variants", "variants"]),
+];

@@ -1,0 +1,234 @@
+//! The value of one property against what its table says.
+
+use super::walk::Walk;
+use super::{Bounds, Value};
+use crate::diag::codes;
+use crate::front::gltf::json::{Kind, NodeId};
+use std::collections::BTreeSet;
+
+impl Walk<'_, '_, '_> {
+    /// Checks the value of the property `name`; what lies in it is put off.
+    pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
+        match value {
+            Value::Truth => drop(self.expect(node, Kind::Truth, name)),
+            Value::Text => drop(self.expect(node, Kind::Text, name)),
+            Value::Word(words) => self.word(node, words, name),
+            Value::Version => self.pattern(node, is_version, "a version, as `2.0`", name),
+            Value::Pointer => self.pattern(node, is_pointer, "a JSON pointer, as `/nodes/0`", name),
+            Value::Whole(min, max) => self.whole(node, *min, *max, name),
+            Value::Choice(choices) => self.choice(node, choices, name),
+            Value::Number(bounds) => self.number(node, *bounds, name),
+            Value::Elements => {
+                for item in self.list(node, name) {
+                    self.element(item, Kind::Number, name);
+                }
+            }
+            Value::Numbers(lengths, bounds) => self.numbers(node, lengths, *bounds, name),
+            Value::Texts => self.texts(node, name),
+            Value::Index(pool) => {
+                if let Some(index) = self.index(node, name) {
+                    self.follow(node, *pool, index);
+                }
+            }
+            Value::Indices(pool) => {
+                let mut seen = BTreeSet::new();
+                for item in self.items(node, name) {
+                    let Some(index) = self.index(item, name) else { continue };
+                    if !seen.insert(index) {
+                        let message = format!("`{name}` holds {index} twice");
+                        self.report.say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
+                    }
+                    self.follow(item, *pool, index);
+                }
+            }
+            Value::Attributes => self.attributes(node, name),
+            Value::Targets => {
+                for item in self.items(node, name) {
+                    self.attributes(item, name);
+                }
+            }
+            Value::One(object) => {
+                if self.expect(node, Kind::Map, name) {
+                    self.open.push((node, object));
+                }
+            }
+            Value::Many(object) => {
+                for item in self.items(node, name) {
+                    if self.element(item, Kind::Map, name) {
+                        self.open.push((item, object));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The items of a list.
+    fn list(&mut self, node: NodeId, name: &str) -> Vec<NodeId> {
+        if self.expect(node, Kind::List, name) { self.report.json.items(node).collect() } else { Vec::new() }
+    }
+
+    /// The items of a list that is not empty.
+    fn items(&mut self, node: NodeId, name: &str) -> Vec<NodeId> {
+        let items = self.list(node, name);
+        if self.report.json.kind(node) == Kind::List {
+            self.not_empty(node, items.len(), name);
+        }
+        items
+    }
+
+    fn not_empty(&mut self, node: NodeId, count: usize, name: &str) {
+        if count == 0 {
+            self.report.say(&codes::GLTF_EMPTY, "EMPTY_ENTITY", node, format!("`{name}` is empty"));
+        }
+    }
+
+    fn word(&mut self, node: NodeId, words: &[&str], name: &str) {
+        if self.expect(node, Kind::Text, name) && !words.iter().any(|word| self.report.json.is(node, word)) {
+            let message = format!("`{name}` is {}, none of {}", self.report.shown(node), words.join(", "));
+            self.report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+        }
+    }
+
+    fn pattern(&mut self, node: NodeId, fits: fn(&str) -> bool, what: &str, name: &str) {
+        if self.expect(node, Kind::Text, name) && !fits(&self.report.json.text(node).unwrap_or_default()) {
+            let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
+            self.report.say(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
+        }
+    }
+
+    /// The whole number at `node`, if it is one; negative ones are not.
+    fn integer(&mut self, node: NodeId, name: &str) -> Option<Option<u64>> {
+        if !self.expect(node, Kind::Number, name) {
+            return None;
+        }
+        let number = self.report.json.number(node)?;
+        if number.fract() != 0.0 {
+            let message = format!("`{name}` is {}, not a whole number", self.report.shown(node));
+            self.report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
+            return None;
+        }
+        Some(self.report.json.whole(node))
+    }
+
+    fn whole(&mut self, node: NodeId, min: u64, max: u64, name: &str) {
+        let Some(number) = self.integer(node, name) else { return };
+        if !number.is_some_and(|number| (min..=max).contains(&number)) {
+            let least = format!("`{name}` is {}, not {min}", self.report.shown(node));
+            let message =
+                if max < 1 << 53 && max > 1 << 32 { format!("{least} or more") } else { format!("{least} to {max}") };
+            self.report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+        }
+    }
+
+    fn choice(&mut self, node: NodeId, choices: &[u64], name: &str) {
+        let Some(number) = self.integer(node, name) else { return };
+        if !number.is_some_and(|number| choices.contains(&number)) {
+            let choices: Vec<String> = choices.iter().map(u64::to_string).collect();
+            let message = format!("`{name}` is {}, none of {}", self.report.shown(node), choices.join(", "));
+            self.report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+        }
+    }
+
+    fn index(&mut self, node: NodeId, name: &str) -> Option<u64> {
+        let number = self.integer(node, name)?;
+        if number.is_none() {
+            let message = format!("`{name}` is {}, not an index", self.report.shown(node));
+            self.report.say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+        }
+        number
+    }
+
+    fn number(&mut self, node: NodeId, bounds: Bounds, name: &str) {
+        if self.expect(node, Kind::Number, name) {
+            self.bounded(node, bounds, name);
+        }
+    }
+
+    fn bounded(&mut self, node: NodeId, bounds: Bounds, name: &str) {
+        let Bounds { min, max, above } = bounds;
+        let Some(number) = self.report.json.number(node) else { return };
+        let inside = number.is_finite() && number <= max && if above { number > min } else { number >= min };
+        if !inside {
+            let range = match (above, max.is_finite()) {
+                (_, true) => format!("{min} to {max}"),
+                (true, false) => format!("above {min}"),
+                (false, false) if min.is_finite() => format!("{min} or more"),
+                (false, false) => "finite".to_owned(),
+            };
+            let message = format!("`{name}` is {}, not {range}", self.report.shown(node));
+            self.report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+        }
+    }
+
+    fn numbers(&mut self, node: NodeId, lengths: &[usize], bounds: Bounds, name: &str) {
+        if !self.expect(node, Kind::List, name) {
+            return;
+        }
+        let items: Vec<NodeId> = self.report.json.items(node).collect();
+        if lengths.is_empty() {
+            self.not_empty(node, items.len(), name);
+        } else if !lengths.contains(&items.len()) {
+            let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
+            let message = format!("`{name}` has {} numbers, not {}", items.len(), lengths.join(" or "));
+            self.report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", node, message);
+        }
+        for item in items {
+            if self.element(item, Kind::Number, name) {
+                self.bounded(item, bounds, name);
+            }
+        }
+    }
+
+    /// True if an element of a list is of the kind; else that is reported.
+    fn element(&mut self, node: NodeId, kind: Kind, name: &str) -> bool {
+        let found = self.report.json.kind(node);
+        if found != kind {
+            let message = format!("an element of `{name}` is {}, not {}", found.name(), kind.name());
+            self.report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", node, message);
+        }
+        found == kind
+    }
+
+    fn texts(&mut self, node: NodeId, name: &str) {
+        let mut seen = BTreeSet::new();
+        for item in self.items(node, name) {
+            if self.element(item, Kind::Text, name)
+                && let Some(text) = self.report.json.text(item)
+                && !seen.insert(text)
+            {
+                let message = format!("`{name}` holds {} twice", self.report.shown(item));
+                self.report.say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
+            }
+        }
+    }
+
+    fn attributes(&mut self, node: NodeId, name: &str) {
+        if !self.expect(node, Kind::Map, name) {
+            return;
+        }
+        let json = self.report.json;
+        let is_draco = json.at(json.parent(node), &["bufferView"]).is_some();
+        let mut count = 0;
+        for (key, value) in json.pairs(node) {
+            count += 1;
+            let attribute = json.text(key).unwrap_or_default();
+            if let Some(index) = self.index(value, &attribute)
+                && !is_draco
+            {
+                self.follow(value, super::Pool::Accessors, index);
+            }
+        }
+        self.not_empty(node, count, name);
+    }
+}
+
+fn is_version(text: &str) -> bool {
+    let is_number = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    text.split_once('.').is_some_and(|(major, minor)| is_number(major) && is_number(minor))
+}
+
+/// RFC 6901.
+fn is_pointer(text: &str) -> bool {
+    let escapes = text.split('~').skip(1).all(|rest| rest.starts_with(['0', '1']));
+    (text.is_empty() || text.starts_with('/')) && escapes
+}

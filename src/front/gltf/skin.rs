@@ -1,0 +1,242 @@
+//! Skins: joints in one tree, their matrices, and the weights by which vertices follow them.
+
+use super::accessor::Component;
+use super::buffer::{Purpose, Purposes};
+use super::contents::{Demand, Demands};
+use super::document::Document;
+use super::elements::Elements;
+use super::field::Fields;
+use super::json::NodeId;
+use super::mesh::Primitive;
+use super::node::{Forest, Node, Transform};
+use super::report::Report;
+use super::usage::{Usage, Usages};
+use crate::diag::codes;
+
+/// A skin.
+#[derive(Debug)]
+pub(super) struct Skin {
+    at: NodeId,
+    pub(super) joints: Vec<usize>,
+    pub(super) matrices: Option<usize>,
+    skeleton: Option<usize>,
+}
+
+impl Skin {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        Self {
+            at: fields.at,
+            joints: fields.indices("joints"),
+            matrices: fields.index("inverseBindMatrices"),
+            skeleton: fields.index("skeleton"),
+        }
+    }
+}
+
+/// Checks all skins, and the nodes that have one.
+pub(super) fn check(
+    doc: &Document<'_>,
+    forest: &Forest,
+    (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
+    report: &mut Report<'_, '_>,
+) {
+    let order = Order::new(doc, forest);
+    for skin in &doc.skins {
+        check_tree(doc, skin, forest, &order, report);
+        check_matrices(doc, skin, (purposes, usages, demands), report);
+    }
+    for (index, node) in doc.nodes.iter().enumerate() {
+        let Some(skin) = node.skin.and_then(|skin| doc.skins.get(skin)) else { continue };
+        check_node(doc, (index, node), skin, forest, report);
+    }
+}
+
+/// The nodes in the order of a walk through their trees: those below one lie in one stretch.
+struct Order {
+    first: Vec<usize>,
+    after: Vec<usize>,
+}
+
+impl Order {
+    fn new(doc: &Document<'_>, forest: &Forest) -> Self {
+        let count = doc.nodes.len();
+        let mut order = Self { first: vec![usize::MAX; count], after: vec![0; count] };
+        let mut at = 0;
+        for root in (0..count).filter(|node| forest.roots[*node] == Some(*node)) {
+            let mut open = vec![(root, false)];
+            while let Some((node, is_done)) = open.pop() {
+                if is_done {
+                    order.after[node] = at;
+                } else if order.first[node] == usize::MAX {
+                    order.first[node] = at;
+                    at += 1;
+                    open.push((node, true));
+                    let own = doc.nodes[node]
+                        .children
+                        .iter()
+                        .filter(|child| forest.parents.get(**child) == Some(&Some(node)));
+                    open.extend(own.map(|child| (*child, false)));
+                }
+            }
+        }
+        order
+    }
+
+    fn is_below(&self, node: usize, above: usize) -> bool {
+        let place = self.first[node];
+        place != usize::MAX && self.first[above] <= place && place < self.after[above]
+    }
+}
+
+fn check_tree(doc: &Document<'_>, skin: &Skin, forest: &Forest, order: &Order, report: &mut Report<'_, '_>) {
+    if skin.joints.is_empty() {
+        return;
+    }
+    let at = report.json.at_or(skin.at, "joints");
+    let known: Vec<usize> = skin.joints.iter().copied().filter(|joint| *joint < doc.nodes.len()).collect();
+    let root = known.first().and_then(|joint| forest.roots[*joint]);
+    if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
+        let message = "no node lies above all joints".to_owned();
+        report.say(&codes::GLTF_SKIN, "SKIN_NO_COMMON_ROOT", at, message);
+    } else if let Some(skeleton) = skin.skeleton.filter(|skeleton| *skeleton < doc.nodes.len())
+        && !known.iter().all(|joint| order.is_below(*joint, skeleton))
+    {
+        let at = report.json.at_or(skin.at, "skeleton");
+        let message = format!("not all joints lie below node {skeleton}");
+        report.say(&codes::GLTF_SKIN, "SKIN_SKELETON_INVALID", at, message);
+    }
+}
+
+fn check_matrices(
+    doc: &Document<'_>,
+    skin: &Skin,
+    (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
+    report: &mut Report<'_, '_>,
+) {
+    let Some((index, accessor)) = skin.matrices.and_then(|index| Some((index, doc.accessors.get(index)?))) else {
+        return;
+    };
+    let at = report.json.at_or(skin.at, "inverseBindMatrices");
+    usages.set(index, Usage::InverseBindMatrices, at, report);
+    purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
+    if accessor.view.and_then(|view| doc.views.get(view)).is_some_and(|view| view.stride.is_some()) {
+        let message = "the view of inverse bind matrices has a stride".to_owned();
+        report.say(&codes::GLTF_VIEW, "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", at, message);
+    }
+    if let Some(layout) = accessor.layout {
+        if layout.columns == 4 && layout.component == Component::F32 && !layout.normalized {
+            demands.add(index, Demand::Affine, at);
+        } else {
+            let message = format!("inverse bind matrices are {}, not mat4 of f32", layout.name());
+            report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
+        }
+    }
+    if let Some(count) = accessor.count.filter(|count| *count < skin.joints.len()) {
+        let message = format!("{count} matrices for {} joints", skin.joints.len());
+        report.say(&codes::GLTF_COUNT, "INVALID_IBM_ACCESSOR_COUNT", at, message);
+    }
+}
+
+fn check_node(
+    doc: &Document<'_>,
+    (index, node): (usize, &Node),
+    skin: &Skin,
+    forest: &Forest,
+    report: &mut Report<'_, '_>,
+) {
+    let code = &codes::GLTF_SKIN_ODD;
+    let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
+    let unmoved = Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+    if forest.parents[index].is_some() {
+        let message = "the node is no root, and transformations above it don't move a skinned mesh".to_owned();
+        report.say(code, "NODE_SKINNED_MESH_NON_ROOT", node.at, message);
+    }
+    if node.transform != unmoved {
+        let message = "the transformation of the node does not move a skinned mesh".to_owned();
+        report.say(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
+    }
+    let root_of = |node: usize| forest.roots.get(node).copied().flatten();
+    let joints = skin.joints.iter().find_map(|joint| root_of(*joint));
+    let shows = |root: Option<usize>, nodes: &[usize]| root.is_some_and(|root| nodes.contains(&root));
+    let apart = doc.scenes.iter().any(|scene| shows(root_of(index), &scene.nodes) && !shows(joints, &scene.nodes));
+    if apart {
+        let message = "a scene shows the mesh and not the joints that move it".to_owned();
+        report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
+    }
+    for primitive in &mesh.primitives {
+        check_influences(doc, primitive, skin.joints.len(), report);
+    }
+}
+
+/// What is wrong with the joints of some vertex, and where it was seen first.
+#[derive(Default)]
+struct Influences {
+    out: Option<usize>,
+    twice: Option<usize>,
+    negative: Option<usize>,
+    sum: Option<usize>,
+    idle: Option<usize>,
+}
+
+/// Checks which joints each vertex follows, and by how much.
+fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, report: &mut Report<'_, '_>) {
+    let mut vertices: Vec<Vec<(f64, f64)>> = Vec::new();
+    for set in 0.. {
+        let part = |name: String| {
+            let accessor = doc.accessors.get(primitive.find(&name)?)?;
+            Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
+        };
+        let (Some(own), Some(weights)) = (part(format!("JOINTS_{set}")), part(format!("WEIGHTS_{set}"))) else { break };
+        let (own, weights) = (own.vectors::<4>(), weights.vectors::<4>());
+        vertices.resize(vertices.len().max(own.len().min(weights.len())), Vec::new());
+        for (vertex, (own, weights)) in vertices.iter_mut().zip(own.into_iter().zip(weights)) {
+            vertex.extend(own.into_iter().zip(weights));
+        }
+    }
+    let mut found = Influences::default();
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let joints = joints as f64;
+    for (at, vertex) in vertices.iter().enumerate() {
+        found.look(at, vertex, joints);
+    }
+    let Influences { out, twice, negative, sum, idle } = found;
+    let skin = &codes::GLTF_SKIN;
+    for (code, place, alias, set, what) in [
+        (skin, out, "ACCESSOR_JOINTS_INDEX_OOB", "JOINTS_0", "follows a joint that the skin has not"),
+        (skin, twice, "ACCESSOR_JOINTS_INDEX_DUPLICATE", "JOINTS_0", "follows a joint twice"),
+        (skin, negative, "ACCESSOR_WEIGHTS_NEGATIVE", "WEIGHTS_0", "has a negative weight"),
+        (skin, sum, "ACCESSOR_WEIGHTS_NON_NORMALIZED", "WEIGHTS_0", "has weights that don't sum to 1"),
+        (&codes::GLTF_SKIN_ODD, idle, "ACCESSOR_JOINTS_USED_ZERO_WEIGHT", "JOINTS_0", "names a joint of weight 0"),
+    ] {
+        let Some(vertex) = place else { continue };
+        let at = report.json.at(primitive.at, &["attributes", set]).unwrap_or(primitive.at);
+        report.say(code, alias, at, format!("vertex {vertex} {what}"));
+    }
+}
+
+impl Influences {
+    fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
+        /// What 8 bits a weight allow the sum to miss for each two weights beyond the first two.
+        const STEP: f64 = 0.003_921_6;
+        const ROUNDING: f64 = 2e-6;
+        let put = |slot: &mut Option<usize>, is_wrong: bool| {
+            if is_wrong {
+                slot.get_or_insert(at);
+            }
+        };
+        let (mut sum, mut used) = (0.0, 0_u32);
+        for (place, (joint, weight)) in vertex.iter().enumerate() {
+            put(&mut self.out, *joint >= joints);
+            put(&mut self.negative, *weight < 0.0);
+            if *weight == 0.0 {
+                put(&mut self.idle, *joint != 0.0);
+                continue;
+            }
+            put(&mut self.twice, vertex[..place].iter().any(|(other, own)| *own != 0.0 && other - joint == 0.0));
+            sum += weight;
+            used += 1;
+        }
+        let slack = STEP * f64::from(used.saturating_sub(1) / 2) + ROUNDING;
+        put(&mut self.sum, (sum - 1.0).abs() > slack);
+    }
+}

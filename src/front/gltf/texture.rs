@@ -1,0 +1,67 @@
+//! Textures: which image, and how it is looked up.
+
+use super::document::Document;
+use super::field::Fields;
+use super::image::Format;
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+
+/// An image and the way it is looked up.
+#[derive(Debug)]
+pub(super) struct Texture {
+    pub(super) at: NodeId,
+    /// A PNG or JPEG.
+    pub(super) source: Option<usize>,
+    /// A WebP, which is taken in its place.
+    pub(super) webp: Option<usize>,
+    pub(super) sampler: Option<usize>,
+}
+
+/// How a texture goes on beyond its image, and between pixels.
+#[derive(Debug)]
+pub(super) struct Sampler {
+    pub(super) mag_filter: Option<u64>,
+    pub(super) wrap: [u64; 2],
+}
+
+/// The code of OpenGL for repeating.
+pub(super) const REPEAT: u64 = 10497;
+
+impl Texture {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        Self {
+            at: fields.at,
+            source: fields.index("source"),
+            webp: fields.extension("EXT_texture_webp").and_then(|fields| fields.index("source")),
+            sampler: fields.index("sampler"),
+        }
+    }
+}
+
+impl Sampler {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let wrap = |key| fields.whole(key).unwrap_or(REPEAT);
+        Self { mag_filter: fields.whole("magFilter"), wrap: [wrap("wrapS"), wrap("wrapT")] }
+    }
+}
+
+/// Checks that the images of textures are of the formats that their places ask for.
+pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    for texture in &doc.textures {
+        let format = |image: Option<usize>| doc.images.get(image?)?.format;
+        let faulty = |report: &mut Report<'_, '_>, at, found: Format, wanted: &str| {
+            let message = format!("the image is of the type {}, not {wanted}", found.media());
+            report.say(&codes::GLTF_IMAGE, "TEXTURE_INVALID_IMAGE_MIME_TYPE", at, message);
+        };
+        if let Some(found) = format(texture.source).filter(|found| *found == Format::WebP) {
+            let at = report.json.at_or(texture.at, "source");
+            faulty(report, at, found, "image/png or image/jpeg");
+        }
+        if let Some(found) = format(texture.webp).filter(|found| *found != Format::WebP) {
+            let way = ["extensions", "EXT_texture_webp", "source"];
+            let at = report.json.at(texture.at, &way).unwrap_or(texture.at);
+            faulty(report, at, found, "image/webp");
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! What each accessor is used for: one purpose only.
+
+use super::json::NodeId;
+use super::report::Report;
+use crate::diag::codes;
+
+/// What an accessor is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Usage {
+    Vertices,
+    Indices,
+    InverseBindMatrices,
+    Times,
+    Keyframes,
+}
+
+impl Usage {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Vertices => "vertices",
+            Self::Indices => "indices",
+            Self::InverseBindMatrices => "inverse bind matrices",
+            Self::Times => "times of an animation",
+            Self::Keyframes => "keyframes of an animation",
+        }
+    }
+}
+
+/// What each accessor was seen to be for.
+pub(super) struct Usages(Vec<Option<Usage>>);
+
+impl Usages {
+    pub(super) fn new(count: usize) -> Self {
+        Self(vec![None; count])
+    }
+
+    /// Takes down that the node `at` uses an accessor so; two usages don't go together.
+    pub(super) fn set(&mut self, accessor: usize, usage: Usage, at: NodeId, report: &mut Report<'_, '_>) {
+        let Some(slot) = self.0.get_mut(accessor) else { return };
+        match slot {
+            None => *slot = Some(usage),
+            Some(first) if *first != usage => {
+                let message = format!("the accessor is used for {} here, and for {}", usage.name(), first.name());
+                report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_USAGE_OVERRIDE", at, message);
+            }
+            Some(_) => {}
+        }
+    }
+}

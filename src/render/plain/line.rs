@@ -1,0 +1,44 @@
+//! A ray in the numbers of the plain formulas, and which of their roots count.
+
+use super::real::{Real, Vector};
+use crate::plan::NEAREST;
+use crate::render::ray::Ray;
+
+/// A ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<R> {
+    pub(super) origin: Vector<R>,
+    pub(super) direction: Vector<R>,
+    /// The square of the direction's length in the world.
+    pub(super) length2: R,
+}
+
+impl<R: Real> Line<R> {
+    #[inline]
+    pub(super) fn of(ray: &Ray) -> Self {
+        let direction = Vector::of(ray.direction);
+        Self { origin: Vector::of(ray.origin), direction, length2: direction.dot(direction) }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, t: R) -> Vector<R> {
+        self.origin + self.direction * t
+    }
+
+    /// Whether a root is a number and lies beyond [`NEAREST`].
+    #[inline]
+    pub(super) fn counts(&self, t: R) -> bool {
+        let zero = R::of(0.0);
+        t > zero && t * t * self.length2 > R::of(NEAREST * NEAREST) && t < R::of(f64::INFINITY)
+    }
+
+    /// The first of some roots that counts, each with the part it is on.
+    #[inline]
+    pub(super) fn first(&self, roots: impl IntoIterator<Item = (R, u32)>) -> Option<(R, u32)> {
+        let nearer = |best: Option<(R, u32)>, root: (R, u32)| match best {
+            Some(best) if best.0 <= root.0 => Some(best),
+            _ => Some(root),
+        };
+        roots.into_iter().filter(|(t, _)| self.counts(*t)).fold(None, nearer)
+    }
+}

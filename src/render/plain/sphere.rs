@@ -1,0 +1,26 @@
+//! The sphere by b² − 4ac.
+
+use super::line::Line;
+use super::real::{Real, Vector};
+use super::roots::quadratic;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sphere<R> {
+    pub(super) center: Vector<R>,
+    pub(super) radius: R,
+}
+
+impl<R: Real> Sphere<R> {
+    #[inline]
+    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
+        let f = line.origin - self.center;
+        let b = R::of(2.0) * f.dot(line.direction);
+        let c = f.dot(f) - self.radius * self.radius;
+        let roots = quadratic(line.length2, b, c)?;
+        roots.into_iter().find(|t| line.counts(*t)).map(|t| (t, 0))
+    }
+
+    pub(super) fn normal(&self, point: Vector<R>) -> Vector<R> {
+        (point - self.center).normalized()
+    }
+}

@@ -1,0 +1,46 @@
+//! The triangle of Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
+
+use super::line::Line;
+use super::real::{Real, Vector};
+use crate::math::Vec3;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Triangle<R> {
+    corner: Vector<R>,
+    edges: [Vector<R>; 2],
+}
+
+impl<R: Real> Triangle<R> {
+    pub(super) fn new(vertices: &[Vec3; 3]) -> Self {
+        let [a, b, c] = vertices.map(Vector::of);
+        Self { corner: a, edges: [b - a, c - a] }
+    }
+
+    #[inline]
+    pub(super) fn intersect(&self, line: &Line<R>) -> Option<R> {
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let [first, second] = self.edges;
+        let across = line.direction.cross(second);
+        let determinant = first.dot(across);
+        if determinant == zero {
+            return None;
+        }
+        let inverse = one / determinant;
+        let from_corner = line.origin - self.corner;
+        let u = from_corner.dot(across) * inverse;
+        if u < zero || u > one {
+            return None;
+        }
+        let upward = from_corner.cross(first);
+        let v = line.direction.dot(upward) * inverse;
+        if v < zero || u + v > one {
+            return None;
+        }
+        let t = second.dot(upward) * inverse;
+        line.counts(t).then_some(t)
+    }
+
+    pub(super) fn normal(&self) -> Vector<R> {
+        self.edges[0].cross(self.edges[1]).normalized()
+    }
+}

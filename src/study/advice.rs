@@ -1,0 +1,106 @@
+//! What follows from a study, in plain words.
+
+use super::outcome::{Row, Study};
+use super::reference::DepthEnd;
+
+/// An error that nobody sees, in grey levels.
+const ENOUGH: f64 = 0.5;
+
+/// One sentence a line; the first is the one to follow.
+pub(super) fn advice(study: &Study) -> Vec<String> {
+    let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
+    let Some(chosen) = front.iter().position(|row| row.errors.rmse <= ENOUGH).or(front.len().checked_sub(1)) else {
+        return Vec::new();
+    };
+    let mut lines = vec![best(study, &front[chosen..])];
+    lines.extend(study.own().map(|own| about_own(study, own, &front)));
+    if study.reference.depth == Some(DepthEnd::Open) {
+        lines.push(
+            "Paths go deeper than this study could follow: errors hold for the depth of the reference.".to_owned(),
+        );
+    }
+    if study.rows.iter().any(|row| !row.judged) {
+        lines
+            .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
+    }
+    lines
+}
+
+/// The row chosen, and what better ones would cost.
+fn best(study: &Study, rows: &[&Row]) -> String {
+    let (chosen, better) = (rows[0], &rows[1..]);
+    let words = |row: &Row| row.setting.words(&study.used());
+    let line = format!("{}: {} for {}", words(chosen), error(chosen), seconds(chosen.seconds.value));
+    let half = better.iter().find(|row| row.errors.rmse <= 0.5 * chosen.errors.rmse);
+    match half {
+        Some(half) => {
+            let times = half.seconds.value / chosen.seconds.value;
+            format!("{line}; {} halves the error for {times:.1}× the time.", words(half))
+        }
+        None => format!("{line}."),
+    }
+}
+
+fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
+    let words = own.setting.words(&study.used());
+    if own.front {
+        return format!("The scene's own setting, {words}, is on the front.");
+    }
+    let better = front.iter().rfind(|row| row.seconds.value <= own.seconds.high);
+    let better = better.or(front.first());
+    match better {
+        Some(row) => format!(
+            "The scene's own setting, {words}, is off the front: {} has {} instead of {} for {:.2}× the time.",
+            row.setting.words(&study.used()),
+            error(row),
+            digits(own.errors.rmse),
+            row.ratio.value
+        ),
+        None => format!("The scene's own setting is {words}."),
+    }
+}
+
+/// As "error 0.4 grey levels".
+fn error(row: &Row) -> String {
+    match row.errors.rmse {
+        0.0 => "no error".to_owned(),
+        rmse => format!("error {}{} grey levels", if row.judged { "" } else { "≤ " }, digits(rmse)),
+    }
+}
+
+/// A number with the digits that mean something to people.
+pub(super) fn digits(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        ..0.001 => format!("{value:.0e}"),
+        ..0.1 => format!("{value:.3}"),
+        ..10.0 => format!("{value:.2}"),
+        ..100.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
+    }
+}
+
+/// Seconds in words.
+pub(super) fn seconds(value: f64) -> String {
+    match value {
+        ..0.1 => format!("{} ms", digits(1000.0 * value)),
+        ..120.0 => format!("{} s", digits(value)),
+        ..7200.0 => format!("{:.0} min", value / 60.0),
+        _ => format!("{:.1} h", value / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_matter() {
+        assert_eq!(
+            [0.0, 0.000_12, 0.0123, 0.456, 4.56, 45.6, 456.7].map(digits).join(" "),
+            "0 1e-4 0.012 0.46 4.56 45.6 457"
+        );
+        let words = [0.0123, 1.234, 75.0, 600.0, 9000.0].map(seconds).join(", ");
+        assert_eq!(words, "12.3 ms, 1.23 s, 75.0 s, 10 min, 2.5 h");
+    }
+}

@@ -1,0 +1,71 @@
+//! What a study runs on: threads, a clock, and someone who may say stop.
+
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::time::Duration;
+
+/// A clock, read before and after a piece of work; any origin will do.
+#[derive(Clone, Copy)]
+pub struct Clock<'a> {
+    /// The processor time that the calling thread has used.
+    pub cpu: &'a (dyn Fn() -> Duration + Sync),
+    /// The time of day.
+    pub wall: &'a (dyn Fn() -> Duration + Sync),
+}
+
+/// How long a piece of work took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Time {
+    pub(super) cpu: f64,
+    pub(super) wall: f64,
+}
+
+impl Clock<'_> {
+    /// Does a piece of work on the calling thread, and says how many seconds that took.
+    fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {
+        let (cpu, wall) = ((self.cpu)(), (self.wall)());
+        let done = work();
+        let since = |clock: &dyn Fn() -> Duration, start| clock().saturating_sub(start).as_secs_f64();
+        (done, Time { cpu: since(self.cpu, cpu), wall: since(self.wall, wall) })
+    }
+}
+
+/// Threads, a clock, and someone who may say stop.
+pub struct Bench<'a> {
+    clock: Clock<'a>,
+    proceed: &'a (dyn Fn(u64) -> bool + Sync),
+    /// All threads, for what is not timed.
+    wide: ThreadPool,
+    /// One thread, for what is: its processor time is the work, however busy the machine.
+    narrow: ThreadPool,
+}
+
+impl<'a> Bench<'a> {
+    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel,
+    /// with the rays it took.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn new(
+        threads: usize,
+        clock: Clock<'a>,
+        proceed: &'a (dyn Fn(u64) -> bool + Sync),
+    ) -> Result<Self, ThreadPoolBuildError> {
+        let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
+        Ok(Self { clock, proceed, wide: pool(threads)?, narrow: pool(1)? })
+    }
+
+    /// Whether to go on after a pixel of so many rays.
+    pub(super) fn goes_on(&self, rays: u64) -> bool {
+        (self.proceed)(rays)
+    }
+
+    /// Does a piece of work with all threads.
+    pub(super) fn work<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        self.wide.install(work)
+    }
+
+    /// Does a piece of work on one thread, and says how long that took.
+    pub(super) fn measure<T: Send>(&self, work: impl FnOnce() -> T + Send) -> (T, Time) {
+        self.narrow.install(|| self.clock.measure(work))
+    }
+}

@@ -1,0 +1,238 @@
+//! The knobs of accuracy: what can be turned for more work and less error, and which of them a scene has.
+
+use crate::ir::{Light, Material, Mode, Overrides, Scene};
+use serde::{Deserialize, Serialize};
+
+/// Something that trades work for accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Knob {
+    /// Sub-samples along each side of a pixel.
+    Supersampling,
+    /// Points of the lens.
+    Aperture,
+    /// Points of each soft light.
+    Lights,
+    /// Rays of each glossy lobe.
+    Glossy,
+    /// Bounces after the first hit.
+    Depth,
+}
+
+impl Knob {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Depth];
+
+    /// What it is called in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Supersampling => "supersampling",
+            Self::Aperture => "aperture samples",
+            Self::Lights => "light samples",
+            Self::Glossy => "glossy samples",
+            Self::Depth => "depth",
+        }
+    }
+
+    /// What it is called where there is little room.
+    #[must_use]
+    pub fn short(self) -> &'static str {
+        match self {
+            Self::Supersampling => "ss",
+            Self::Aperture => "lens",
+            Self::Lights => "light",
+            Self::Glossy => "gloss",
+            Self::Depth => "depth",
+        }
+    }
+
+    /// A value in words, as "4×4" or "16 aperture samples".
+    #[must_use]
+    pub fn words(self, value: u32) -> String {
+        match self {
+            Self::Supersampling => format!("{value}×{value}"),
+            Self::Aperture | Self::Lights | Self::Glossy => {
+                let name = self.name();
+                format!("{value} {}", if value == 1 { name.trim_end_matches('s') } else { name })
+            }
+            Self::Depth => format!("depth {value}"),
+        }
+    }
+
+    /// The values to try, from the least work up. Depth ends where the scene does.
+    pub fn ladder(self) -> impl Iterator<Item = u32> {
+        const DEPTHS: u32 = MAX_DEPTH + 1;
+        let (count, step): (u32, fn(u32) -> u32) = match self {
+            Self::Supersampling => (10, |i| [1, 2, 3, 4, 6, 8, 12, 16, 24, 32][i as usize]),
+            Self::Aperture | Self::Lights | Self::Glossy => (11, |i| 1 << i),
+            Self::Depth => (DEPTHS, |i| i),
+        };
+        (0..count).map(step)
+    }
+
+    /// The value with the least work.
+    #[must_use]
+    pub fn least(self) -> u32 {
+        u32::from(self != Self::Depth)
+    }
+
+    /// The work that a value asks for: samples, or bounces.
+    #[must_use]
+    pub fn samples(self, value: u32) -> f64 {
+        match self {
+            Self::Supersampling => f64::from(value) * f64::from(value),
+            Self::Aperture | Self::Lights | Self::Glossy | Self::Depth => f64::from(value),
+        }
+    }
+}
+
+/// The deepest path a study follows.
+pub(super) const MAX_DEPTH: u32 = 64;
+
+/// A value for each knob.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Setting {
+    /// Sub-samples along each side of a pixel.
+    pub supersampling: u32,
+    /// Points of the lens.
+    pub aperture: u32,
+    /// Points of each soft light.
+    pub lights: u32,
+    /// Rays of each glossy lobe.
+    pub glossy: u32,
+    /// Bounces after the first hit.
+    pub depth: u32,
+}
+
+impl Setting {
+    /// That of a scene; where its lobes have different numbers of rays the largest stands for all.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            supersampling: scene.settings.supersampling,
+            aperture: scene.camera.lens.samples,
+            lights: scene.settings.light_samples,
+            glossy: lobes(scene).max().unwrap_or(1),
+            depth: scene.settings.max_depth,
+        }
+    }
+
+    /// The value of a knob.
+    #[must_use]
+    pub fn get(&self, knob: Knob) -> u32 {
+        match knob {
+            Knob::Supersampling => self.supersampling,
+            Knob::Aperture => self.aperture,
+            Knob::Lights => self.lights,
+            Knob::Glossy => self.glossy,
+            Knob::Depth => self.depth,
+        }
+    }
+
+    /// The same with another value for a knob.
+    #[must_use]
+    pub fn with(mut self, knob: Knob, value: u32) -> Self {
+        let place = match knob {
+            Knob::Supersampling => &mut self.supersampling,
+            Knob::Aperture => &mut self.aperture,
+            Knob::Lights => &mut self.lights,
+            Knob::Glossy => &mut self.glossy,
+            Knob::Depth => &mut self.depth,
+        };
+        *place = value;
+        self
+    }
+
+    /// Camera rays of a pixel.
+    #[must_use]
+    pub fn camera_rays(&self) -> f64 {
+        Knob::Supersampling.samples(self.supersampling) * f64::from(self.aperture)
+    }
+
+    /// Writes the values into a scene; lobes keep theirs where the largest of them is meant.
+    pub fn apply(&self, scene: &mut Scene) {
+        let Self { supersampling, aperture, lights, glossy, depth } = *self;
+        let overrides = Overrides {
+            size: None,
+            supersampling: Some(supersampling),
+            aperture_samples: Some(aperture),
+            light_samples: Some(lights),
+            glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
+            depth: Some(depth),
+        };
+        overrides.apply(scene);
+    }
+
+    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3".
+    #[must_use]
+    pub fn words(&self, knobs: &[Knob]) -> String {
+        let words: Vec<_> = knobs.iter().map(|knob| knob.words(self.get(*knob))).collect();
+        match words.split_first() {
+            Some((first, [])) => first.clone(),
+            Some((first, rest)) if knobs[0] == Knob::Supersampling && knobs[1] != Knob::Depth => {
+                format!("{first} with {}", rest.join(", "))
+            }
+            Some(_) => words.join(", "),
+            None => "the scene as it is".to_owned(),
+        }
+    }
+}
+
+/// The numbers of rays of the lobes of a scene.
+fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
+    scene.materials.iter().filter_map(Material::phong).map(|phong| phong.glossy_samples).filter(|count| *count > 1)
+}
+
+/// Why a knob changes nothing in a scene, or `None` if it may change something.
+#[must_use]
+pub fn idle(knob: Knob, scene: &Scene) -> Option<&'static str> {
+    let phong = scene.settings.mode == Mode::Phong;
+    let weights = || scene.materials.iter().filter_map(Material::phong);
+    let cases: &[(bool, &'static str)] = match knob {
+        Knob::Supersampling => &[(scene.settings.mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
+        Knob::Aperture => &[
+            (scene.settings.mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
+            (scene.camera.lens.radius == 0.0, "the lens has no radius"),
+        ],
+        Knob::Lights => &[
+            (!phong, "the mode asks only the middle of a light"),
+            (scene.lights.iter().filter_map(Light::point).all(|light| light.radius == 0.0), "no light has a radius"),
+        ],
+        Knob::Glossy => &[
+            (!phong, "the mode follows no mirror"),
+            (weights().all(|phong| phong.glossy_samples == 1), "no material is glossy"),
+        ],
+        Knob::Depth => &[
+            (!phong, "the mode follows no mirror and no refraction"),
+            (weights().all(|phong| phong.ks == 0.0 && phong.kt == 0.0), "no material mirrors or lets light through"),
+        ],
+    };
+    cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_in_words() {
+        let setting = Setting { supersampling: 4, aperture: 16, lights: 1, glossy: 1, depth: 3 };
+        let words = |knobs: &[Knob]| setting.words(knobs);
+        assert_eq!(words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]), "4×4 with 16 aperture samples, depth 3");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Lights]), "4×4 with 1 light sample");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
+        assert_eq!(words(&[]), "the scene as it is");
+    }
+
+    #[test]
+    fn ladders_rise_from_the_least() {
+        for knob in Knob::ALL {
+            let values: Vec<_> = knob.ladder().collect();
+            assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
+            let setting = Setting { supersampling: 9, aperture: 9, lights: 9, glossy: 9, depth: 9 };
+            assert_eq!(setting.with(knob, 5).get(knob), 5);
+        }
+    }
+}

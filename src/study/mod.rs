@@ -1,0 +1,223 @@
+//! What accuracy costs: one scene in many settings, each with its error and its time, and the few that are worth it.
+//!
+//! A study makes its own reference, and says how far that may be off. What it decides depends on rays, never on time:
+//! the same study renders the same settings on every machine. All errors are in grey levels of 8 bits.
+
+mod advice;
+mod bench;
+mod effects;
+mod flip;
+mod front;
+mod knob;
+mod metrics;
+mod outcome;
+mod race;
+mod reference;
+mod report;
+mod statistics;
+mod subject;
+mod sweep;
+
+pub use bench::{Bench, Clock};
+pub use effects::EffectCost;
+pub use flip::{PIXELS_PER_DEGREE, flip};
+pub use front::{Point, front};
+pub use knob::{Knob, Setting, idle};
+pub use metrics::{Errors, LEVELS, rmse};
+pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
+pub use reference::{DepthEnd, Rung};
+pub use report::{csv, html, json, table};
+pub use statistics::{Chance, Estimate, PowerLaw, median};
+pub use subject::Stopped;
+
+use crate::ir::Scene;
+use crate::render::Seeds;
+use race::{Runner, race};
+use reference::{Depths, Reference};
+use serde::{Deserialize, Serialize};
+use subject::Subject;
+use sweep::{Model, sweep};
+
+/// How much work a study may be: about so many rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Effort(pub u64);
+
+impl Effort {
+    /// Seconds.
+    pub const QUICK: Self = Self(60_000_000);
+    /// About a minute for a simple scene.
+    pub const DEFAULT: Self = Self(600_000_000);
+    /// Ten times that.
+    pub const THOROUGH: Self = Self(6_000_000_000);
+}
+
+/// How much of the work goes where, in hundredths.
+const FOR_DEPTH: u64 = 5;
+const FOR_REFERENCE: u64 = 40;
+const FOR_SWEEPS: u64 = 15;
+const FOR_ROWS: u64 = 30;
+const FOR_EFFECTS: u64 = 10;
+
+/// A reference may be off by this share of an error that it judges.
+const JUDGE: f64 = 0.2;
+
+/// Studies a proven scene.
+///
+/// # Errors
+/// If someone said stop.
+pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Bench<'_>) -> Result<Study, Stopped> {
+    let scope = Scope::new(scene, effort);
+    let subject = scope.part(&Subject::new(scene, seed, bench))?;
+    let grounds = scope.grounds(&subject)?;
+    let mut chance = Chance::new(seed);
+    let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
+    let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut chance)?;
+    let mut study = Study {
+        schema: "rtc-cost/1".to_owned(),
+        about,
+        effort,
+        seed,
+        part: Part {
+            size: scene.camera.size,
+            tiles: if subject.is_whole() { 0 } else { subject.count() },
+            pixels: subject.pixels(),
+            share: subject.share(),
+        },
+        reference: grounds.report(),
+        knobs: Knob::ALL.map(|knob| grounds.model.report(knob, idle(knob, scene))).to_vec(),
+        rows,
+        effects,
+        wall_over_cpu,
+        advice: Vec::new(),
+        truth: grounds.reference.tiles,
+    };
+    study.advice = advice::advice(&study);
+    Ok(study)
+}
+
+/// What there is to turn in a scene, and how much work that may be.
+struct Scope {
+    own: Setting,
+    used: Vec<Knob>,
+    /// The knobs that sample: all but the depth.
+    sampling: Vec<Knob>,
+    effort: Effort,
+}
+
+/// What rows are judged by and chosen by.
+struct Grounds {
+    reference: Reference,
+    depths: Option<Depths>,
+    model: Model,
+}
+
+impl Scope {
+    fn new(scene: &Scene, effort: Effort) -> Self {
+        let used: Vec<_> = Knob::ALL.into_iter().filter(|knob| idle(*knob, scene).is_none()).collect();
+        let sampling = used.iter().copied().filter(|knob| *knob != Knob::Depth).collect();
+        Self { own: Setting::of(scene), used, sampling, effort }
+    }
+
+    fn hundredths(&self, share: u64) -> u64 {
+        self.effort.0 / 100 * share
+    }
+
+    /// The scene's own setting with all knobs that sample at a value.
+    fn at(&self, value: u32) -> Setting {
+        self.sampling.iter().fold(self.own, |setting, knob| setting.with(*knob, value))
+    }
+
+    /// As many tiles as can have a good reference, and be rendered in the scene's own setting.
+    fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
+        /// Samples of a pixel that make a good reference for the default effort.
+        const GOOD: f64 = 1024.0;
+        /// Fewer tiles say nothing of a picture.
+        const FEWEST: usize = 4;
+        if self.sampling.is_empty() {
+            return Ok(subject.clone());
+        }
+        let pilot = subject.keep(2 * FEWEST);
+        let setting = self.at(2);
+        let counts = pilot.shoot(setting, reference::independent(1))?.counts;
+        let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
+        let samples = GOOD * (self.effort.0 as f64 / Effort::DEFAULT.0 as f64).sqrt();
+        let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
+        let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
+        let pixels = of_reference.min(of_own);
+        let share = pixels / pilot.pixels() as f64 * pilot.count() as f64;
+        let enough = (0..subject.count()).take_while(|count| (*count as f64) < share).count();
+        Ok(if enough * 4 > subject.count() * 3 { subject.clone() } else { subject.keep(enough.max(FEWEST)) })
+    }
+
+    fn grounds(&self, subject: &Subject<'_>) -> Result<Grounds, Stopped> {
+        let depths = match self.used.contains(&Knob::Depth) {
+            true => Some(reference::depths(subject, self.at(2), self.hundredths(FOR_DEPTH))?),
+            false => None,
+        };
+        let enough = depths.as_ref().map_or(self.own.depth, |depths| depths.enough);
+        let start = self.at(4).with(Knob::Depth, enough);
+        let budget = self.hundredths(FOR_REFERENCE);
+        let reference = reference::reference(subject, start, &self.sampling, budget)?;
+        let base = if self.sampling.is_empty() { start } else { start.with(Knob::Supersampling, 2) };
+        let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
+        let ladders = self.sampling.iter().map(|knob| sweep(subject, &reference, (*knob, base), fair));
+        let ladders = ladders.collect::<Result<Vec<_>, _>>()?;
+        let base_rays = subject.shoot(base, reference::independent(5))?.counts.rays();
+        let mut model = Model::new(ladders, depths.as_ref(), base, base_rays);
+        if self.used.contains(&Knob::Aperture) {
+            let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
+            let shot = subject.shoot(coarse, Seeds::NONE)?;
+            model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
+        }
+        Ok(Grounds { reference, depths, model })
+    }
+
+    /// The scene's own setting and those the model thinks best, rendered, timed and judged.
+    fn rows(&self, subject: &Subject<'_>, grounds: &Grounds, chance: &mut Chance) -> Result<(Vec<Row>, f64), Stopped> {
+        let Grounds { reference, depths: _, model } = grounds;
+        let budget = self.hundredths(FOR_ROWS);
+        let least = self.used.iter().fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
+        let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
+        let best = front::candidates(model, least, &self.used, budget as f64 / 10.0, least_error);
+        let settings = std::iter::once(self.own).chain(best.into_iter().filter(|setting| *setting != self.own));
+        let runners: Vec<_> = settings.map(|setting| Runner { subject: subject.clone(), setting }).collect();
+        let race = race(&runners, budget, chance)?;
+        let row = |(runner, run): (&Runner<'_>, race::Run)| {
+            let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.share());
+            Row {
+                setting: runner.setting,
+                own: runner.setting == self.own,
+                front: false,
+                rays: run.shot.counts.into(),
+                seconds: run.seconds,
+                ratio: run.ratio,
+                judged: reference.floor <= JUDGE * errors.rmse || reference.floor == 0.0,
+                errors,
+                model: model.error(runner.setting),
+                tiles: run.shot.tiles,
+            }
+        };
+        let mut rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
+        let points: Vec<_> = rows.iter().map(Row::point).collect();
+        rows.iter_mut().zip(front(&points)).for_each(|(row, front)| row.front = front);
+        rows.sort_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
+        Ok((rows, race.wall_over_cpu))
+    }
+}
+
+impl Grounds {
+    fn report(&self) -> ReferenceReport {
+        ReferenceReport {
+            setting: self.reference.setting,
+            floor: self.reference.floor,
+            depth: self.depths.as_ref().map(|depths| depths.end),
+        }
+    }
+}
+
+impl Row {
+    fn point(&self) -> Point {
+        Point { seconds: [self.seconds.low, self.seconds.high], rays: self.rays.all(), error: self.errors.rmse }
+    }
+}

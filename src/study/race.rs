@@ -1,0 +1,84 @@
+//! Renders timed against each other: in rounds, each in another random order, so that what slows the machine slows all.
+//! Time is that of one thread's processor; a busy machine does not change it.
+
+use super::bench::Time;
+use super::knob::Setting;
+use super::statistics::{Chance, Estimate, median};
+use super::subject::{Shot, Stopped, Subject};
+
+/// What takes part.
+pub(super) struct Runner<'a> {
+    pub(super) subject: Subject<'a>,
+    pub(super) setting: Setting,
+}
+
+/// How it went.
+pub(super) struct Run {
+    pub(super) shot: Shot,
+    /// Seconds for the whole picture.
+    pub(super) seconds: Estimate,
+    /// Seconds over those of the first runner.
+    pub(super) ratio: Estimate,
+}
+
+/// How all went.
+pub(super) struct Race {
+    pub(super) runs: Vec<Run>,
+    /// Wall time over processor time of all renders: above 1 others used the machine.
+    pub(super) wall_over_cpu: f64,
+}
+
+const FEWEST_ROUNDS: u64 = 3;
+const MOST_ROUNDS: u64 = 15;
+
+/// Times all runners in at least three rounds, those that take few rays in more, of about `budget` rays in all.
+pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> Result<Race, Stopped> {
+    let mut shots: Vec<Option<Shot>> = runners.iter().map(|_| None).collect();
+    let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
+    let mut rounds = vec![FEWEST_ROUNDS; runners.len()];
+    for round in 0..MOST_ROUNDS {
+        let mut order: Vec<_> = (0..runners.len()).filter(|index| rounds[*index] > round || *index == 0).collect();
+        if round >= FEWEST_ROUNDS && order.len() < 2 {
+            break;
+        }
+        chance.shuffle(&mut order);
+        times.iter_mut().for_each(|times| times.push(None));
+        for index in order {
+            let (shot, time) = runners[index].subject.time(runners[index].setting)?;
+            if shots[index].is_none() {
+                let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
+                rounds[index] = fair.clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+            }
+            shots[index].get_or_insert(shot);
+            if let Some(place) = times[index].last_mut() {
+                *place = Some(time);
+            }
+        }
+    }
+    let wholes: Vec<Vec<Option<f64>>> =
+        runners.iter().zip(&times).map(|(runner, times)| whole_picture(runner, times, chance)).collect();
+    let runs = shots.into_iter().flatten().zip(&wholes).map(|(shot, seconds)| {
+        let ratios: Vec<_> =
+            seconds.iter().zip(&wholes[0]).filter_map(|(ours, first)| Some((*ours)? / (*first)?)).collect();
+        let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
+        Run { shot, seconds: median(&seconds, chance), ratio: median(&ratios, chance) }
+    });
+    let runs = runs.collect();
+    let total = |of: fn(&Time) -> f64| times.iter().flatten().flatten().map(of).sum::<f64>();
+    Ok(Race { runs, wall_over_cpu: total(|time| time.wall) / total(|time| time.cpu).max(1e-9) })
+}
+
+/// The seconds that the whole picture would take, from those of its part: preparing the scene takes the same for both,
+/// and passing over the rest of the pixels is no work of a picture.
+fn whole_picture(runner: &Runner<'_>, times: &[Option<Time>], chance: &mut Chance) -> Vec<Option<f64>> {
+    const ROUNDS: usize = 5;
+    let Runner { subject, setting } = runner;
+    if subject.is_whole() {
+        return times.iter().map(|time| time.as_ref().map(|time| time.cpu)).collect();
+    }
+    let overhead = subject.time_overhead(*setting, ROUNDS);
+    let [prepare, pass] =
+        [0, 1].map(|which| median(&overhead.iter().map(|round| round[which]).collect::<Vec<_>>(), chance).value);
+    let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / subject.share();
+    times.iter().map(|time| time.as_ref().map(whole)).collect()
+}

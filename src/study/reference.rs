@@ -1,0 +1,138 @@
+//! The reference of a study, made by itself: knobs are raised one at a time until the picture keeps still or the work is
+//! too much, then it is rendered twice with independent sampling. The mean is the reference; how the halves differ tells
+//! how far it may be off.
+
+use super::knob::{Knob, MAX_DEPTH, Setting};
+use super::metrics::{mean, rmse};
+use super::subject::{Shot, Stopped, Subject};
+use crate::image::Image;
+use crate::render::Seeds;
+use serde::{Deserialize, Serialize};
+
+/// The smallest error worth a row, in grey levels: a twentieth of a level is beyond any eye.
+pub(super) const SMALLEST: f64 = 0.05;
+
+/// A reference moves by less than this when a knob is raised, in grey levels.
+const STILL: f64 = SMALLEST / 10.0;
+
+/// A value of a knob alone, and what it does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rung {
+    /// The value.
+    pub value: u32,
+    /// The error it leaves if all other knobs leave none, in grey levels.
+    pub error: f64,
+    /// Whether the error stands out from the noise of the study.
+    pub resolved: bool,
+    /// The rays it takes, with the other knobs where the sweep has them.
+    pub rays: u64,
+}
+
+/// A picture as good as the study could afford.
+pub(super) struct Reference {
+    pub(super) tiles: Vec<Image>,
+    pub(super) setting: Setting,
+    /// The error of the reference itself, in grey levels.
+    pub(super) floor: f64,
+}
+
+/// How deep paths go, and what less depth leaves out.
+pub(super) struct Depths {
+    /// From this depth on the picture is still.
+    pub(super) enough: u32,
+    /// The error of each depth up to there.
+    pub(super) rungs: Vec<Rung>,
+    /// How the search ended.
+    pub(super) end: DepthEnd,
+}
+
+/// How the search for enough depth ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum DepthEnd {
+    /// No path goes deeper: what is left out beyond is nothing.
+    Exact,
+    /// One bounce more does not show.
+    Still,
+    /// The study could not afford to go on; deeper paths may show.
+    Open,
+}
+
+/// Sampling independent of every render and of other numbers.
+pub(super) fn independent(number: u64) -> Seeds {
+    Seeds { pixel: number, lens: number, path: number }
+}
+
+/// Finds out how deep paths go. All depths are sampled alike, so that what differs is the depth alone.
+pub(super) fn depths(subject: &Subject<'_>, start: Setting, budget: u64) -> Result<Depths, Stopped> {
+    let shoot = |depth| subject.shoot(start.with(Knob::Depth, depth), independent(1));
+    let mut shots = vec![shoot(0)?];
+    let mut spent = shots[0].counts.rays();
+    let end = loop {
+        let depth = u32::try_from(shots.len()).unwrap_or(MAX_DEPTH);
+        if let [.., before, last] = shots.as_slice() {
+            let grows = last.counts.rays() as f64 / before.counts.rays() as f64;
+            if last.counts.secondary() == before.counts.secondary() {
+                shots.pop();
+                break DepthEnd::Exact;
+            }
+            if depth > MAX_DEPTH || spent as f64 + last.counts.rays() as f64 * grows > budget as f64 {
+                break DepthEnd::Open;
+            }
+        }
+        if let [.., first, second, third] = shots.as_slice()
+            && rmse(&first.tiles, &second.tiles).max(rmse(&second.tiles, &third.tiles)) < STILL
+        {
+            break DepthEnd::Still;
+        }
+        shots.push(shoot(depth)?);
+        spent += shots[shots.len() - 1].counts.rays();
+    };
+    let last = &shots[shots.len() - 1];
+    let rung = |(value, shot): (u32, &Shot)| {
+        let error = rmse(&shot.tiles, &last.tiles);
+        Rung { value, error, resolved: error > 0.0, rays: shot.counts.rays() }
+    };
+    let rungs: Vec<_> = (0..).zip(&shots).map(rung).collect();
+    Ok(Depths { enough: rungs.last().map_or(0, |rung| rung.value), rungs, end })
+}
+
+/// Renders the reference with about `budget` rays: raises one of the knobs that sample after the other, from `start`, until
+/// the picture keeps still or the budget ends.
+pub(super) fn reference(
+    subject: &Subject<'_>,
+    start: Setting,
+    knobs: &[Knob],
+    budget: u64,
+) -> Result<Reference, Stopped> {
+    let mut setting = start;
+    if knobs.is_empty() {
+        let shot = subject.shoot(setting, Seeds::NONE)?;
+        return Ok(Reference { tiles: shot.tiles, setting, floor: 0.0 });
+    }
+    let mut half = subject.shoot(setting, independent(1))?;
+    let mut spent = half.counts.rays() as f64;
+    for (number, knob) in (2..).zip(knobs.iter().cycle()) {
+        let raised = setting.with(*knob, raised(setting.get(*knob)));
+        let growth = knob.samples(raised.get(*knob)) / knob.samples(setting.get(*knob));
+        // The other half has to be paid for too.
+        if spent + 2.0 * growth * half.counts.rays() as f64 > budget as f64 {
+            break;
+        }
+        let next = subject.shoot(raised, independent(number))?;
+        spent += next.counts.rays() as f64;
+        let moved = rmse(&half.tiles, &next.tiles);
+        (setting, half) = (raised, next);
+        if moved < STILL {
+            break;
+        }
+    }
+    let other = subject.shoot(setting, independent(0x5EED))?;
+    let tiles = mean(&half.tiles, &other.tiles);
+    Ok(Reference { floor: 0.5 * rmse(&half.tiles, &other.tiles), tiles, setting })
+}
+
+/// The next of 2, 3, 4, 6, 8, 12, 16, ….
+fn raised(value: u32) -> u32 {
+    if value.is_multiple_of(3) { value / 3 * 4 } else { value / 2 * 3 }
+}

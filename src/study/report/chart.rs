@@ -1,0 +1,151 @@
+//! Plots as SVG, both axes logarithmic. Text stays text, and black follows the page: its style turns that for the dark.
+
+use super::super::advice::{digits, seconds};
+use super::super::knob::Knob;
+use super::super::outcome::{KnobReport, Row, Study};
+use crate::math::exp;
+use plotters::coord::Shift;
+use plotters::coord::combinators::{IntoLogRange, LogCoord};
+use plotters::prelude::*;
+use std::error::Error;
+
+const ACCENT: RGBColor = RGBColor(0x2b, 0x7c, 0xd3);
+const MUTED: RGBColor = RGBColor(0x80, 0x80, 0x80);
+const FLOOR: RGBColor = RGBColor(0xd0, 0x60, 0x30);
+
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>;
+type Outcome = Result<(), Box<dyn Error>>;
+
+/// A span of values that fits on a logarithmic axis.
+type Span = std::ops::Range<f64>;
+
+/// Error against time: all rows with their intervals, the front as steps, the floor of the reference.
+pub(super) fn front(study: &Study) -> String {
+    let rows: Vec<_> = study.rows.iter().filter(|row| row.errors.rmse > 0.0).collect();
+    let xs = span(rows.iter().map(|row| row.seconds.value));
+    let floor = Some(study.reference.floor).filter(|floor| *floor > 0.0);
+    let ys = span(rows.iter().map(|row| row.errors.rmse).chain(floor));
+    plot((460, 360), |root| {
+        let mut chart = axes(root, [xs.clone(), ys], ["time of one processor", "error in grey levels"], seconds)?;
+        let steps = front_steps(&rows, xs.end);
+        chart.draw_series([PathElement::new(steps, ACCENT.stroke_width(2))])?;
+        if let Some(floor) = floor {
+            chart.draw_series([PathElement::new([(xs.start, floor), (xs.end, floor)], FLOOR.stroke_width(1))])?;
+            let label = Text::new("error of the reference", (xs.start * 1.1, floor * 1.06), font(11));
+            chart.draw_series([label])?;
+        }
+        for row in rows {
+            draw_row(&mut chart, row, &study.used())?;
+        }
+        Ok(())
+    })
+}
+
+/// The corners of the front: what the least error is for a time.
+fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
+    let mut steps: Vec<(f64, f64)> = Vec::new();
+    for row in rows.iter().filter(|row| row.front) {
+        let x = row.seconds.value;
+        steps.extend(steps.last().map(|last| (x, last.1)));
+        steps.push((x, row.errors.rmse));
+    }
+    steps.extend(steps.last().map(|last| (end, last.1)));
+    steps
+}
+
+fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
+    let (x, y) = (row.seconds.value, row.errors.rmse);
+    let color = if row.front { ACCENT } else { MUTED };
+    let off = row.errors.rmse_uncertainty.min(0.9);
+    let across = [(row.seconds.low.max(x * 0.1), y), (row.seconds.high, y)];
+    let along = [(x, y * (1.0 - off)), (x, y * (1.0 + off))];
+    for bar in [across, along] {
+        chart.draw_series([PathElement::new(bar, color.mix(0.5).stroke_width(1))])?;
+    }
+    let fill = if row.judged { color.filled() } else { color.stroke_width(1) };
+    chart.draw_series([Circle::new((x, y), 4, fill)])?;
+    if row.front || row.own {
+        let values: Vec<_> = used.iter().map(|knob| row.setting.get(*knob).to_string()).collect();
+        let own = if row.own { " (own)" } else { "" };
+        chart.draw_series([Text::new(format!("{}{own}", values.join("·")), (x * 1.05, y * 1.12), font(11))])?;
+    }
+    Ok(())
+}
+
+/// The error of a knob alone, and its law.
+pub(super) fn knob(report: &KnobReport) -> String {
+    // A logarithmic axis has no 0; a depth of 0 stands beside 1.
+    let x = |value: u32| report.knob.samples(value).max(0.5);
+    let points: Vec<_> =
+        report.rungs.iter().filter(|rung| rung.error > 0.0).map(|rung| (x(rung.value), rung)).collect();
+    let xs = span(points.iter().map(|point| point.0));
+    let ys = span(points.iter().map(|point| point.1.error));
+    let name = match report.knob {
+        Knob::Supersampling => "samples of a pixel",
+        Knob::Depth => "depth, 0 at ½",
+        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy) => knob.name(),
+    };
+    plot((400, 300), |root| {
+        let mut chart = axes(root, [xs.clone(), ys], [name, "error in grey levels"], digits)?;
+        if let Some(law) = &report.law {
+            let line = [xs.start, xs.end].map(|x| (x, law.at(x)));
+            chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
+        }
+        let mark = |(x, rung): &(f64, &super::super::reference::Rung)| {
+            let style = if rung.resolved { ACCENT.filled() } else { MUTED.stroke_width(1) };
+            Circle::new((*x, rung.error), 4, style)
+        };
+        chart.draw_series(points.iter().map(mark))?;
+        Ok(())
+    })
+}
+
+/// The decades that hold all values.
+fn span(values: impl Iterator<Item = f64>) -> Span {
+    let decades = (-12..=12).map(|decade| exp(f64::from(decade) * std::f64::consts::LN_10));
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    let below = decades.clone().rfind(|decade| *decade < 0.95 * low);
+    let above = decades.clone().find(|decade| *decade > 1.05 * high);
+    match (below, above) {
+        (Some(below), Some(above)) if low <= high => below..above,
+        _ => 0.1..10.0,
+    }
+}
+
+fn plot(size: (u32, u32), draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome) -> String {
+    let mut svg = String::new();
+    let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+    let drawn = draw(&root).and_then(|()| Ok(root.present()?));
+    drop(root);
+    // A string takes whatever is drawn; if it did not, a page without a plot is better than none.
+    drawn.map_or_else(|error| format!("<p>no plot: {error}</p>"), |()| svg)
+}
+
+fn axes<'a, 'b>(
+    root: &'a DrawingArea<SVGBackend<'b>, Shift>,
+    [xs, ys]: [Span; 2],
+    [x_name, y_name]: [&str; 2],
+    x_words: fn(f64) -> String,
+) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
+    let mut builder = ChartBuilder::on(root);
+    builder.margin(8).x_label_area_size(40).y_label_area_size(56);
+    let mut chart = builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?;
+    chart
+        .configure_mesh()
+        .bold_line_style(MUTED.mix(0.3))
+        .light_line_style(MUTED.mix(0.1))
+        .label_style(font(12))
+        .axis_desc_style(font(13))
+        .x_desc(x_name)
+        .y_desc(y_name)
+        .x_labels(4)
+        .y_labels(4)
+        .x_label_formatter(&|x| x_words(*x))
+        .y_label_formatter(&|y| digits(*y))
+        .draw()?;
+    Ok(chart)
+}
+
+fn font(size: u32) -> (&'static str, u32) {
+    ("sans-serif", size)
+}

@@ -1,0 +1,28 @@
+//! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey levels, time in seconds.
+
+use super::super::knob::Knob;
+use super::super::outcome::{Row, Study};
+
+const NAMES: &str = "supersampling,aperture,lights,glossy,depth,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
+refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_uncertainty,relative_mse,max,\
+visible,flip,model";
+
+/// All rows.
+#[must_use]
+pub fn csv(study: &Study) -> String {
+    let lines = study.rows.iter().map(line);
+    std::iter::once(NAMES.to_owned()).chain(lines).map(|line| line + "\r\n").collect()
+}
+
+fn line(row: &Row) -> String {
+    let Row { setting, own, front, rays, seconds, ratio, errors, judged, model, tiles: _ } = row;
+    let knobs = Knob::ALL.map(|knob| setting.get(knob).to_string());
+    let flags = [own, front, judged].map(ToString::to_string);
+    let rays = [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
+    let times = [seconds, ratio].into_iter().flat_map(|estimate| [estimate.value, estimate.low, estimate.high]);
+    let errors =
+        [errors.rmse, errors.rmse_uncertainty, errors.relative_mse, errors.max, errors.visible, errors.flip, *model];
+    // The shortest digits that read back as the same number.
+    let numbers = times.chain(errors).map(|number| number.to_string());
+    knobs.into_iter().chain(flags).chain(rays).chain(numbers).collect::<Vec<_>>().join(",")
+}

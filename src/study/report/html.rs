@@ -1,0 +1,149 @@
+//! The page: one file that needs no network and no script, for wide screens and narrow ones, light and dark.
+
+use super::super::advice::{digits, seconds};
+use super::super::knob::Knob;
+use super::super::outcome::{Row, Study};
+use super::{chart, picture, table};
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("page.css");
+
+/// No more rows are shown as pictures.
+const PICTURES: usize = 8;
+
+/// The page of a study.
+#[must_use]
+pub fn html(study: &Study) -> String {
+    let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
+    let sections = [front(study), knobs(study), effects(study), pictures(study), fine_print(study)];
+    let advice: String = study.advice.iter().map(|line| format!("<p>{}</p>\n", escaped(line))).collect();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n<div class=\"advice\">\n{advice}</div>\n{}\
+         </body>\n</html>\n",
+        sections.concat()
+    )
+}
+
+fn front(study: &Study) -> String {
+    let used = study.used();
+    let mut rows = String::new();
+    for row in &study.rows {
+        let class = if row.front { "front" } else { "other" };
+        let cells: String = cells(row, &used, study.part.share).iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        let _ = writeln!(rows, "<tr class=\"{class}\">{cells}</tr>");
+    }
+    let names = ["rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
+    let names = std::iter::once("").chain(used.iter().map(|knob| knob.short())).chain(names);
+    let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
+    format!(
+        "<h2>The front: what error there is for a time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
+         <div class=\"wide\"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
+        chart::front(study),
+        "Points are settings as measured, bars their uncertainty, steps the front, hollow points those that the reference \
+         is not good enough to judge."
+    )
+}
+
+fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
+    let star = if row.front { "★" } else { "" };
+    let own = if row.own { " own" } else { "" };
+    let limit = if row.judged { "" } else { "≤ " };
+    let knobs = used.iter().map(|knob| row.setting.get(*knob).to_string());
+    let measured = [
+        table::count(row.rays.all() as f64 / share),
+        format!("{} ± {:.1} %", seconds(row.seconds.value), 100.0 * row.seconds.relative()),
+        format!("{} ± {:.1} %", digits(row.ratio.value), 100.0 * row.ratio.relative()),
+        format!("{limit}{}", digits(row.errors.rmse)),
+        digits(row.model),
+        digits(row.errors.max),
+        format!("{} %", digits(100.0 * row.errors.visible)),
+        digits(row.errors.flip),
+    ];
+    std::iter::once(format!("{star}{own}")).chain(knobs).chain(measured).collect()
+}
+
+fn knobs(study: &Study) -> String {
+    let mut figures = String::new();
+    let mut idle = String::new();
+    for report in &study.knobs {
+        let words = escaped(&table::knob_line(report, study.reference.depth));
+        if report.idle.is_some() {
+            let _ = writeln!(idle, "<li>{words}</li>");
+        } else {
+            let plot = chart::knob(report);
+            let _ = writeln!(figures, "<figure>{plot}<figcaption>{words}</figcaption></figure>");
+        }
+    }
+    let note =
+        "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
+    format!("<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{idle}</ul>\n")
+}
+
+fn effects(study: &Study) -> String {
+    if study.effects.is_empty() {
+        return String::new();
+    }
+    let mut rows = String::new();
+    for cost in &study.effects {
+        let (time, off) = (cost.ratio.value, 100.0 * cost.ratio.relative());
+        let (rays, difference) = (cost.ray_ratio, digits(cost.difference));
+        let name = escaped(&cost.effect);
+        let _ = writeln!(
+            rows,
+            "<tr><td>{name}</td><td>{time:.2} ± {off:.1} %</td><td>{rays:.2}</td><td>{difference}</td></tr>"
+        );
+    }
+    format!(
+        "<h2>What each effect costs</h2>\n<p>The scene without the effect, in its own setting, over the scene as it is. \
+         </p>\n<div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th>\
+         <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn pictures(study: &Study) -> String {
+    if study.truth.is_empty() {
+        return String::new();
+    }
+    let shown: Vec<_> = study.rows.iter().filter(|row| row.front || row.own).collect();
+    let step = shown.len().div_ceil(PICTURES).max(1);
+    let mut figures = figure(&[picture::tiles(&study.truth)], "The reference");
+    for row in shown.into_iter().step_by(step) {
+        let own = if row.own { ", the scene's own" } else { "" };
+        let words = format!("{}{own}: error {}", row.setting.words(&study.used()), digits(row.errors.rmse));
+        figures += &figure(&[picture::tiles(&row.tiles), picture::heat(&row.tiles, &study.truth)], &words);
+    }
+    let what = if study.part.tiles == 0 { "The picture" } else { "The tiles looked at, side by side," };
+    format!(
+        "<h2>How it looks</h2>\n<p>{what} and how visible the error is at each place (FLIP; black is none, white the \
+         most).</p>\n<div class=\"grid\">\n{figures}</div>\n"
+    )
+}
+
+fn figure(images: &[String], words: &str) -> String {
+    let images: String = images.iter().map(|uri| format!("<img alt=\"\" src=\"{uri}\">")).collect();
+    format!("<figure><div class=\"pair\">{images}</div><figcaption>{}</figcaption></figure>\n", escaped(words))
+}
+
+fn fine_print(study: &Study) -> String {
+    let about = &study.about;
+    let busy = format!("wall time was {:.2} times processor time", study.wall_over_cpu);
+    let facts = [
+        table::part(study),
+        table::reference(study),
+        "“Pixels off” have a channel off by more than one grey level. FLIP is of each tile as a picture of its own, at 67 \
+         pixels per degree. Times are medians of rounds in random order with 95 % intervals; × own is over the scene's \
+         own setting in the same round."
+            .to_owned(),
+        format!("{}, scene {}, seed {}.", about.software, about.hash, study.seed),
+        format!("{}, {} cores; {busy}.", about.processor, about.cores),
+    ];
+    let lines: String = facts.iter().map(|fact| format!("<p><small>{}</small></p>\n", escaped(fact))).collect();
+    format!("<h2>What this rests on</h2>\n{lines}")
+}
+
+/// Text that means itself in HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,22 @@
+//! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a browser.
+
+mod chart;
+mod csv;
+mod html;
+mod picture;
+mod table;
+
+pub use csv::csv;
+pub use html::html;
+pub use table::table;
+
+use super::outcome::Study;
+
+/// All of a study but its pictures as JSON.
+///
+/// # Panics
+/// Never: a study holds nothing that JSON can't.
+#[must_use]
+pub fn json(study: &Study) -> String {
+    serde_json::to_string_pretty(study).expect("a study holds names and numbers") + "\n"
+}

@@ -1,0 +1,221 @@
+//! The little statistics a study needs: medians with their uncertainty, lines through points, and repeatable chance.
+
+use crate::math::{exp, ln, pow};
+use serde::{Deserialize, Serialize};
+
+/// A number with the interval it lies in with 95 % confidence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// The best guess.
+    pub value: f64,
+    /// The lower end of the interval.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+impl Estimate {
+    /// A number known exactly.
+    #[must_use]
+    pub fn exact(value: f64) -> Self {
+        Self { value, low: value, high: value }
+    }
+
+    /// Half the width of the interval, as a share of the value; 0 for a value of 0.
+    #[must_use]
+    pub fn relative(&self) -> f64 {
+        if self.value == 0.0 { 0.0 } else { 0.5 * (self.high - self.low) / self.value.abs() }
+    }
+
+    /// The same, in other units.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, low: self.low * factor, high: self.high * factor }
+    }
+}
+
+/// Repeatable chance: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+#[derive(Clone, Debug)]
+pub struct Chance(u64);
+
+impl Chance {
+    /// The sequence of a seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// A number below `bound`, which is above 0.
+    pub fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        let wide = u128::from(x ^ (x >> 31)) * bound as u128;
+        usize::try_from(wide >> 64).unwrap_or(0)
+    }
+
+    /// Puts the items in random order (Fisher and Yates).
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+/// How many samples a bootstrap draws.
+const DRAWS: usize = 999;
+
+/// The median with its 95 % interval by the bootstrap (Efron, "Bootstrap methods", Annals of Statistics 7 (1979)).
+///
+/// NaN of nothing; the interval of fewer than 5 values is their range, for want of better.
+#[must_use]
+pub fn median(values: &[f64], chance: &mut Chance) -> Estimate {
+    let mut sorted = values.to_vec();
+    let value = middle(&mut sorted);
+    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return Estimate::exact(f64::NAN) };
+    if sorted.len() < 5 {
+        return Estimate { value, low: *first, high: *last };
+    }
+    let mut draws: Vec<_> = (0..DRAWS).map(|_| middle(&mut resample(&sorted, chance))).collect();
+    draws.sort_by(f64::total_cmp);
+    Estimate { value, low: draws[DRAWS / 40], high: draws[DRAWS - 1 - DRAWS / 40] }
+}
+
+fn resample(values: &[f64], chance: &mut Chance) -> Vec<f64> {
+    values.iter().map(|_| values[chance.below(values.len())]).collect()
+}
+
+/// The median of values, which it sorts.
+fn middle(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    match n {
+        0 => f64::NAN,
+        _ if n % 2 == 1 => values[n / 2],
+        _ => 0.5 * (values[n / 2 - 1] + values[n / 2]),
+    }
+}
+
+/// How far a mean over `share` of a population may be off, with 95 % confidence, as a share of it.
+///
+/// The population is finite: the mean over all of it is exact.
+#[must_use]
+pub(super) fn relative_error_of_mean(values: &[f64], share: f64) -> f64 {
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    if mean == 0.0 || share >= 1.0 {
+        return 0.0;
+    }
+    if values.len() < 2 {
+        return f64::INFINITY;
+    }
+    let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
+    student(values.len() - 1) * (variance / n * (1.0 - share)).sqrt() / mean
+}
+
+/// A law of the form `y = c·x^−p`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PowerLaw {
+    /// y at x = 1.
+    pub c: f64,
+    /// The exponent, with its interval from how well the points fit.
+    pub p: Estimate,
+}
+
+impl PowerLaw {
+    /// The law that fits points (x, y) above 0 best on logarithmic scales; `None` for fewer than three.
+    #[must_use]
+    pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
+        let n = points.len();
+        if n < 3 {
+            return None;
+        }
+        let logs: Vec<_> = points.iter().map(|(x, y)| (ln(*x), ln(*y))).collect();
+        let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n as f64;
+        let (x_mean, y_mean) = (mean(|log| log.0), mean(|log| log.1));
+        let spread: f64 = logs.iter().map(|(x, _)| (x - x_mean) * (x - x_mean)).sum();
+        let slope = logs.iter().map(|(x, y)| (x - x_mean) * (y - y_mean)).sum::<f64>() / spread;
+        let residual = |(x, y): &(f64, f64)| y - y_mean - slope * (x - x_mean);
+        let squares: f64 = logs.iter().map(|log| residual(log) * residual(log)).sum();
+        let half = student(n - 2) * (squares / (n - 2) as f64 / spread).sqrt();
+        let c = exp(y_mean - slope * x_mean);
+        Some(Self { c, p: Estimate { value: -slope, low: -slope - half, high: -slope + half } })
+    }
+
+    /// y at x.
+    #[must_use]
+    pub fn at(&self, x: f64) -> f64 {
+        self.c * pow(x, -self.p.value)
+    }
+}
+
+/// Student's t for a two-sided interval of 95 %.
+fn student(degrees: usize) -> f64 {
+    const TABLE: [f64; 15] =
+        [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131];
+    match degrees {
+        0 => f64::INFINITY,
+        1..=15 => TABLE[degrees - 1],
+        16..=30 => 2.08,
+        _ => 1.97,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_is_found_and_noise_widens_its_interval() {
+        let exact: Vec<_> = [1.0, 4.0, 9.0, 16.0, 36.0].map(|x| (x, 3.0 * pow(x, -0.75))).to_vec();
+        let law = PowerLaw::fit(&exact).unwrap();
+        assert!((law.p.value - 0.75).abs() < 1e-12 && (law.c - 3.0).abs() < 1e-12, "{law:?}");
+        assert!(law.p.high - law.p.low < 1e-6, "{law:?}");
+        let noisy: Vec<_> = exact.iter().zip([1.1, 0.9, 1.1, 0.9, 1.1]).map(|((x, y), f)| (*x, y * f)).collect();
+        let law = PowerLaw::fit(&noisy).unwrap();
+        assert!(law.p.low < 0.75 && 0.75 < law.p.high && law.p.relative() > 0.05, "{law:?}");
+        assert!(PowerLaw::fit(&exact[..2]).is_none());
+    }
+
+    #[test]
+    fn the_interval_of_the_median_holds_it_as_often_as_it_says() {
+        let mut chance = Chance::new(7);
+        let mut held = 0;
+        for _ in 0..200 {
+            // Uniform in [0, 1): the median is 1/2.
+            let values: Vec<_> = (0..15).map(|_| chance.below(1 << 30) as f64 / f64::from(1 << 30)).collect();
+            let estimate = median(&values, &mut chance);
+            held += usize::from(estimate.low <= 0.5 && 0.5 <= estimate.high);
+        }
+        assert!((180..=199).contains(&held), "{held} of 200");
+    }
+
+    #[test]
+    fn medians_of_few_values() {
+        let mut chance = Chance::new(1);
+        assert!(median(&[], &mut chance).value.is_nan());
+        assert_eq!(median(&[3.0], &mut chance), Estimate::exact(3.0));
+        assert_eq!(median(&[4.0, 1.0], &mut chance), Estimate { value: 2.5, low: 1.0, high: 4.0 });
+    }
+
+    #[test]
+    fn the_mean_of_all_is_exact_and_of_one_is_unknown() {
+        assert_eq!(relative_error_of_mean(&[1.0, 5.0], 1.0), 0.0);
+        assert_eq!(relative_error_of_mean(&[1.0], 0.5), f64::INFINITY);
+        let of = |share| relative_error_of_mean(&[1.0, 2.0, 3.0], share);
+        assert!((of(0.0) - 4.303 / 3.0_f64.sqrt() / 2.0).abs() < 1e-12 && of(0.75) < 0.51 * of(0.0));
+    }
+
+    #[test]
+    fn a_shuffle_keeps_all_and_is_repeatable() {
+        let shuffled = |seed| {
+            let mut items: Vec<_> = (0..20).collect();
+            Chance::new(seed).shuffle(&mut items);
+            items
+        };
+        assert!(shuffled(1) == shuffled(1) && shuffled(1) != shuffled(2));
+        let mut sorted = shuffled(1);
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..20).collect::<Vec<_>>());
+    }
+}

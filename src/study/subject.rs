@@ -1,0 +1,144 @@
+//! What is studied: a scene, and the tiles of its picture that are looked at. It renders them in any setting, and counts
+//! the rays that took.
+
+use super::bench::{Bench, Time};
+use super::knob::Setting;
+use crate::diag::Sink;
+use crate::image::Image;
+use crate::ir::{Origins, Pattern, Scene};
+use crate::plan::{Plan, Rules};
+use crate::render::{Counts, Crop, Job, Seeds, Tiles, Values, render};
+use crate::valid::{self, ValidScene};
+
+/// A scene, and the part of its picture that is looked at.
+#[derive(Clone)]
+pub(super) struct Subject<'bench> {
+    pub(super) scene: Scene,
+    seed: u64,
+    /// The tiles by rank, as column and row.
+    tiles: Vec<[u32; 2]>,
+    bench: &'bench Bench<'bench>,
+}
+
+/// The tiles of a picture as rendered.
+#[derive(Clone)]
+pub(super) struct Shot {
+    pub(super) tiles: Vec<Image>,
+    pub(super) counts: Counts,
+}
+
+/// Someone said stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stopped;
+
+impl<'bench> Subject<'bench> {
+    /// The whole picture of a proven scene; `seed` says which tiles come first when there are to be fewer.
+    pub(super) fn new(scene: &Scene, seed: u64, bench: &'bench Bench<'bench>) -> Self {
+        let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
+        let mut tiles: Vec<_> = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
+        tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
+        Self { scene: scene.clone(), seed, tiles, bench }
+    }
+
+    /// The same with the first `count` tiles only, at least one.
+    pub(super) fn keep(&self, count: usize) -> Self {
+        let mut fewer = self.clone();
+        fewer.tiles.truncate(count.max(1));
+        fewer
+    }
+
+    /// The same part of another scene's picture.
+    pub(super) fn with_scene(&self, scene: Scene) -> Self {
+        Self { scene, ..self.clone() }
+    }
+
+    /// Whether all of the picture is looked at; then it is one tile.
+    pub(super) fn is_whole(&self) -> bool {
+        self.share() >= 1.0
+    }
+
+    /// How many tiles are looked at.
+    pub(super) fn count(&self) -> usize {
+        self.tiles.len()
+    }
+
+    /// How many pixels are looked at.
+    pub(super) fn pixels(&self) -> u64 {
+        self.tiles.iter().map(|tile| self.rectangle(*tile)).map(|r| u64::from(r.width) * u64::from(r.height)).sum()
+    }
+
+    /// The share of the picture that is looked at.
+    pub(super) fn share(&self) -> f64 {
+        let [width, height] = self.scene.camera.size;
+        self.pixels() as f64 / (f64::from(width) * f64::from(height))
+    }
+
+    /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent of all other seeds.
+    pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<Shot, Stopped> {
+        let scene = self.prove(setting, seeds);
+        self.bench.work(|| self.render(&scene, seeds))
+    }
+
+    /// Renders in a setting on one thread, and says how long that took.
+    pub(super) fn time(&self, setting: Setting) -> Result<(Shot, Time), Stopped> {
+        let scene = self.prove(setting, Seeds::NONE);
+        let (shot, time) = self.bench.measure(|| self.render(&scene, Seeds::NONE));
+        Ok((shot?, time))
+    }
+
+    /// How many seconds each of `rounds` takes to prepare the scene, and beside that to pass over all pixels.
+    pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
+        let scene = self.prove(setting, Seeds::NONE);
+        let nowhere = Crop { x: 0, y: 0, width: 0, height: 0 };
+        let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
+        let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
+        let seconds = |job| {
+            let work = || render(&scene, &Plan::new(&scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays));
+            self.bench.measure(work).1.cpu
+        };
+        let round = |_| {
+            let prepare = seconds(&without_pixels);
+            [prepare, (seconds(&without_tiles) - prepare).max(0.0)]
+        };
+        (0..rounds).map(round).collect()
+    }
+
+    fn prove(&self, setting: Setting, seeds: Seeds) -> ValidScene {
+        let mut scene = self.scene.clone();
+        setting.apply(&mut scene);
+        if seeds.pixel != 0 {
+            scene.settings.pattern = Pattern::Jitter;
+        }
+        let options = valid::Options { allow_huge: true };
+        let proof = valid::validate(&scene, &Origins::default(), &options, &mut Sink::default());
+        proof.expect("the scene was proven before, and a setting is in range")
+    }
+
+    fn render(&self, scene: &ValidScene, seeds: Seeds) -> Result<Shot, Stopped> {
+        let last = self.tiles.last().map_or(0, |tile| Tiles::rank(self.seed, *tile));
+        let tiles = Some(Tiles { seed: self.seed, last });
+        let job = Job { crop: None, values: Values::Display, tiles, seeds };
+        let plan = Plan::new(scene, Rules::ALL);
+        let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
+        let counts = film.counts;
+        if self.is_whole() {
+            return Ok(Shot { tiles: vec![film.image], counts });
+        }
+        let tiles = self.tiles.iter().map(|tile| cut(&film.image, self.rectangle(*tile))).collect();
+        Ok(Shot { tiles, counts })
+    }
+
+    /// Where a tile lies in the picture.
+    fn rectangle(&self, [x, y]: [u32; 2]) -> Crop {
+        let [width, height] = self.scene.camera.size;
+        let side = Tiles::SIDE;
+        Crop { x: x * side, y: y * side, width: side, height: side }.within(width, height)
+    }
+}
+
+/// A part of a picture.
+fn cut(image: &Image, part: Crop) -> Image {
+    let row = |y: u32| &image.pixels[y as usize * image.width as usize..][part.x as usize..][..part.width as usize];
+    let pixels = (part.y..part.y + part.height).flat_map(row).copied().collect();
+    Image { width: part.width, height: part.height, pixels }
+}

@@ -1,0 +1,186 @@
+//! Each knob alone: what error it leaves if all others leave none, the law that error follows, and a model of all
+//! together: squares of errors add.
+
+use super::knob::{Knob, Setting};
+use super::metrics::{LEVELS, products};
+use super::outcome::KnobReport;
+use super::reference::{Depths, Reference, Rung, independent};
+use super::statistics::PowerLaw;
+use super::subject::{Stopped, Subject};
+use crate::image::Image;
+use crate::math::{exp, ln};
+use crate::render::Seeds;
+
+/// A knob turned through its values, all others as good as the reference.
+pub(super) struct Ladder {
+    pub(super) knob: Knob,
+    pub(super) rungs: Vec<Rung>,
+    pub(super) law: Option<PowerLaw>,
+}
+
+/// Turns one knob that samples through its values while the budget lasts.
+///
+/// The others stay at `base` with independent sampling in two renders: what these have in common is the error of the
+/// knob alone.
+pub(super) fn sweep(
+    subject: &Subject<'_>,
+    reference: &Reference,
+    (knob, base): (Knob, Setting),
+    budget: u64,
+) -> Result<Ladder, Stopped> {
+    let mut rungs: Vec<Rung> = Vec::new();
+    let mut spent = 0;
+    for value in knob.ladder() {
+        if let Some(last) = rungs.last() {
+            let expected = last.rays as f64 * knob.samples(value) / knob.samples(last.value);
+            if rungs.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
+                break;
+            }
+        }
+        let setting = base.with(knob, value);
+        let (a, b) = (subject.shoot(setting, others(knob, 3))?, subject.shoot(setting, others(knob, 4))?);
+        let rung = rung(value, [&a.tiles, &b.tiles], reference, a.counts.rays());
+        spent += a.counts.rays() + b.counts.rays();
+        rungs.push(rung);
+        if !rung.resolved {
+            break;
+        }
+    }
+    Ok(Ladder { knob, law: law(knob, &rungs), rungs })
+}
+
+/// Sampling that is independent but for that of the knob.
+fn others(knob: Knob, number: u64) -> Seeds {
+    let seeds = independent(number);
+    match knob {
+        Knob::Supersampling => Seeds { pixel: 0, ..seeds },
+        Knob::Aperture => Seeds { lens: 0, ..seeds },
+        Knob::Lights | Knob::Glossy => Seeds { path: 0, ..seeds },
+        Knob::Depth => seeds,
+    }
+}
+
+/// What two renders have in common against the reference, without what the reference itself is off.
+fn rung(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Rung {
+    /// The channels of a block of pixels that a tile has too.
+    const BLOCK: usize = 3 * 256;
+    let floor = reference.floor / LEVELS;
+    let truth = reference.tiles.as_slice();
+    let products: Vec<_> = products([a, truth], [b, truth]).map(|product| product - floor * floor).collect();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let (whole, blocks) = (mean(&products), products.len().div_ceil(BLOCK) as f64);
+    let squares = products.chunks(BLOCK).map(|block| mean(block) - whole).map(|off| off * off).sum::<f64>();
+    let deviation = (squares / (blocks * (blocks - 1.0).max(1.0))).sqrt();
+    let resolved = whole > 2.0 * deviation && whole > floor * floor;
+    Rung { value, error: whole.max(0.0).sqrt() * LEVELS, resolved, rays }
+}
+
+/// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a sample of it.
+fn law(knob: Knob, rungs: &[Rung]) -> Option<PowerLaw> {
+    let is_sample = |rung: &&Rung| rung.resolved && !(rung.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy));
+    let points: Vec<_> = rungs.iter().filter(is_sample).map(|rung| (knob.samples(rung.value), rung.error)).collect();
+    PowerLaw::fit(&points)
+}
+
+/// What errors and rays any setting should have.
+pub(super) struct Model {
+    ladders: Vec<Ladder>,
+    base: Setting,
+    base_rays: f64,
+    /// The square of what sub-samples and points of the lens leave together beyond what each leaves alone, one of each.
+    interplay: f64,
+}
+
+impl Model {
+    /// The model of ladders that were measured around `base`, which takes `base_rays`.
+    pub(super) fn new(mut ladders: Vec<Ladder>, depths: Option<&Depths>, base: Setting, base_rays: u64) -> Self {
+        ladders.extend(depths.map(|depths| Ladder { knob: Knob::Depth, rungs: depths.rungs.clone(), law: None }));
+        Self { ladders, base, base_rays: base_rays as f64, interplay: 0.0 }
+    }
+
+    /// Learns from the error of the base with one sub-sample and one point of the lens.
+    pub(super) fn learn_interplay(&mut self, coarse: Setting, error: f64) {
+        let alone = self.error(coarse);
+        self.interplay = (error * error - alone * alone).max(0.0);
+    }
+
+    /// What is known of a knob, `idle` being why it changes nothing if so.
+    pub(super) fn report(&self, knob: Knob, idle: Option<&str>) -> KnobReport {
+        let ladder = self.ladders.iter().find(|ladder| ladder.knob == knob);
+        KnobReport {
+            knob,
+            idle: idle.map(str::to_owned),
+            rungs: ladder.map(|ladder| ladder.rungs.clone()).unwrap_or_default(),
+            law: ladder.and_then(|ladder| ladder.law),
+        }
+    }
+
+    /// The error of a setting in grey levels.
+    pub(super) fn error(&self, setting: Setting) -> f64 {
+        let more = self.base.camera_rays() / setting.camera_rays();
+        let squares = self.ladders.iter().map(|ladder| {
+            let value = setting.get(ladder.knob);
+            let error = ladder.error(value);
+            // Lights and lobes are sampled anew for each camera ray; one point of them is the same every time.
+            let is_anew = matches!(ladder.knob, Knob::Lights | Knob::Glossy) && value > 1;
+            error * error * if is_anew { more } else { 1.0 }
+        });
+        // The edges of each point's picture are jagged in their own way: their mean is as smooth as they are many.
+        let samples = Knob::Supersampling.samples(setting.supersampling);
+        let together = self.interplay / (samples * samples.sqrt() * f64::from(setting.aperture));
+        (squares.sum::<f64>() + together).sqrt()
+    }
+
+    /// The rays of a setting.
+    pub(super) fn rays(&self, setting: Setting) -> f64 {
+        let factors = self.ladders.iter().map(|ladder| {
+            let rays = |value| ladder.rays(value);
+            rays(setting.get(ladder.knob)) / rays(self.base.get(ladder.knob))
+        });
+        self.base_rays * factors.product::<f64>()
+    }
+}
+
+impl Ladder {
+    fn error(&self, value: u32) -> f64 {
+        let clear: Vec<_> = self.rungs.iter().filter(|rung| rung.resolved || self.knob == Knob::Depth).collect();
+        if let Some(rung) = clear.iter().find(|rung| rung.value == value) {
+            return rung.error;
+        }
+        let (Some(last), x) = (clear.last(), self.knob.samples(value)) else { return 0.0 };
+        let above = clear.iter().position(|rung| rung.value > value).filter(|above| *above > 0);
+        match above {
+            Some(above) => self.between([clear[above - 1], clear[above]], x, |rung| rung.error),
+            // Beyond the last rung: nothing more to gain in depth, the law elsewhere.
+            None if self.knob == Knob::Depth => last.error,
+            None => {
+                let exponent = self.law.map_or(0.5, |law| law.p.value.clamp(0.25, 2.0));
+                last.error * exp(-exponent * ln(x / self.knob.samples(last.value)))
+            }
+        }
+    }
+
+    /// In units of its own.
+    fn rays(&self, value: u32) -> f64 {
+        let at = |rung: &Rung| rung.rays as f64;
+        if let Some(rung) = self.rungs.iter().find(|rung| rung.value == value) {
+            return at(rung);
+        }
+        let x = self.knob.samples(value);
+        let above = self.rungs.iter().position(|rung| rung.value > value).filter(|above| *above > 0);
+        match (above, self.rungs.last()) {
+            (Some(above), _) => self.between([&self.rungs[above - 1], &self.rungs[above]], x, at),
+            (None, Some(last)) if self.knob == Knob::Depth => at(last),
+            (None, Some(last)) => at(last) * x / self.knob.samples(last.value),
+            (None, None) => 1.0,
+        }
+    }
+
+    /// On a straight line between two rungs, on logarithmic scales.
+    fn between(&self, [below, above]: [&Rung; 2], x: f64, of: impl Fn(&Rung) -> f64) -> f64 {
+        let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
+        let (from, to) = (log(self.knob.samples(below.value)), log(self.knob.samples(above.value)));
+        let share = (log(x) - from) / (to - from);
+        exp(log(of(below)) * (1.0 - share) + log(of(above)) * share)
+    }
+}
