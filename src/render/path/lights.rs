@@ -11,7 +11,7 @@ use super::Strategy;
 use super::environment::Environment;
 use super::material::Point;
 use super::table::Choice;
-use crate::math::{Vec3, cross};
+use crate::math::Vec3;
 use crate::valid::{Emitter, Falloff, Punctual};
 use std::f64::consts::PI;
 
@@ -88,7 +88,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             }
             Light::Triangle { surface, part, corners } => {
                 let [a, b, c] = *corners;
-                let area = 0.5 * cross(b - a, c - a).length();
+                let area = 0.5 * (b - a).cross(c - a).length();
                 2.0 * PI * area * self.mean_emission(*surface, *part, *corners).max_element()
             }
             // What is the same everywhere is found best by scattering.
@@ -116,7 +116,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         if material.emissive_map.is_none() {
             return Vec3::from_array(material.emissive);
         }
-        let normal = cross(b - a, c - a).normalize_or(Vec3::Z);
+        let normal = (b - a).cross(c - a).normalize_or(Vec3::Z);
         let ray = Ray { origin: point, direction: normal };
         let at = Interaction { point, normal, offset: 0.0, back: -normal };
         let details = surface.shape.details(&ray, &at, part);
@@ -168,7 +168,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
 /// `r²/(A·|cos θ|)`, from area to solid angle.
 fn pdf_of_triangle([a, b, c]: &[Vec3; 3], wi: Vec3, distance_squared: f64) -> f64 {
     // The cross product is twice the area times the normal.
-    let projected = 0.5 * cross(*b - *a, *c - *a).dot(wi).abs();
+    let projected = 0.5 * (*b - *a).cross(*c - *a).dot(wi).abs();
     if projected > 0.0 { distance_squared / projected } else { 0.0 }
 }
 

@@ -4,7 +4,7 @@ use super::super::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, di
 use super::super::instance::Details;
 use super::super::ray::Interaction;
 use super::texture::{Content, Places, look_up};
-use crate::math::{Basis, Vec3, cos, cross, ln, sin};
+use crate::math::{Basis, Vec3, cos, ln, sin};
 use crate::valid::{Alpha, Map, Standard as Material, ValidScene};
 
 /// A material of the scene with what a surface says of one point.
@@ -155,7 +155,7 @@ impl<'world> Point<'world> {
         let tangent = details.tangent.map(|t| t - normal * normal.dot(t)).and_then(Vec3::try_normalize);
         let basis = tangent.map_or_else(
             || Basis::around(normal),
-            |tangent| Basis { tangent, bitangent: cross(normal, tangent) * details.side, normal },
+            |tangent| Basis { tangent, bitangent: normal.cross(tangent) * details.side, normal },
         );
         let m = self.material;
         let shading = self.mapped(m.normal_map.as_ref(), m.normal_scale, &basis);
@@ -165,7 +165,7 @@ impl<'world> Point<'world> {
         let tangent = tangent.map(|t| t - shading * shading.dot(t)).and_then(Vec3::try_normalize);
         let basis = tangent.map_or_else(
             || Basis::around(shading),
-            |tangent| Basis { tangent, bitangent: cross(shading, tangent), normal: shading },
+            |tangent| Basis { tangent, bitangent: shading.cross(tangent), normal: shading },
         );
         (Frame { basis, side: details.side }, coat)
     }

@@ -69,19 +69,17 @@ fn within(coordinate: f64, wrap: Wrap) -> f64 {
     }
 }
 
-/// The texel that stands for one at most an image away.
+/// The texel that stands for one beside a place that [`within`] gave.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "brought into the image")]
 fn wrapped(texel: i64, count: u32, wrap: Wrap) -> usize {
     let count = i64::from(count);
     let inside = match wrap {
-        Wrap::Repeat => texel.rem_euclid(count),
-        Wrap::Mirror => {
-            let place = texel.rem_euclid(2 * count);
-            place.min(2 * count - 1 - place)
-        }
-        Wrap::Clamp => texel.clamp(0, count - 1),
+        Wrap::Repeat if texel < 0 => texel + count,
+        Wrap::Repeat if texel >= count => texel - count,
+        Wrap::Mirror if texel >= count => 2 * count - 1 - texel,
+        Wrap::Repeat | Wrap::Mirror | Wrap::Clamp => texel,
     };
-    inside as usize
+    inside.clamp(0, count - 1) as usize
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "an image has at most 2³² columns")]

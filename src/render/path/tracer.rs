@@ -184,19 +184,19 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             return false;
         }
         let [choice, light] = walk.pair(0);
-        let [roulette, color] = walk.pair(3);
         if point.material.dispersion > 0.0 && walk.channel.is_none() {
-            walk.disperse(color);
+            walk.disperse();
         }
         let standard = point.standard(frame, *coat, walk.channel, self.path.multiple_scattering);
-        let bsdf = Bsdf::new(&standard, frame.to_local(wo));
+        let local = frame.to_local(wo);
+        let bsdf = Bsdf::new(&standard, local);
         if !bsdf.is_delta() {
             walk.found += walk.beta * self.direct(walk, corner, &bsdf, light);
         }
         let [u, v] = walk.pair(1);
         let Some(sample) = bsdf.sample([choice, u, v]) else { return false };
         let wi = frame.to_world(sample.wi).normalize();
-        let through = sample.wi.z * frame.to_local(wo).z < 0.0;
+        let through = sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
         }
@@ -207,7 +207,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         }
         walk.ray = at.ray(wi);
         *if through { &mut self.counts.refracted } else { &mut self.counts.mirror } += 1;
-        walk.survives(roulette)
+        walk.survives()
     }
 
     /// The light that one light sends to a corner and on along the path.
@@ -250,6 +250,9 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             }
             let Some(hit) = self.world.nearest(&ray) else { return share };
             let surface = &self.world.surfaces[hit.surface];
+            if self.world.scene.standards()[surface.material].alpha == Alpha::Opaque {
+                return 0.0;
+            }
             let at = surface.shape.interaction(&ray, hit.t, hit.part);
             let details = surface.shape.details(&ray, &at, hit.part);
             share *= 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage();
@@ -270,7 +273,8 @@ impl Walk {
 
     /// Keeps one colour, which stands for all three.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "one of three")]
-    fn disperse(&mut self, u: f64) {
+    fn disperse(&mut self) {
+        let [u, _] = self.pair(3);
         let channel = ((u * 3.0) as usize).min(2);
         let mut kept = [0.0; 3];
         kept[channel] = 3.0;
@@ -279,16 +283,14 @@ impl Walk {
     }
 
     /// Ends the path with a probability that grows as its factor falls.
-    fn survives(&mut self, u: f64) -> bool {
+    fn survives(&mut self) -> bool {
         let largest = self.beta.max_element();
-        if self.corners < SPARED {
+        if self.corners < SPARED || largest >= 1.0 {
             return largest > 0.0;
         }
-        let goes_on = u < largest;
-        if goes_on && largest < 1.0 {
-            self.beta /= largest;
-        }
-        goes_on
+        let [_, u] = self.pair(3);
+        self.beta /= largest;
+        u < largest
     }
 }
 
