@@ -25,7 +25,7 @@ pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Shape, ValidScene};
+use crate::valid::{Mode, Pattern, Projection, Shape, ValidScene};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
@@ -87,11 +87,12 @@ impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
     pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+        let rules = proven_for(scene, rules);
         let facts = Facts::new(scene, rules);
         let settings = scene.settings();
         let window = Window::new(scene.camera(), facts.is_pinhole());
         let shown = facts.bodies.iter().map(|body| window.shown(body)).collect::<Vec<_>>();
-        let asked = if let Mode::Phong = settings.mode { settings.max_depth } else { 0 };
+        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 };
         let anywhere = vec![Shown::Anywhere; shown.len()];
         let seen = if rules.contains(Rule::Cull) { &shown } else { &anywhere };
         let reach = Reach::new(&facts, &window, seen, asked);
@@ -289,6 +290,15 @@ impl Findings<'_> {
         add(Features::SAMPLED, self.is_soft() || self.is_glossy());
         add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
         features
+    }
+}
+
+/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from an eye.
+fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+    match (scene.settings().mode, scene.camera().projection) {
+        (Mode::Path(_), _) => Rules::NONE,
+        (_, Projection::Orthographic) => rules.of(Rules::AT_HITS),
+        (_, Projection::Perspective) => rules,
     }
 }
 

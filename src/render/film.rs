@@ -120,7 +120,7 @@ impl Crop {
 /// Which values a film holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
-    /// Each sub-sample clamped to [0, 1] before the mean: what a display shows.
+    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the mean, coded by sRGB.
     #[default]
     Display,
     /// The plain mean of the sub-samples.

@@ -1,6 +1,6 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{Twist, camera_ray, image_point, lens_point, lens_samples};
+use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Stride, Values};
 use super::geometry::Geometry;
 use super::sampler::Key;
@@ -94,7 +94,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     let radiance = match first.filter(|_| sight == Sight::Uniform) {
                         Some(first) => first,
                         None => {
-                            let ray = camera_ray(lens_point(camera, k, twist), target);
+                            let ray = ray_through(camera, lens_point(camera, k, twist), target);
                             self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path))
                         }
                     };
@@ -124,7 +124,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return None;
         }
         let camera = self.scene().camera();
-        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
+        let ray = ray_through(camera, camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)
     }
 }

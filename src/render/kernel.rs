@@ -3,11 +3,12 @@
 use super::basic::Basic;
 use super::film::{Film, Job};
 use super::geometry::Geometry;
+use super::path::Strategy;
 use super::plain::PlainShape;
 use super::shape::Shape;
 use super::world::World;
 use crate::plan::{Arithmetic, Features, Plan, Shapes};
-use crate::valid::ValidScene;
+use crate::valid::{Mode, ValidScene};
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,6 +66,9 @@ impl<S: Geometry> World<S> {
     /// Renders on the threads of the current pool; see [`render`].
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+        if let Mode::Path(path) = self.scene.settings().mode {
+            return self.render_paths(path, Strategy::Both, job, proceed);
+        }
         macro_rules! run {
             ($($index:literal)*) => {
                 match choose(self.plan.features) {

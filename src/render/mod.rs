@@ -3,6 +3,7 @@
 
 mod basic;
 mod bounds;
+mod bsdf;
 mod bvh;
 mod camera;
 mod cone;
@@ -16,6 +17,7 @@ mod interval;
 mod kernel;
 mod material;
 mod optics;
+mod path;
 mod plain;
 mod plane;
 mod quad;
@@ -33,6 +35,7 @@ mod world;
 
 pub use basic::Basic;
 pub use bounds::Bounds;
+pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};
 pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
@@ -42,6 +45,7 @@ pub use geometry::Geometry;
 pub use instance::{Details, Instance, PreparedMesh};
 pub use kernel::{KERNELS, Kernel, choose, render};
 pub use optics::{highlight, reflect, refract};
+pub use path::Strategy;
 pub use plain::{PlainShape, Real};
 pub use plane::Plane;
 pub use quad::{Patch, Quad};

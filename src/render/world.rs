@@ -123,7 +123,7 @@ impl<S: Geometry> World<S> {
     }
 
     /// Whether anything is hit with 0 < t < `t_max`.
-    fn any(&self, ray: &Ray, t_max: f64) -> bool {
+    pub(super) fn any(&self, ray: &Ray, t_max: f64) -> bool {
         const FOUND: f64 = -1.0;
         let shear = Shear::new(ray);
         let hits = |surface: u32| {

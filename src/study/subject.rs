@@ -99,7 +99,9 @@ impl<'bench> Subject<'bench> {
         let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
-            let work = || render(&scene, &Plan::by(self.arithmetic, &scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays));
+            let work = || {
+                render(&scene, &Plan::by(self.arithmetic, &scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays))
+            };
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
