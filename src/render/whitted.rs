@@ -54,6 +54,8 @@ struct Fan {
 pub(super) struct Tracer<'world, S, const F: u32> {
     pub(super) world: &'world World<S>,
     pending: Vec<Pending>,
+    /// Whether points of soft lights are spread without bias, however few they are.
+    pub(super) spread: bool,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
@@ -62,7 +64,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world.
     #[must_use]
     pub(super) fn new(world: &'world World<S>) -> Self {
-        Self { world, pending: Vec::new(), counts: Counts::default() }
+        Self { world, pending: Vec::new(), spread: false, counts: Counts::default() }
     }
 
     /// The scene traced.
