@@ -12,8 +12,9 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::pipeline::{self, Options, Overrides};
-use rtc::plan::{Arithmetic, Plan};
+use rtc::ir::Overrides;
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Arithmetic, Plan, Rules};
 use rtc::render::{self, Film, Job};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::ValidScene;
@@ -61,7 +62,7 @@ fn scene(file: &str) -> ValidScene {
 }
 
 fn render(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
-    render::render(scene, &Plan::by(arithmetic, scene), &Job::default(), &|_| true).unwrap()
+    render::render(scene, &Plan::by(arithmetic, scene, Rules::ALL), &Job::default(), &|_| true).unwrap()
 }
 
 /// The share of pixels whose bytes differ from the robust ones, and of those that differ by more than 8.

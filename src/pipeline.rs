@@ -4,10 +4,11 @@ pub mod trial;
 
 use crate::diag::Sink;
 use crate::front::{assets, course, gltf};
-use crate::ir::{Lowered, Origins};
+use crate::ir::{Lowered, Origins, Scene};
 use crate::plan::Plan;
 use crate::render::{Fault, Film, Job, render as render_planned, verify as verify_planned};
 use crate::source::{FileId, SourceMap};
+use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
 use crate::{codec, front};
 
@@ -45,6 +46,20 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
 pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
     let proof = valid::validate(&lowered.scene, &lowered.origins, &options.valid, sink);
     proof.filter(|_| !sink.has_errors())
+}
+
+/// Renders a proven scene until a goal is reached, on `threads` threads, 0 for one per core.
+///
+/// # Errors
+/// If the system gives no threads; inside, if someone said stop.
+pub fn approach(
+    scene: &Scene,
+    order: &Order,
+    threads: usize,
+    watch: &Watch<'_>,
+) -> Result<Result<Reached, Stopped>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| study::approach(scene, order, watch)))
 }
 
 /// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.

@@ -77,7 +77,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     term += self.direct(view, light.position, shadowed);
                 } else {
                     let key = view.key.child(index as u64);
-                    let points = soft_light_points(light, view.interaction.point, samples, key);
+                    let points = DiscPoints::new(samples, key, self.spread);
+                    let points = on_soft_light(light, view.interaction.point, samples, points);
                     let direct = points.map(|point| self.direct(view, point, shadowed)).sum::<Vec3>();
                     term += direct / f64::from(samples);
                 }
@@ -152,10 +153,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-/// Points of the disc that a soft light shows to `from`.
-fn soft_light_points(light: &Light, from: Vec3, count: u32, key: Key) -> impl Iterator<Item = Vec3> {
+/// The first points of the disc that a soft light shows to `from`.
+fn on_soft_light(light: &Light, from: Vec3, count: u32, points: DiscPoints) -> impl Iterator<Item = Vec3> {
     let towards = (light.position - from).try_normalize().unwrap_or(Vec3::Z);
-    let (basis, points) = (Basis::around(towards), DiscPoints::new(count, key));
+    let basis = Basis::around(towards);
     let (center, radius) = (light.position, light.radius.get());
     (0..count).map(move |k| {
         let [x, y] = points.point(k);

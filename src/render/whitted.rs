@@ -58,6 +58,8 @@ pub(super) struct Tracer<'world, S, const F: u32> {
     pub(super) pixel: [u32; 2],
     /// Whether the path under way counts 0 times: then nothing it meets says anything about a plan.
     pub(super) weightless: bool,
+    /// Whether points of soft lights are spread without bias, however few they are.
+    pub(super) spread: bool,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
@@ -66,7 +68,8 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world.
     #[must_use]
     pub(super) fn new(world: &'world World<S>) -> Self {
-        Self { world, pending: Vec::new(), pixel: [0; 2], weightless: false, counts: Counts::default() }
+        let (pixel, counts) = ([0; 2], Counts::default());
+        Self { world, pending: Vec::new(), pixel, weightless: false, spread: false, counts }
     }
 
     /// The scene traced.

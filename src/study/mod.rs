@@ -10,6 +10,7 @@ mod flip;
 mod front;
 mod knob;
 mod metrics;
+mod noise;
 mod outcome;
 mod precision;
 mod race;
@@ -18,6 +19,7 @@ mod report;
 mod statistics;
 mod subject;
 mod sweep;
+mod target;
 
 pub use bench::{Bench, Clock};
 pub use effects::EffectCost;
@@ -31,6 +33,7 @@ pub use reference::{DepthEnd, Rung};
 pub use report::{csv, html, json, table};
 pub use statistics::{Chance, Estimate, PowerLaw, median};
 pub use subject::Stopped;
+pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach};
 
 use crate::ir::Scene;
 use crate::render::Seeds;

@@ -117,9 +117,7 @@ impl<'bench> Subject<'bench> {
         if seeds.pixel != 0 {
             scene.settings.pattern = Pattern::Jitter;
         }
-        let options = valid::Options { allow_huge: true };
-        let proof = valid::validate(&scene, &Origins::default(), &options, &mut Sink::default());
-        proof.expect("the scene was proven before, and a setting is in range")
+        prove(&scene)
     }
 
     fn render(&self, scene: &ValidScene, seeds: Seeds) -> Result<Shot, Stopped> {
@@ -142,6 +140,13 @@ impl<'bench> Subject<'bench> {
         let side = Tiles::SIDE;
         Crop { x: x * side, y: y * side, width: side, height: side }.within(width, height)
     }
+}
+
+/// The proof of a scene that was proven before, in whatever setting.
+pub(super) fn prove(scene: &Scene) -> ValidScene {
+    let options = valid::Options { allow_huge: true };
+    let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
+    proof.expect("the scene was proven before, and a setting is in range")
 }
 
 /// A part of a picture.
