@@ -12,7 +12,8 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::ir::Overrides;
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan};
 use rtc::render::{self, Film, Job};
 use rtc::source::{Loader, SourceMap};
