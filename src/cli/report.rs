@@ -93,7 +93,7 @@ impl Report {
         }
         let per_sample = |rays: u64| rays as f64 / self.samples.max(1) as f64;
         text + &format!(
-            "kernel: {} (of {}); rays a sample: {about}{:.2}, without the rules {about}{:.2}\n",
+            "kernel: {} (of {})\nrays a sample: {about}{:.2}, without the rules {about}{:.2}\n",
             self.kernel,
             KERNELS.len(),
             per_sample(self.planned),

@@ -152,6 +152,8 @@ struct Facts<'scene> {
     looks: Vec<Look>,
     /// Per texture, its value if it has only one.
     constants: Vec<Option<Vec3>>,
+    /// Per mesh, whether no triangle has several shading normals.
+    even: Vec<bool>,
 }
 
 impl<'scene> Facts<'scene> {
@@ -159,7 +161,8 @@ impl<'scene> Facts<'scene> {
         let constants =
             if rules.contains(Rule::TextureConstant) { constants(scene) } else { vec![None; scene.textures().len()] };
         let looks = scene.surfaces().iter().map(|surface| Look::of(surface, scene, &constants)).collect();
-        Self { scene, rules, bodies: bodies(scene), looks, constants }
+        let even = scene.meshes().iter().map(|mesh| look::is_even(mesh)).collect();
+        Self { scene, rules, bodies: bodies(scene), looks, constants, even }
     }
 
     /// The rule, if it may be applied.
@@ -171,7 +174,7 @@ impl<'scene> Facts<'scene> {
     fn is_even(&self, surface: usize) -> bool {
         let shape = &self.scene.surfaces()[surface].shape;
         let Shape::Instance(instance) = shape else { return true };
-        self.rules.contains(Rule::NormalFlat) && look::is_even(&self.scene.meshes()[instance.mesh])
+        self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
     }
 
     /// Whether all rays of a pixel's point start at the eye.
