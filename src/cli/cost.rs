@@ -44,7 +44,7 @@ fn measure(args: &args::Cost, about: About, scene: &Scene, interrupt: &Interrupt
     let start = Instant::now();
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
     let wall = || start.elapsed();
-    let proceed = || !interrupt.is_raised();
+    let proceed = |_| !interrupt.is_raised();
     let bench = Bench::new(args.threads.map_or(0, usize::from), Clock { cpu: &cpu, wall: &wall }, &proceed);
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
     study::study(scene, about, args.effort.into(), args.seed, &bench).map_err(|Stopped| Failure::Interrupted)

@@ -62,6 +62,14 @@ impl Geometry for Basic {
         }
     }
 
+    fn has_uv(&self) -> bool {
+        match self {
+            Self::Sphere(..) => true,
+            Self::Triangle(_, uvs) => uvs.is_some(),
+            Self::Plane(_) => false,
+        }
+    }
+
     fn has_shading_normals(&self) -> bool {
         false
     }
@@ -72,6 +80,14 @@ impl Geometry for Basic {
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
             Self::Triangle(_, None) | Self::Plane(_) => Details::default(),
         }
+    }
+
+    fn triangles(&self) -> usize {
+        usize::from(matches!(self, Self::Triangle(..)))
+    }
+
+    fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
+        if let Self::Triangle(triangle, _) = self { Some(*triangle.vertices()) } else { None }
     }
 
     fn bounds(&self) -> Option<Bounds> {

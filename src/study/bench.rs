@@ -32,7 +32,7 @@ impl Clock<'_> {
 /// Threads, a clock, and someone who may say stop.
 pub struct Bench<'a> {
     clock: Clock<'a>,
-    proceed: &'a (dyn Fn() -> bool + Sync),
+    proceed: &'a (dyn Fn(u64) -> bool + Sync),
     /// All threads, for what is not timed.
     wide: ThreadPool,
     /// One thread, for what is: its processor time is the work, however busy the machine.
@@ -40,22 +40,23 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel.
+    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel,
+    /// with the rays it took.
     ///
     /// # Errors
     /// If the system gives no threads.
     pub fn new(
         threads: usize,
         clock: Clock<'a>,
-        proceed: &'a (dyn Fn() -> bool + Sync),
+        proceed: &'a (dyn Fn(u64) -> bool + Sync),
     ) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Self { clock, proceed, wide: pool(threads)?, narrow: pool(1)? })
     }
 
-    /// Whether to go on.
-    pub(super) fn goes_on(&self) -> bool {
-        (self.proceed)()
+    /// Whether to go on after a pixel of so many rays.
+    pub(super) fn goes_on(&self, rays: u64) -> bool {
+        (self.proceed)(rays)
     }
 
     /// Does a piece of work with all threads.

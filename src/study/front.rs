@@ -4,6 +4,9 @@ use super::knob::{Knob, Setting};
 use super::sweep::Model;
 use crate::math::ln;
 
+/// A step that lessens the error by less than a hundredth is not worth a row.
+const WORTH: f64 = 0.99;
+
 /// Settings from the least work up, each with the knob raised that the model says lessens the error most for the work;
 /// until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
@@ -24,7 +27,7 @@ pub(super) fn candidates(
             let value = knob.ladder().find(|value| *value > now.get(*knob))?;
             Some(now.with(*knob, value))
         });
-        let affordable = raised.filter(|next| model.rays(*next) <= most_rays && model.error(*next) < error);
+        let affordable = raised.filter(|next| model.rays(*next) <= most_rays && model.error(*next) < WORTH * error);
         let gain = |next: &Setting| ln(error / model.error(*next)) / ln(model.rays(*next) / rays).max(1e-6);
         match affordable.max_by(|a, b| gain(a).total_cmp(&gain(b))) {
             Some(next) => path.push(next),

@@ -52,7 +52,10 @@ impl Knob {
     pub fn words(self, value: u32) -> String {
         match self {
             Self::Supersampling => format!("{value}×{value}"),
-            Self::Aperture | Self::Lights | Self::Glossy => format!("{value} {}", self.name()),
+            Self::Aperture | Self::Lights | Self::Glossy => {
+                let name = self.name();
+                format!("{value} {}", if value == 1 { name.trim_end_matches('s') } else { name })
+            }
             Self::Depth => format!("depth {value}"),
         }
     }
@@ -207,4 +210,29 @@ pub fn idle(knob: Knob, scene: &Scene) -> Option<&'static str> {
         ],
     };
     cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_in_words() {
+        let setting = Setting { supersampling: 4, aperture: 16, lights: 1, glossy: 1, depth: 3 };
+        let words = |knobs: &[Knob]| setting.words(knobs);
+        assert_eq!(words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]), "4×4 with 16 aperture samples, depth 3");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Lights]), "4×4 with 1 light sample");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
+        assert_eq!(words(&[]), "the scene as it is");
+    }
+
+    #[test]
+    fn ladders_rise_from_the_least() {
+        for knob in Knob::ALL {
+            let values: Vec<_> = knob.ladder().collect();
+            assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
+            let setting = Setting { supersampling: 9, aperture: 9, lights: 9, glossy: 9, depth: 9 };
+            assert_eq!(setting.with(knob, 5).get(knob), 5);
+        }
+    }
 }

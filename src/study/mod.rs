@@ -10,13 +10,16 @@ mod flip;
 mod front;
 mod knob;
 mod metrics;
+mod noise;
 mod outcome;
+mod precision;
 mod race;
 mod reference;
 mod report;
 mod statistics;
 mod subject;
 mod sweep;
+mod target;
 
 pub use bench::{Bench, Clock};
 pub use effects::EffectCost;
@@ -25,10 +28,12 @@ pub use front::{Point, front};
 pub use knob::{Knob, Setting, idle};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
+pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Rung};
 pub use report::{csv, html, json, table};
 pub use statistics::{Chance, Estimate, PowerLaw, median};
 pub use subject::Stopped;
+pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach};
 
 use crate::ir::Scene;
 use crate::render::Seeds;
@@ -38,28 +43,18 @@ use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
-/// How much work a study may be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum Effort {
-    /// Seconds.
-    Quick,
-    /// About a minute for a simple scene.
-    #[default]
-    Default,
-    /// Ten times that.
-    Thorough,
-}
+/// How much work a study may be: about so many rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Effort(pub u64);
 
 impl Effort {
-    /// The rays a study may take.
-    fn rays(self) -> u64 {
-        match self {
-            Self::Quick => 60_000_000,
-            Self::Default => 600_000_000,
-            Self::Thorough => 6_000_000_000,
-        }
-    }
+    /// Seconds.
+    pub const QUICK: Self = Self(60_000_000);
+    /// About a minute for a simple scene.
+    pub const DEFAULT: Self = Self(600_000_000);
+    /// Ten times that.
+    pub const THOROUGH: Self = Self(6_000_000_000);
 }
 
 /// How much of the work goes where, in hundredths.
@@ -67,7 +62,8 @@ const FOR_DEPTH: u64 = 5;
 const FOR_REFERENCE: u64 = 40;
 const FOR_SWEEPS: u64 = 15;
 const FOR_ROWS: u64 = 30;
-const FOR_EFFECTS: u64 = 10;
+const FOR_EFFECTS: u64 = 6;
+const FOR_PRECISION: u64 = 4;
 
 /// A reference may be off by this share of an error that it judges.
 const JUDGE: f64 = 0.2;
@@ -83,6 +79,7 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
     let mut chance = Chance::new(seed);
     let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
     let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut chance)?;
+    let precision = precision::costs(&subject, scope.own, scope.hundredths(FOR_PRECISION), &mut chance)?;
     let mut study = Study {
         schema: "rtc-cost/1".to_owned(),
         about,
@@ -98,6 +95,7 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
         knobs: Knob::ALL.map(|knob| grounds.model.report(knob, idle(knob, scene))).to_vec(),
         rows,
         effects,
+        precision,
         wall_over_cpu,
         advice: Vec::new(),
         truth: grounds.reference.tiles,
@@ -130,7 +128,7 @@ impl Scope {
     }
 
     fn hundredths(&self, share: u64) -> u64 {
-        self.effort.rays() / 100 * share
+        self.effort.0 / 100 * share
     }
 
     /// The scene's own setting with all knobs that sample at a value.
@@ -151,7 +149,7 @@ impl Scope {
         let setting = self.at(2);
         let counts = pilot.shoot(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
-        let samples = GOOD * (self.effort.rays() as f64 / Effort::Default.rays() as f64).sqrt();
+        let samples = GOOD * (self.effort.0 as f64 / Effort::DEFAULT.0 as f64).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let pixels = of_reference.min(of_own);

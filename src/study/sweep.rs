@@ -30,7 +30,7 @@ pub(super) fn sweep(
 ) -> Result<Ladder, Stopped> {
     let mut rungs: Vec<Rung> = Vec::new();
     let mut spent = 0;
-    for value in values(knob) {
+    for value in knob.ladder() {
         if let Some(last) = rungs.last() {
             let expected = last.rays as f64 * knob.samples(value) / knob.samples(last.value);
             if rungs.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
@@ -47,12 +47,6 @@ pub(super) fn sweep(
         }
     }
     Ok(Ladder { knob, law: law(knob, &rungs), rungs })
-}
-
-/// Every second step is enough for a law.
-fn values(knob: Knob) -> impl Iterator<Item = u32> {
-    let step = if knob == Knob::Supersampling { 1 } else { 2 };
-    knob.ladder().step_by(step)
 }
 
 /// Sampling that is independent but for that of the knob.
@@ -149,7 +143,9 @@ impl Model {
 
 impl Ladder {
     fn error(&self, value: u32) -> f64 {
-        let clear: Vec<_> = self.rungs.iter().filter(|rung| rung.resolved || self.knob == Knob::Depth).collect();
+        // The first rung leaves the most error; it counts even where the noise hides it.
+        let counts = |(index, rung): &(usize, &Rung)| *index == 0 || rung.resolved || self.knob == Knob::Depth;
+        let clear: Vec<_> = self.rungs.iter().enumerate().filter(counts).map(|(_, rung)| rung).collect();
         if let Some(rung) = clear.iter().find(|rung| rung.value == value) {
             return rung.error;
         }

@@ -3,6 +3,7 @@
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{KnobReport, Row, Study};
+use crate::math::exp;
 use plotters::coord::Shift;
 use plotters::coord::combinators::{IntoLogRange, LogCoord};
 use plotters::prelude::*;
@@ -24,14 +25,14 @@ pub(super) fn front(study: &Study) -> String {
     let xs = span(rows.iter().map(|row| row.seconds.value));
     let floor = Some(study.reference.floor).filter(|floor| *floor > 0.0);
     let ys = span(rows.iter().map(|row| row.errors.rmse).chain(floor));
-    plot((560, 400), |root| {
+    plot((460, 360), |root| {
         let mut chart = axes(root, [xs.clone(), ys], ["time of one processor", "error in grey levels"], seconds)?;
         let steps = front_steps(&rows, xs.end);
         chart.draw_series([PathElement::new(steps, ACCENT.stroke_width(2))])?;
         if let Some(floor) = floor {
             chart.draw_series([PathElement::new([(xs.start, floor), (xs.end, floor)], FLOOR.stroke_width(1))])?;
-            let label = Text::new("error of the reference", (xs.start * 1.1, floor * 1.06), font(11));
-            chart.draw_series([label])?;
+            let label = Text::new("error of the reference", (6, -14), font(11));
+            chart.draw_series([EmptyElement::at((xs.start, floor)) + label])?;
         }
         for row in rows {
             draw_row(&mut chart, row, &study.used())?;
@@ -66,20 +67,25 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
     if row.front || row.own {
         let values: Vec<_> = used.iter().map(|knob| row.setting.get(*knob).to_string()).collect();
         let own = if row.own { " (own)" } else { "" };
-        chart.draw_series([Text::new(format!("{}{own}", values.join("·")), (x * 1.05, y * 1.12), font(11))])?;
+        let label = Text::new(format!("{}{own}", values.join("·")), (6, -15), font(11));
+        chart.draw_series([EmptyElement::at((x, y)) + label])?;
     }
     Ok(())
 }
 
 /// The error of a knob alone, and its law.
 pub(super) fn knob(report: &KnobReport) -> String {
-    // A depth of 0 has a place on the axis beside 1.
+    // A logarithmic axis has no 0; a depth of 0 stands beside 1.
     let x = |value: u32| report.knob.samples(value).max(0.5);
     let points: Vec<_> =
         report.rungs.iter().filter(|rung| rung.error > 0.0).map(|rung| (x(rung.value), rung)).collect();
     let xs = span(points.iter().map(|point| point.0));
     let ys = span(points.iter().map(|point| point.1.error));
-    let name = if report.knob == Knob::Supersampling { "samples of a pixel" } else { report.knob.name() };
+    let name = match report.knob {
+        Knob::Supersampling => "samples of a pixel",
+        Knob::Depth => "depth, 0 at ½",
+        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy) => knob.name(),
+    };
     plot((400, 300), |root| {
         let mut chart = axes(root, [xs.clone(), ys], [name, "error in grey levels"], digits)?;
         if let Some(law) = &report.law {
@@ -95,10 +101,16 @@ pub(super) fn knob(report: &KnobReport) -> String {
     })
 }
 
-/// The values with some room around them.
+/// The decades that hold all values.
 fn span(values: impl Iterator<Item = f64>) -> Span {
+    let decades = (-12..=12).map(|decade| exp(f64::from(decade) * std::f64::consts::LN_10));
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
-    if low <= high && low > 0.0 { low / 1.6..high * 1.8 } else { 0.1..10.0 }
+    let below = decades.clone().rfind(|decade| *decade < 0.95 * low);
+    let above = decades.clone().find(|decade| *decade > 1.05 * high);
+    match (below, above) {
+        (Some(below), Some(above)) if low <= high => below..above,
+        _ => 0.1..10.0,
+    }
 }
 
 fn plot(size: (u32, u32), draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome) -> String {
@@ -117,7 +129,7 @@ fn axes<'a, 'b>(
     x_words: fn(f64) -> String,
 ) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
     let mut builder = ChartBuilder::on(root);
-    builder.margin(8).x_label_area_size(40).y_label_area_size(56);
+    builder.margin(8).margin_right(20).x_label_area_size(40).y_label_area_size(56);
     let mut chart = builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?;
     chart
         .configure_mesh()
@@ -127,6 +139,8 @@ fn axes<'a, 'b>(
         .axis_desc_style(font(13))
         .x_desc(x_name)
         .y_desc(y_name)
+        .x_labels(4)
+        .y_labels(4)
         .x_label_formatter(&|x| x_words(*x))
         .y_label_formatter(&|y| digits(*y))
         .draw()?;

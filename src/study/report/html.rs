@@ -15,7 +15,7 @@ const PICTURES: usize = 8;
 #[must_use]
 pub fn html(study: &Study) -> String {
     let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
-    let sections = [front(study), knobs(study), effects(study), pictures(study), fine_print(study)];
+    let sections = [front(study), knobs(study), effects(study), precision(study), pictures(study), fine_print(study)];
     let advice: String = study.advice.iter().map(|line| format!("<p>{}</p>\n", escaped(line))).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -31,11 +31,12 @@ fn front(study: &Study) -> String {
     let mut rows = String::new();
     for row in &study.rows {
         let class = if row.front { "front" } else { "other" };
-        let cells = cells(row, &used, study.part.share);
-        let _ = writeln!(rows, "<tr class=\"{class}\">{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+        let cells: String = cells(row, &used, study.part.share).iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        let _ = writeln!(rows, "<tr class=\"{class}\">{cells}</tr>");
     }
-    let names = ["setting", "rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
-    let head = names.map(|name| format!("<th>{name}</th>")).concat();
+    let names = ["rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
+    let names = std::iter::once("").chain(used.iter().map(|knob| knob.short())).chain(names);
+    let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
     format!(
         "<h2>The front: what error there is for a time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
          <div class=\"wide\"><table><thead><tr>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n",
@@ -45,12 +46,12 @@ fn front(study: &Study) -> String {
     )
 }
 
-fn cells(row: &Row, used: &[Knob], share: f64) -> [String; 9] {
-    let star = if row.front { "★ " } else { "" };
-    let own = if row.own { " (the scene's own)" } else { "" };
+fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
+    let star = if row.front { "★" } else { "" };
+    let own = if row.own { " own" } else { "" };
     let limit = if row.judged { "" } else { "≤ " };
-    [
-        format!("{star}{}{own}", escaped(&row.setting.words(used))),
+    let knobs = used.iter().map(|knob| row.setting.get(*knob).to_string());
+    let measured = [
         table::count(row.rays.all() as f64 / share),
         format!("{} ± {:.1} %", seconds(row.seconds.value), 100.0 * row.seconds.relative()),
         format!("{} ± {:.1} %", digits(row.ratio.value), 100.0 * row.ratio.relative()),
@@ -59,7 +60,8 @@ fn cells(row: &Row, used: &[Knob], share: f64) -> [String; 9] {
         digits(row.errors.max),
         format!("{} %", digits(100.0 * row.errors.visible)),
         digits(row.errors.flip),
-    ]
+    ];
+    std::iter::once(format!("{star}{own}")).chain(knobs).chain(measured).collect()
 }
 
 fn knobs(study: &Study) -> String {
@@ -97,6 +99,27 @@ fn effects(study: &Study) -> String {
         "<h2>What each effect costs</h2>\n<p>The scene without the effect, in its own setting, over the scene as it is. \
          </p>\n<div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th>\
          <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn precision(study: &Study) -> String {
+    let mut rows = String::new();
+    for cost in &study.precision {
+        let (time, off, difference) = (cost.ratio.value, 100.0 * cost.ratio.relative(), &cost.difference);
+        let cells = [
+            escaped(&cost.arithmetic),
+            format!("{time:.2} ± {off:.1} %"),
+            digits(difference.rmse),
+            digits(difference.max),
+            format!("{} %", digits(100.0 * difference.visible)),
+        ];
+        let _ = writeln!(rows, "<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+    }
+    format!(
+        "<h2>What each precision costs</h2>\n<p>The same samples by each arithmetic, against the robust one: time, and \
+         how far the picture is off in grey levels.</p>\n<div class=\"wide\"><table><thead><tr><th>arithmetic</th>\
+         <th>time</th><th>error</th><th>largest</th><th>pixels off</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\
+         </div>\n"
     )
 }
 

@@ -14,6 +14,7 @@ pub(super) struct Materials {
     made: Vec<Option<MaterialId>>,
     /// That of primitives without one.
     default: Option<MaterialId>,
+    textures: Textures,
 }
 
 /// The material that a primitive has in a variant.
@@ -26,7 +27,7 @@ pub(super) fn chosen(primitive: &Primitive, variant: Option<usize>, json: &Tree<
 
 impl Materials {
     pub(super) fn new(doc: &Document<'_>) -> Self {
-        Self { made: vec![None; doc.materials.len()], default: None }
+        Self { made: vec![None; doc.materials.len()], default: None, textures: Textures::new(doc) }
     }
 
     /// True if the material looks at tangents.
@@ -45,7 +46,6 @@ impl Materials {
         &mut self,
         doc: &Document<'_>,
         material: Option<usize>,
-        textures: &mut Textures,
         scene: &mut Scene,
         origins: &mut Origins,
         report: &mut Report<'_, '_>,
@@ -58,7 +58,7 @@ impl Materials {
             None => Standard::default(),
             Some(material) => {
                 let fields = Fields::new(report.json, doc.materials[material]);
-                Reader { doc, textures, scene, origins, report }.material(fields)
+                Reader { doc, textures: &mut self.textures, scene, origins, report }.material(fields)
             }
         };
         let id = MaterialId(to_u32(scene.materials.len()));

@@ -21,7 +21,6 @@ use crate::ir::{self, Environment, Field, Lowered, Material, MaterialId, Mode, N
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
-use texture::Textures;
 
 /// Bounces of a path, paths a pixel.
 const DEPTH: u32 = 16;
@@ -33,7 +32,6 @@ struct Lowering<'l, 'r, 's> {
     report: &'l mut Report<'r, 's>,
     scene: Scene,
     origins: Origins,
-    textures: Textures,
     materials: Materials,
     meshes: Meshes,
     /// The variant of the materials that was asked for.
@@ -51,7 +49,6 @@ pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Repo
         report,
         scene: empty(),
         origins: Origins::default(),
-        textures: Textures::new(doc),
         materials: Materials::new(doc),
         meshes: Meshes::new(doc),
         variant,
@@ -160,7 +157,7 @@ impl Lowering<'_, '_, '_> {
     fn material(&mut self, primitive: &super::mesh::Primitive) -> MaterialId {
         let material = material::chosen(primitive, self.variant, self.report.json).or(primitive.material);
         let material = material.filter(|material| *material < self.doc.materials.len());
-        self.materials.make(self.doc, material, &mut self.textures, &mut self.scene, &mut self.origins, self.report)
+        self.materials.make(self.doc, material, &mut self.scene, &mut self.origins, self.report)
     }
 
     fn finish(mut self) -> Lowered {

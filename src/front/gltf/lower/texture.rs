@@ -58,8 +58,8 @@ impl Textures {
             return *known;
         }
         let texture = &doc.textures[index];
-        let image = [texture.webp, texture.source].into_iter().flatten();
-        let image = image.filter(|image| doc.images.get(*image).is_some_and(|image| image.is_sound)).next();
+        let mut images = [texture.webp, texture.source].into_iter().flatten();
+        let image = images.find(|image| doc.images.get(*image).is_some_and(|image| image.is_sound));
         let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
         if image.is_none() {
             let message = "the texture has no image that can be read, so it has no effect".to_owned();

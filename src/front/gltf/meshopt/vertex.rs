@@ -35,7 +35,7 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
     let mut reader = Reader { bytes: &bytes[1..end] };
     let mut last = baseline.to_vec();
     let mut decoded = Vec::with_capacity(count * stride);
-    let block = (BLOCK_BYTES / stride & !(GROUP - 1)).min(BLOCK_ELEMENTS);
+    let block = ((BLOCK_BYTES / stride) & !(GROUP - 1)).min(BLOCK_ELEMENTS);
     let mut deltas = vec![0; BLOCK_ELEMENTS * stride];
     while decoded.len() < count * stride {
         let elements = block.min(count - decoded.len() / stride);
