@@ -204,7 +204,7 @@ pub(super) fn texture() -> Vec<u8> {
         "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": triangle, "NORMAL": normals, "TEXCOORD_0": uvs}, "material": 0}]}],
         "materials": [{"normalTexture": {"index": 0, "scale": 0.5, "extensions":
-            {"KHR_texture_transform": {"offset": [0.5, 0.25], "scale": [2, 3], "rotation": 1.570_796_326_794_896_6}}}}],
+            {"KHR_texture_transform": {"offset": [0.5, 0.25], "scale": [2, 3], "rotation": std::f64::consts::FRAC_PI_2}}}}],
         "textures": [{"source": 0, "sampler": 0}],
         "samplers": [{"magFilter": 9728, "wrapS": 33071, "wrapT": 33648}],
         "images": [{"name": "two", "uri": format!("data:image/png;base64,{PNG}")}],
