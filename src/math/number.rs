@@ -24,6 +24,12 @@ impl Positive {
 pub struct NonNegative(f64);
 
 impl NonNegative {
+    /// The product with a number, 0 if that is negative.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0 * factor.clamp(0.0, f64::MAX / self.0.max(1.0)))
+    }
+
     /// `None` unless the value is finite and at least 0.
     #[must_use]
     pub fn new(value: f64) -> Option<Self> {

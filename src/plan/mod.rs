@@ -5,11 +5,18 @@
 //! that can meet nothing, a sample that equals its neighbour. Sums keep their order, and random numbers are keyed by
 //! pixel, sample and path, so that leaving one out shifts no other.
 
+mod body;
 mod effect;
 mod features;
+mod light;
+mod look;
 mod precision;
+mod reach;
 mod region;
 mod rule;
+mod space;
+mod verdicts;
+mod window;
 
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, Shapes};
@@ -18,7 +25,15 @@ pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Shape, ValidScene};
+use crate::valid::{Mode, Pattern, Projection, Shape, ValidScene};
+use body::{Body, bodies};
+use light::Lights;
+use look::{Look, constants};
+use reach::Reach;
+use window::{Shown, Window};
+
+/// The most questions of whether one thing hides or shows another that a plan asks.
+const MAX_PAIRS: usize = 500_000;
 
 /// By which arithmetic rays meet shapes; shading is always in f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,31 +87,52 @@ impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
     pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+        let rules = proven_for(scene, rules);
+        let facts = Facts::new(scene, rules);
         let settings = scene.settings();
-        let light = || LightPlan { kept: true, direct: true, shadowed: vec![true; scene.surfaces().len()] };
+        let window = Window::new(scene.camera(), facts.is_pinhole());
+        let shown = facts.bodies.iter().map(|body| window.shown(body)).collect::<Vec<_>>();
+        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 };
+        let anywhere = vec![Shown::Anywhere; shown.len()];
+        let seen = if rules.contains(Rule::Cull) { &shown } else { &anywhere };
+        let reach = Reach::new(&facts, &window, seen, asked);
+        let lights = Lights::new(&facts, &reach);
+        let needed = if rules.contains(Rule::MirrorKs) { reach.depth } else { asked };
+        let max_depth = reach::cut(&facts, needed, rules);
+        let is_kept = |surface: usize| reach.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull);
+        let surfaces = (0..shown.len()).map(is_kept).collect::<Vec<_>>();
+        let findings = Findings { facts, reach, lights, max_depth, asked };
+        let region = Region::new(&findings, &window, &shown);
         Self {
             arithmetic: Arithmetic::Robust,
             rules,
-            features: features(scene, rules),
-            shapes: shapes(scene),
-            lights: scene.lights().iter().map(|_| light()).collect(),
-            surfaces: vec![true; scene.surfaces().len()],
-            constants: vec![None; scene.textures().len()],
-            max_depth: if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 },
-            region: Region::default(),
-            verdicts: Vec::new(),
+            features: findings.features(),
+            shapes: shapes(scene, &surfaces),
+            surfaces,
+            max_depth,
+            verdicts: verdicts::verdicts(&findings, &region),
+            region,
+            lights: findings.lights.plans,
+            constants: findings.facts.constants,
         }
     }
 
-    /// Plans the picture by an arithmetic, with all rules that add exactly nothing by it: what is proven of the shapes
-    /// is proven for the robust one.
+    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing by it: what is proven
+    /// of the shapes is proven for the robust one.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
-            Arithmetic::Robust => Rules::ALL,
-            Arithmetic::Plain | Arithmetic::F32 => Rules::AT_HITS,
+            Arithmetic::Robust => rules,
+            Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
         };
         Self { arithmetic, ..Self::new(scene, rules) }
+    }
+
+    /// The rule that left out an effect, of the whole scene or else of some entity.
+    #[must_use]
+    pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
+        let mut verdicts = self.verdicts.iter().filter(|verdict| verdict.effect == effect);
+        verdicts.find_map(|verdict| verdict.rule)
     }
 
     /// Whether the picture needs an effect, of whatever entity.
@@ -106,38 +142,171 @@ impl Plan {
     }
 }
 
-/// What the language asks of the integrator.
-fn features(scene: &ValidScene, rules: Rules) -> Features {
-    let (settings, lens) = (scene.settings(), &scene.camera().lens);
-    let materials = || scene.materials().iter();
-    let soft = settings.light_samples.get() > 1 && scene.lights().iter().any(|light| light.radius.get() > 0.0);
-    let glossy = materials().any(|material| material.glossy_samples.get() > 1);
-    let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
-    let with_lens = lens.radius.get() > 0.0 && lens.samples.get() > 1;
-    let phong = matches!(settings.mode, Mode::Phong);
-    let shades = phong || matches!(settings.mode, Mode::Gooch(_));
-    let mut features = Features::NONE;
-    let mut add = |feature, condition: bool| features = if condition { features.with(feature) } else { features };
-    add(Features::CAMERA, several || with_lens);
-    add(Features::MAPS, maps(scene));
-    add(Features::LIGHT, phong);
-    add(Features::HIGHLIGHT, shades);
-    add(Features::GOOCH, shades && !phong);
-    add(Features::SHADOW, phong && settings.shadows);
-    add(Features::BOUNCE, phong && settings.max_depth > 0);
-    add(Features::SAMPLED, phong && (soft || glossy));
-    add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
-    features
+/// What the rules start from.
+struct Facts<'scene> {
+    scene: &'scene ValidScene,
+    rules: Rules,
+    /// Per surface, where it is.
+    bodies: Vec<Body>,
+    /// Per surface, what it shows.
+    looks: Vec<Look>,
+    /// Per texture, its value if it has only one.
+    constants: Vec<Option<Vec3>>,
+    /// Per mesh, whether no triangle has several shading normals.
+    even: Vec<bool>,
 }
 
-fn maps(scene: &ValidScene) -> bool {
-    let has_normals =
-        |shape: &Shape| matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty());
-    scene.materials().iter().any(|material| material.maps.is_some())
-        || scene.surfaces().iter().any(|surface| has_normals(&surface.shape))
+impl<'scene> Facts<'scene> {
+    fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
+        let constants =
+            if rules.contains(Rule::TextureConstant) { constants(scene) } else { vec![None; scene.textures().len()] };
+        let looks = scene.surfaces().iter().map(|surface| Look::of(surface, scene, &constants)).collect();
+        let even = scene.meshes().iter().map(|mesh| look::is_even(mesh)).collect();
+        Self { scene, rules, bodies: bodies(scene), looks, constants, even }
+    }
+
+    /// The rule, if it may be applied.
+    fn allowed(&self, rule: Rule) -> Option<Rule> {
+        Some(rule).filter(|rule| self.rules.contains(*rule))
+    }
+
+    /// Whether no triangle of a surface has several shading normals.
+    fn is_even(&self, surface: usize) -> bool {
+        let shape = &self.scene.surfaces()[surface].shape;
+        let Shape::Instance(instance) = shape else { return true };
+        self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
+    }
+
+    /// Whether all rays of a pixel's point start at the eye.
+    fn is_pinhole(&self) -> bool {
+        let lens = &self.scene.camera().lens;
+        lens.radius.get() == 0.0 || lens.samples.get() == 1 || matches!(self.scene.settings().mode, Mode::Zbuffer)
+    }
 }
 
-fn shapes(scene: &ValidScene) -> Shapes {
+/// What the rules found.
+struct Findings<'scene> {
+    facts: Facts<'scene>,
+    reach: Reach,
+    lights: Lights,
+    /// Bounces planned.
+    max_depth: u32,
+    /// Bounces that the language asks for.
+    asked: u32,
+}
+
+impl Findings<'_> {
+    fn mode(&self) -> &Mode {
+        &self.facts.scene.settings().mode
+    }
+
+    /// The surfaces that are looked at, directly or in a mirror.
+    fn reached(&self) -> impl Iterator<Item = usize> {
+        (0..self.facts.bodies.len()).filter(|surface| self.reach.reached[*surface])
+    }
+
+    /// Whether any surface that is looked at shows something.
+    fn any(&self, shows: impl Fn(&Look) -> bool) -> bool {
+        self.reached().any(|surface| shows(&self.facts.looks[surface]))
+    }
+
+    fn is_shaded(&self) -> bool {
+        matches!(self.mode(), Mode::Phong | Mode::Gooch(_))
+    }
+
+    fn is_phong(&self) -> bool {
+        matches!(self.mode(), Mode::Phong)
+    }
+
+    /// Whether a light adds more than its ambient term to a surface.
+    fn is_lit(&self, look: &Look) -> bool {
+        look.is_lit() && self.lights.plans.iter().any(|light| light.direct)
+    }
+
+    /// Whether the picture depends on the shading normal of a surface.
+    fn shows_normal(&self, look: &Look) -> bool {
+        match self.mode() {
+            Mode::Zbuffer => false,
+            Mode::Normal | Mode::Path(_) => true,
+            Mode::Gooch(_) => !self.lights.plans.is_empty(),
+            Mode::Phong => self.is_lit(look) || (look.mirrors() && self.max_depth > 0),
+        }
+    }
+
+    /// Whether the picture depends on what the texture of a surface's colour shows.
+    fn shows_color_map(&self, look: &Look) -> bool {
+        let is_constant = look.color_map.is_none_or(|map| self.facts.constants[map].is_some());
+        self.is_shaded() && !is_constant && (look.ambient || look.diffuse)
+    }
+
+    /// Whether the picture depends on what the texture of a surface's ks shows.
+    fn shows_specular_map(&self, look: &Look) -> bool {
+        let is_constant = look.specular_map.is_none_or(|map| self.facts.constants[map].is_some());
+        self.is_shaded() && !is_constant && look.shines
+    }
+
+    /// Whether shadow rays are needed.
+    fn casts_shadows(&self) -> bool {
+        self.lights.shadow.is_some()
+    }
+
+    /// Whether a light is sampled.
+    fn is_soft(&self) -> bool {
+        let settings = self.facts.scene.settings();
+        let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+        let soft = lights.filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct).count();
+        self.is_phong() && settings.light_samples.get() > 1 && soft > 0
+    }
+
+    /// Whether a lobe is sampled.
+    fn is_glossy(&self) -> bool {
+        self.max_depth > 0 && self.any(|look| look.glossy && look.mirrors())
+    }
+
+    /// Whether a pixel takes several rays, or rays that are not through its middle.
+    fn is_sampled(&self) -> bool {
+        let settings = self.facts.scene.settings();
+        let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
+        several && !matches!(settings.mode, Mode::Zbuffer)
+    }
+
+    /// The smallest set of features that makes the picture.
+    fn features(&self) -> Features {
+        let rules = self.facts.rules;
+        let bends = |look: &Look| look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat));
+        let colors = |look: &Look| {
+            let unseen = look.color_map.is_some() || look.specular_map.is_some();
+            let shows = self.shows_color_map(look) || self.shows_specular_map(look);
+            shows || (unseen && !rules.contains(Rule::TextureUnseen))
+        };
+        let shines = |look: &Look| look.shines && self.is_lit(look);
+        let lit = self.any(|look| self.is_lit(look)) || !rules.contains(Rule::LightUnreached);
+        let mut features = Features::NONE;
+        let mut add = |feature, condition: bool| features = if condition { features.with(feature) } else { features };
+        add(Features::CAMERA, self.is_sampled() || !self.facts.is_pinhole());
+        add(Features::MAPS, self.any(|look| bends(look) || colors(look)));
+        add(Features::LIGHT, self.is_phong() && lit);
+        add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
+        add(Features::GOOCH, matches!(self.mode(), Mode::Gooch(_)));
+        add(Features::SHADOW, self.casts_shadows());
+        add(Features::BOUNCE, self.max_depth > 0);
+        add(Features::SAMPLED, self.is_soft() || self.is_glossy());
+        add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
+        features
+    }
+}
+
+/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from an eye.
+fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+    match (scene.settings().mode, scene.camera().projection) {
+        (Mode::Path(_), _) => Rules::NONE,
+        (_, Projection::Orthographic) => rules.of(Rules::AT_HITS),
+        (_, Projection::Perspective) => rules,
+    }
+}
+
+fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
     let is_basic = |shape: &Shape| matches!(shape, Shape::Sphere(_) | Shape::Plane(_) | Shape::Triangle(_));
-    if scene.surfaces().iter().all(|surface| is_basic(&surface.shape)) { Shapes::Basic } else { Shapes::All }
+    let mut planned = scene.surfaces().iter().zip(kept).filter(|(_, kept)| **kept);
+    if planned.all(|(surface, _)| is_basic(&surface.shape)) { Shapes::Basic } else { Shapes::All }
 }

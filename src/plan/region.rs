@@ -1,4 +1,21 @@
-//! What each pixel may show.
+//! What each pixel may show: nothing, one flat surface of one value, or anything.
+//!
+//! Each surface is counted in the cells its rectangle of the picture overlaps, cells being squares of pixels so many that
+//! they stay cheap. What no rectangle overlaps shows nothing, whatever the order or shape of the surfaces.
+
+use super::body::Form;
+use super::rule::Rule;
+use super::space::Sides;
+use super::window::{Rect, Shown, Window};
+use super::{Facts, Findings};
+use crate::math::{Basis, Vec3, cos_sin_turns};
+use crate::valid::{Disc, Mode, Shape};
+
+/// The most cells of a picture.
+const MAX_CELLS: u64 = 1 << 18;
+
+/// The pixels that all samples stay away from the edge of a surface that fills their pixel.
+const MARGIN: f64 = 1.0;
 
 /// What the rays through a pixel may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,12 +30,228 @@ pub enum Sight {
 
 /// What each pixel of the picture may show.
 #[derive(Clone, Debug, Default)]
-pub struct Region {}
+pub struct Region {
+    /// Cells are 2 to this pixels wide.
+    shift: u32,
+    /// Cells in a row; none if nothing is known of any pixel.
+    columns: usize,
+    cells: Vec<Cell>,
+    /// Convex polygons in the picture that lie within a surface of one value.
+    polygons: Vec<Vec<[f64; 2]>>,
+    /// Whether pixels that show nothing may be left out.
+    misses: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Cell {
+    Nothing,
+    /// One surface of one value, by the index of its polygon.
+    One(u32),
+    Anything,
+}
 
 impl Region {
+    pub(super) fn new(findings: &Findings<'_>, window: &Window, shown: &[Shown]) -> Self {
+        let rules = findings.facts.rules;
+        let is_wanted = rules.contains(Rule::PixelMiss) || rules.contains(Rule::PixelFlat);
+        if !is_wanted || shown.contains(&Shown::Anywhere) {
+            return Self::default();
+        }
+        let (mut grid, mut polygons) = (Grid::new(findings), Vec::new());
+        let flats = findings.has_flat_pixels();
+        for (surface, shown) in shown.iter().enumerate() {
+            let Shown::In(rect) = shown else { continue };
+            let polygon = if flats { findings.polygon(surface, window) } else { None };
+            let mark = polygon.map_or(0, |polygon| {
+                polygons.push(polygon);
+                polygons.len() as i64
+            });
+            grid.add(*rect, mark);
+        }
+        let cells = grid.cells();
+        let (shift, columns) = (grid.shift, grid.columns);
+        Self { shift, columns, cells, polygons, misses: rules.contains(Rule::PixelMiss) }
+    }
+
     /// What the rays through a pixel may meet.
     #[must_use]
-    pub fn sight(&self, _pixel: [u32; 2]) -> Sight {
-        Sight::Anything
+    pub fn sight(&self, [x, y]: [u32; 2]) -> Sight {
+        if self.columns == 0 {
+            return Sight::Anything;
+        }
+        match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
+            Cell::Nothing if self.misses => Sight::Nothing,
+            Cell::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => Sight::Uniform,
+            Cell::Nothing | Cell::One(_) | Cell::Anything => Sight::Anything,
+        }
+    }
+
+    /// The share of the picture that surely shows nothing, in [0, 1].
+    #[must_use]
+    pub fn empty_share(&self) -> f64 {
+        let empty = self.cells.iter().filter(|cell| **cell == Cell::Nothing).count();
+        if self.misses { empty as f64 / self.cells.len().max(1) as f64 } else { 0.0 }
+    }
+
+    /// Whether some pixels may show one flat surface of one value alone.
+    #[must_use]
+    pub fn has_flat_pixels(&self) -> bool {
+        self.cells.iter().any(|cell| matches!(cell, Cell::One(_)))
+    }
+}
+
+impl Findings<'_> {
+    /// Whether pixels of one value take fewer rays than others.
+    fn has_flat_pixels(&self) -> bool {
+        self.facts.rules.contains(Rule::PixelFlat) && self.is_sampled() && self.facts.is_pinhole()
+    }
+
+    /// The outline in the picture of a convex polygon within a surface, if that is flat and shows one value.
+    fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
+        let Form::Flat(flat) = self.facts.bodies[surface].form else { return None };
+        let shape = &self.facts.scene.surfaces()[surface].shape;
+        let look = &self.facts.looks[surface];
+        let shows_one_value = match self.mode() {
+            // The two halves of a quad may differ in the last bit of their normals.
+            Mode::Normal => {
+                !look.is_bent() && !matches!(shape, Shape::Quad(_)) && self.reach.sides[surface] != Sides::BOTH
+            }
+            Mode::Phong => {
+                let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+                let mut direct = lights.filter(|(_, plan)| plan.direct);
+                let is_dark = direct.all(|(light, _)| self.facts.is_dark(surface, self.reach.sides[surface], light));
+                is_dark && !self.shows_color_map(look) && (self.max_depth == 0 || !look.mirrors())
+            }
+            Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
+        };
+        let corners = if shows_one_value { corners(shape, flat.normal) } else { None };
+        convex(corners?.into_iter().map(|corner| window.middle(corner)).collect::<Option<_>>()?)
+    }
+}
+
+/// Corners of a convex polygon within a flat shape, in order around it.
+fn corners(shape: &Shape, normal: Vec3) -> Option<Vec<Vec3>> {
+    /// Corners of the polygon within a disc: it covers 97 % of it.
+    const COUNT: u64 = 16;
+    match shape {
+        Shape::Triangle(triangle) => Some(triangle.vertices.to_vec()),
+        Shape::Quad(quad) => Some(quad.vertices.to_vec()),
+        Shape::Disc(Disc { center, radius, .. }) => {
+            let basis = Basis::around(normal);
+            let corner = |k: u64| {
+                let (x, y) = cos_sin_turns(k << 60);
+                *center + basis.to_world(Vec3::new(x, y, 0.0)) * radius.get()
+            };
+            Some((0..COUNT).map(corner).collect())
+        }
+        Shape::Sphere(_)
+        | Shape::Plane(_)
+        | Shape::Cylinder(_)
+        | Shape::Cone(_)
+        | Shape::Torus(_)
+        | Shape::Instance(_) => None,
+    }
+}
+
+/// Twice the area of the triangle from an edge to a point; above 0 if the point is to the left.
+fn area([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+}
+
+/// The edges of a polygon.
+fn edges(polygon: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
+    let next = polygon.iter().cycle().skip(1);
+    polygon.iter().zip(next).map(|(a, b)| [*a, *b])
+}
+
+/// The polygon with its corners turning left, unless it is not convex or too small to hold a pixel.
+fn convex(mut polygon: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
+    let whole = edges(&polygon).map(|edge| area(edge, polygon[0])).sum::<f64>();
+    if whole < 0.0 {
+        polygon.reverse();
+    }
+    let turns_left = |edge| polygon.iter().all(|corner| area(edge, *corner) >= 0.0);
+    let is_convex = edges(&polygon).all(turns_left) && whole.abs() > 2.0;
+    is_convex.then_some(polygon)
+}
+
+/// Whether a pixel lies inside a polygon, with a margin.
+fn is_inside(polygon: &[[f64; 2]], [x, y]: [u32; 2]) -> bool {
+    let (low, high) = ([x, y].map(|at| f64::from(at) - MARGIN), [x, y].map(|at| f64::from(at) + 1.0 + MARGIN));
+    let corners = [[low[0], low[1]], [high[0], low[1]], [low[0], high[1]], [high[0], high[1]]];
+    edges(polygon).all(|edge| corners.iter().all(|corner| area(edge, *corner) >= 0.0))
+}
+
+/// How many surfaces each cell may show, and the sum of their marks, as differences from the cells before.
+struct Grid {
+    shift: u32,
+    columns: usize,
+    rows: usize,
+    differences: Vec<(i32, i64)>,
+}
+
+impl Grid {
+    fn new(findings: &Findings<'_>) -> Self {
+        let Facts { scene, .. } = &findings.facts;
+        let (width, height) = (scene.camera().width.get(), scene.camera().height.get());
+        let count = |side: u32, shift: u32| u64::from((side - 1) >> shift) + 1;
+        let is_cheap = |shift: &u32| count(width, *shift) * count(height, *shift) <= MAX_CELLS;
+        let shift = (0..31).find(is_cheap).unwrap_or(31);
+        let side = |side: u32| ((side - 1) >> shift) as usize + 1;
+        let (columns, rows) = (side(width), side(height));
+        Self { shift, columns, rows, differences: vec![(0, 0); (columns + 1) * (rows + 1)] }
+    }
+
+    fn add(&mut self, rect: Rect, mark: i64) {
+        let span = |[first, last]: [u32; 2]| [first >> self.shift, ((last - 1) >> self.shift) + 1].map(|k| k as usize);
+        let ([left, right], [top, bottom]) = (span(rect.x), span(rect.y));
+        for (x, y, sign) in [(left, top, 1), (right, top, -1), (left, bottom, -1), (right, bottom, 1)] {
+            let (count, marks) = &mut self.differences[y * (self.columns + 1) + x];
+            *count += sign;
+            *marks += i64::from(sign) * mark;
+        }
+    }
+
+    fn cells(&mut self) -> Vec<Cell> {
+        let stride = self.columns + 1;
+        let mut cells = Vec::with_capacity(self.columns * self.rows);
+        for y in 0..self.rows {
+            let mut row = (0, 0);
+            for x in 0..self.columns {
+                let above = if y == 0 { (0, 0) } else { self.differences[(y - 1) * stride + x] };
+                let here = &mut self.differences[y * stride + x];
+                row = (row.0 + here.0, row.1 + here.1);
+                *here = (row.0 + above.0, row.1 + above.1);
+                cells.push(match *here {
+                    (0, _) => Cell::Nothing,
+                    (1, mark) if mark > 0 => Cell::One(u32::try_from(mark - 1).unwrap_or(0)),
+                    _ => Cell::Anything,
+                });
+            }
+        }
+        cells
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_count_the_rectangles_that_overlap_them() {
+        let mut grid = Grid { shift: 1, columns: 4, rows: 3, differences: vec![(0, 0); 20] };
+        grid.add(Rect { x: [0, 4], y: [0, 2] }, 1);
+        grid.add(Rect { x: [3, 8], y: [1, 6] }, 0);
+        let (nothing, one, any) = (Cell::Nothing, Cell::One(0), Cell::Anything);
+        let wanted = [[one, any, any, any], [nothing, any, any, any], [nothing, any, any, any]];
+        assert_eq!(grid.cells(), wanted.concat());
+    }
+
+    #[test]
+    fn a_pixel_is_inside_a_polygon_with_a_margin() {
+        let square = convex(vec![[0.0, 0.0], [0.0, 5.0], [5.0, 5.0], [5.0, 0.0]]).unwrap();
+        assert!(is_inside(&square, [1, 1]) && is_inside(&square, [3, 3]));
+        assert!(!is_inside(&square, [0, 1]) && !is_inside(&square, [4, 1]) && !is_inside(&square, [9, 9]));
+        assert!(convex(vec![[0.0, 0.0], [9.0, 0.0], [2.0, 2.0], [0.0, 9.0]]).is_none(), "a dart is not convex");
     }
 }

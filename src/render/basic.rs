@@ -62,6 +62,14 @@ impl Geometry for Basic {
         }
     }
 
+    fn has_uv(&self) -> bool {
+        match self {
+            Self::Sphere(..) => true,
+            Self::Triangle(_, uvs) => uvs.is_some(),
+            Self::Plane(_) => false,
+        }
+    }
+
     fn has_shading_normals(&self) -> bool {
         false
     }

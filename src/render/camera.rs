@@ -77,6 +77,21 @@ impl Twist {
 /// Keeps the numbers of the lens apart from those of sub-samples and paths.
 const LENS: u64 = u64::MAX - 1;
 
+/// The origin of a ray for a place in the unit square: uniform over the lens if that is.
+#[must_use]
+pub(super) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
+    /// 2⁶⁴.
+    const TURN: f64 = 18_446_744_073_709_551_616.0;
+    let radius = camera.lens.radius.get();
+    if radius == 0.0 {
+        return camera.eye;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a turn, below one")]
+    let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
+    let r = radius * share.sqrt() / camera.up.length();
+    camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)
+}
+
 /// The origin of ray k of a sub-sample.
 #[must_use]
 pub(super) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {

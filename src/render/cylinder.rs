@@ -1,7 +1,7 @@
 //! The capped cylinder: the stretch inside the infinite cylinder and the stretch between its caps, intersected.
 //!
-//! The quadratic is that of the cross products with the axis, so its terms have the size of the distance from the axis
-//! and not of the distance from the origin; the discriminant comes from the point nearest to the axis, as the sphere's.
+//! The ray is first moved to the point nearest to the axis, so that the terms of the quadratic have the size of the
+//! radius and not of the distance from the eye; they are those of the cross products with the axis.
 
 use super::bounds::Bounds;
 use super::interval::{Interval, between_planes, roots};
@@ -41,11 +41,11 @@ impl Cylinder {
     fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
         let f = ray.origin - self.base;
         let caps = between_planes(self.axis, self.height, f, ray.direction, [Part::Base, Part::Top])?;
-        self.inside_side(f, ray.direction)?.and(caps)?.first_in_front()
+        self.inside_side(f, ray.direction, &caps)?.and(caps)?.first_in_front()
     }
 
-    /// The stretch inside the infinite cylinder.
-    fn inside_side(&self, f: Vec3, d: Vec3) -> Option<Interval<Part>> {
+    /// The stretch inside the infinite cylinder, to be known well where it is between the caps.
+    fn inside_side(&self, f: Vec3, d: Vec3, caps: &Interval<Part>) -> Option<Interval<Part>> {
         let r2 = self.radius * self.radius;
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
         let a = across.dot(across);
@@ -53,6 +53,9 @@ impl Cylinder {
             let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Side), leave: (f64::INFINITY, Part::Side) };
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
+        // Move the ray to the point nearest to the axis, but not beyond the caps.
+        let nearest = (-from_axis.dot(across) / a).max(caps.enter.0).min(caps.leave.0);
+        let from_axis = cross(f + d * nearest, self.axis);
         let b = -from_axis.dot(across);
         let foot = from_axis + across * (b / a);
         let inside = r2 - foot.dot(foot);
@@ -62,6 +65,7 @@ impl Cylinder {
         let length = from_axis.length();
         let c = (length - self.radius) * (length + self.radius);
         let (enter, leave) = roots(a, b, c, a * inside);
+        let (enter, leave) = (nearest + enter, nearest + leave);
         Some(Interval { enter: (enter, Part::Side), leave: (leave, Part::Side) })
     }
 

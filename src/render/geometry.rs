@@ -30,6 +30,10 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction;
 
+    /// Whether its points have texture coordinates.
+    #[must_use]
+    fn has_uv(&self) -> bool;
+
     /// Whether its shading normals are not the geometric ones.
     #[must_use]
     fn has_shading_normals(&self) -> bool;

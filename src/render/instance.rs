@@ -130,6 +130,11 @@ impl Instance {
         Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
     }
 
+    /// Whether the mesh has texture coordinates.
+    pub(super) fn has_uv(&self) -> bool {
+        !self.mesh.mesh.uvs.is_empty()
+    }
+
     /// How many triangles it has.
     pub(super) fn parts(&self) -> usize {
         self.mesh.triangles.len()
@@ -153,8 +158,9 @@ impl Instance {
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
         let normal = (!mesh.normals.is_empty()).then(|| {
-            let normals = corners.map(|k| mesh.normals[k]);
-            self.normal_to_world(normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2])
+            let [a, b, c] = corners.map(|k| mesh.normals[k]);
+            let is_even = a == b && a == c;
+            self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
         });
         let uvs = (!mesh.uvs.is_empty()).then(|| corners.map(|k| mesh.uvs[k]));
         let uv = uvs.map(|uvs| interpolate(uvs, weights));

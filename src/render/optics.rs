@@ -23,8 +23,8 @@ pub fn refract(d: Vec3, n: Vec3, eta_from: f64, eta_to: f64) -> Option<Vec3> {
     Some((along * eta_from - n * square.sqrt()).normalize())
 }
 
-/// Phong's highlight, `max(0, R·V)ⁿ`, with the cosine kept from exceeding 1 by rounding.
+/// Phong's highlight, `max(0, R·V)ⁿ`, with the cosine kept from exceeding 1 by rounding; never −0.
 #[must_use]
 pub fn highlight(r_dot_v: f64, n: f64) -> f64 {
-    pow(r_dot_v.clamp(0.0, 1.0), n)
+    pow(r_dot_v.clamp(0.0, 1.0) + 0.0, n)
 }

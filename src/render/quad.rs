@@ -6,10 +6,8 @@
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
 use super::triangle::{Shear, Triangle};
-use crate::math::{U, Vec3, cross};
-
-/// Corners this many units of rounding off the plane of the others count as in it.
-const FLAT: f64 = 64.0;
+use crate::math::{Vec3, cross};
+use crate::valid;
 
 /// A quadrilateral ready to be hit.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +28,7 @@ impl Quad {
     /// The quadrilateral of corners in order around it.
     #[must_use]
     pub fn new(vertices: [Vec3; 4]) -> Self {
-        if !is_flat(vertices) {
+        if !(valid::Quad { vertices }).is_flat() {
             return Self::Patch(Patch { vertices });
         }
         let normal = |t: [usize; 3]| cross(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
@@ -103,12 +101,6 @@ impl Quad {
     }
 }
 
-fn is_flat([a, b, c, d]: [Vec3; 4]) -> bool {
-    let normal = cross(b - a, c - a) + cross(c - a, d - a);
-    let size = [a, b, c, d].iter().map(|v| v.abs().element_sum()).fold(0.0, f64::max);
-    [b, c, d].iter().all(|v| (*v - a).dot(normal).abs() <= FLAT * U * size * normal.length())
-}
-
 /// A bilinear patch: `Q(u, v)` with corners Q(0,0), Q(1,0), Q(1,1), Q(0,1).
 #[derive(Clone, Copy, Debug)]
 pub struct Patch {
@@ -138,9 +130,11 @@ impl Patch {
             // Meet the ray with the line at u.
             let (from, line) = (q00.lerp(q10, u), left.lerp(right, u));
             let normal = cross(d, line);
-            let size = normal.dot(normal);
-            let across = cross(normal, from);
-            let (t, v) = (across.dot(line) / size, across.dot(d) / size);
+            let v = cross(normal, from).dot(d) / normal.dot(normal);
+            // Meet it with the tangent plane there: t then errs by no more than rounding of a point, even where the ray
+            // runs along the line.
+            let tangent_plane = cross((q10 - q00).lerp(q11 - q01, v), line);
+            let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
         };
         candidates.into_iter().filter_map(along).min_by(|first, second| first.0.total_cmp(&second.0))

@@ -105,6 +105,15 @@ impl Geometry for Shape {
         }
     }
 
+    fn has_uv(&self) -> bool {
+        match self {
+            Self::Sphere(..) | Self::Quad(_) => true,
+            Self::Triangle(_, uvs) => uvs.is_some(),
+            Self::Instance(instance) => instance.has_uv(),
+            Self::Plane(_) | Self::Disc(_) | Self::Cylinder(_) | Self::Cone(_) | Self::Torus(_) => false,
+        }
+    }
+
     fn has_shading_normals(&self) -> bool {
         match self {
             Self::Instance(instance) => instance.has_shading_normals(),

@@ -8,7 +8,10 @@ use super::ray::{Interaction, Ray};
 use crate::math::{Double, U, Vec3};
 
 /// A root is computed again when rounding may have been amplified by more than this.
-const AMPLIFIED: f64 = 64.0;
+const AMPLIFIED: f64 = 48.0;
+
+/// From a squared distance this many times the squared radius the first root is measured from the foot.
+const FAR: f64 = 4.0;
 
 /// A sphere ready to be hit.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +40,8 @@ impl Sphere {
         }
 
         // Compute the discriminant from the foot of the perpendicular.
-        let foot = f + d * (b / a);
+        let nearest = b / a;
+        let foot = f + d * nearest;
         let foot2 = foot.dot(foot);
         let discriminant = r2 - foot2;
         let reach = f.abs().element_sum();
@@ -49,14 +53,19 @@ impl Sphere {
             return self.intersect_precisely(ray);
         }
 
-        // Compute the roots without cancellation and pick the first in front.
+        // Compute the roots without cancellation, from afar as a step back from the foot, and pick the first in front.
         let c = f2 - r2;
         let a_discriminant = a * discriminant;
         let root = a_discriminant.sqrt();
         let q = if b >= 0.0 { b + root } else { b - root };
         let (quotient, other) = (c / q, q / a);
         let (near, far) = if b >= 0.0 { (quotient, other) } else { (other, quotient) };
-        let t = if near > 0.0 { near } else { far };
+        let from_afar = f2 > FAR * r2;
+        let t = match (from_afar, near > 0.0) {
+            (true, _) => nearest - (foot.dot(d) + root) / a,
+            (false, true) => near,
+            (false, false) => far,
+        };
         if t.is_nan() || t <= 0.0 {
             return None;
         }

@@ -22,9 +22,14 @@ fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
         Vec3::new(r, g, b)
     };
     let (right, below) = ((column + 1).min(image.width as usize - 1), (row + 1).min(image.height as usize - 1));
-    let top = texel(column, row).lerp(texel(right, row), x);
-    let bottom = texel(column, below).lerp(texel(right, below), x);
-    top.lerp(bottom, y) / 255.0
+    let top = between(texel(column, row), texel(right, row), x);
+    let bottom = between(texel(column, below), texel(right, below), x);
+    between(top, bottom, y) / 255.0
+}
+
+/// a + (b − a)·s: exactly `a` where both are equal.
+fn between(a: Vec3, b: Vec3, s: f64) -> Vec3 {
+    a + (b - a) * s
 }
 
 /// The coordinate within [0, 1]; 1 stays 1, what is further repeats.
@@ -79,6 +84,16 @@ impl Frame {
 mod tests {
     use super::*;
     use crate::valid::Texels;
+
+    #[test]
+    fn an_image_of_one_value_is_that_value_everywhere() {
+        let image = Image { width: 3, height: 3, pixels: Texels::Rgb8(vec![[1, 77, 254]; 9]) };
+        let value = Vec3::new(1.0, 77.0, 254.0) / 255.0;
+        for k in 0..100 {
+            let uv = [f64::from(k) * 0.037, f64::from(k) * 0.0713];
+            assert_eq!(bilinear(&image, uv), value);
+        }
+    }
 
     #[test]
     fn the_corners_of_the_unit_square_are_the_middles_of_the_corner_texels() {

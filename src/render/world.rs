@@ -2,12 +2,14 @@
 
 use super::bvh::Bvh;
 use super::geometry::Geometry;
+use super::material::Materials;
 use super::ray::Ray;
 use super::shape::Shape;
 use super::triangle::Shear;
+use super::verify::Verify;
 use crate::math::Vec3;
 use crate::plan::Plan;
-use crate::valid::{self, ValidScene};
+use crate::valid::{self, Phong, ValidScene};
 use std::sync::Arc;
 
 /// The first hit of a ray.
@@ -26,7 +28,7 @@ pub struct Hit {
 pub struct Surface<S = Shape> {
     /// Its shape.
     pub shape: S,
-    /// The index of its material.
+    /// The index of its material in [`World::materials`].
     pub material: usize,
     /// Its index in the scene.
     pub index: usize,
@@ -38,8 +40,12 @@ pub struct World<S = Shape> {
     pub scene: ValidScene,
     /// What the picture needs of it.
     pub plan: Plan,
+    /// The materials, without maps that show one value.
+    pub materials: Vec<Phong>,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
+    /// The plan to be validated by a naive render.
+    pub(super) verify: Option<Verify>,
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
@@ -50,9 +56,10 @@ impl<S: Geometry> World<S> {
     #[must_use]
     pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
         let meshes = scene.meshes().iter().map(|mesh| Arc::new(S::prepare_mesh(mesh))).collect::<Vec<_>>();
+        let mut materials = Materials::new(scene, plan);
         let surface = |(index, surface): (usize, &valid::Surface)| {
             let shape = S::prepare(&surface.shape, &meshes)?;
-            Some(Surface { shape, material: surface.material, index })
+            Some(Surface { material: materials.of(surface.material, shape.has_uv()), shape, index })
         };
         let planned = scene.surfaces().iter().enumerate().filter(|(index, _)| plan.surfaces[*index]);
         let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
@@ -67,12 +74,17 @@ impl<S: Geometry> World<S> {
             }
         }
         let bvh = Bvh::build(&boxes);
-        Self { scene: scene.clone(), plan: plan.clone(), surfaces, unbounded, bounded, bvh }
+        let materials = materials.all;
+        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, verify: None, unbounded, bounded, bvh }
     }
 
-    /// The nearest hit with t > 0; of several at the same t, that of the first surface.
+    /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        // A NaN passes every slab test, so such a ray would visit all there is.
+        if !(ray.origin.is_finite() && ray.direction.is_finite()) {
+            return None;
+        }
         let (ray, unit) = ray.tamed();
         let shear = Shear::new(&ray);
         let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };

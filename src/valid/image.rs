@@ -47,6 +47,16 @@ impl Texels {
         }
     }
 
+    /// Whether all texels are equal.
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        match self {
+            Self::Rgb8(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
+            Self::Rgba8(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
+            Self::Rgb32f(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
+        }
+    }
+
     fn new(kind: ir::Pixels, bytes: &[u8]) -> Self {
         match kind {
             ir::Pixels::Rgb8 => Self::Rgb8(bytes.as_chunks().0.to_vec()),

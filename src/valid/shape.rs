@@ -4,7 +4,7 @@ use super::check::{Check, Counts, SMALLEST, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
-use crate::math::{Positive, Vec3, cross, unit_scale};
+use crate::math::{Positive, U, Vec3, cross, unit_scale};
 
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
@@ -74,6 +74,18 @@ pub struct Triangle {
 pub struct Quad {
     /// The corners in order around it.
     pub vertices: [Vec3; 4],
+}
+
+impl Quad {
+    /// Whether all corners lie in one plane, to within 64 units of rounding.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        const FLAT: f64 = 64.0;
+        let [a, b, c, d] = self.vertices;
+        let normal = cross(b - a, c - a) + cross(c - a, d - a);
+        let size = self.vertices.iter().map(|v| v.abs().element_sum()).fold(0.0, f64::max);
+        [b, c, d].iter().all(|v| (*v - a).dot(normal).abs() <= FLAT * U * size * normal.length())
+    }
 }
 
 /// A disc.

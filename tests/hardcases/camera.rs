@@ -1,6 +1,6 @@
 //! Camera bases, orthonormal bases, and points of the lens.
 
-use crate::truth::{Report, cases, error, id, number, vector, vector_error};
+use super::truth::{Report, cases, error, id, number, vector, vector_error};
 use rtc::math::{Basis, U, Vec3, view_basis};
 use rtc::render::vogel;
 

@@ -1,7 +1,7 @@
 //! Rays against single shapes, chains of rays, and segments to lights.
 
-use crate::scenes::{shape, world};
-use crate::truth::{Report, cases, error, id, number, relative_error, vector, vector_error};
+use super::scenes::{shape, world};
+use super::truth::{Report, cases, error, id, number, relative_error, vector, vector_error};
 use rtc::math::{U, Vec3};
 use rtc::render::{Geometry, Ray, World};
 use serde_json::Value;

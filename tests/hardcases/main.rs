@@ -1,7 +1,8 @@
-//! Hard numeric cases against high-precision truth.
+//! Hard numeric cases against high-precision truth, and counts over many rays.
 //!
-//! The files are those of `../shared/numerics`, or of the variables `RTC_HARDCASES` and `RTC_HARDCASES_FAMILIES`; the
-//! tests that need a file skip with a note where it is absent. A line is printed for each case (`--nocapture`).
+//! The truth is made here in double-double ([`hardcases::exact`]); the files of `../shared/numerics`, or of the variables
+//! `RTC_HARDCASES` and `RTC_HARDCASES_FAMILIES`, are run where they are present. A line is printed for each case
+//! (`cargo test --release hardcases -- --nocapture`). `RTC_RAYS` is the number of rays of a count.
 
 #![expect(
     clippy::print_stdout,
@@ -10,11 +11,24 @@
     reason = "a test stops at the first surprise and reads files"
 )]
 
-mod camera;
-mod families;
-mod intersect;
-mod meshes;
-mod optics;
-mod policies;
-mod scenes;
-mod truth;
+/// One module, so that the name of every test begins with `hardcases`.
+#[path = "."]
+mod hardcases {
+    mod camera;
+    mod exact;
+    mod families;
+    mod family;
+    mod gaps;
+    mod intersect;
+    mod leaks;
+    mod limits;
+    mod mesh;
+    mod meshes;
+    mod optics;
+    mod policies;
+    mod random;
+    mod scenes;
+    mod self_hits;
+    mod solids;
+    mod truth;
+}

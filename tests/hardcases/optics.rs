@@ -1,7 +1,7 @@
 //! Refraction, the highlight's power, and long paths in a mirror box.
 
-use crate::scenes::{plane, world};
-use crate::truth::{Report, cases, id, number, relative_error, vector, vector_error};
+use super::scenes::{plane, world};
+use super::truth::{Report, cases, id, number, relative_error, vector, vector_error};
 use rtc::math::U;
 use rtc::render::{Geometry, Ray, highlight, reflect, refract};
 

@@ -1,7 +1,8 @@
 //! Cases that are decisions: which code a fault gets, and what must never happen.
 
-use crate::meshes::Random;
-use crate::scenes::{check, plane, proven, scene, sphere, triangle, white, world};
+use super::random::Random;
+use super::scenes::{check, plane, proven, scene, sphere, triangle, white, world};
+use super::truth::{Report, all, id};
 use rtc::diag::codes;
 use rtc::ir::{self, Light, Material, MaterialId, Phong, PointLight};
 use rtc::math::{BasisFault, Vec3, camera_basis, fallback_up};
@@ -16,6 +17,32 @@ fn film(scene: &ir::Scene) -> Film {
 
 fn light(position: [f64; 3], color: [f64; 3]) -> Light {
     Light::Point(PointLight { position, color, radius: 0.0 })
+}
+
+/// Every case of the files is of a kind that a test runs; decisions have a test each, below.
+#[test]
+fn every_case_is_of_a_known_kind() {
+    const KINDS: [&str; 11] = [
+        "aperture",
+        "camera_basis",
+        "chain",
+        "intersect",
+        "mesh_any",
+        "mesh_leak",
+        "mirror_box",
+        "occluded",
+        "onb",
+        "phong_pow",
+        "refract",
+    ];
+    let mut report = Report::default();
+    for case in all().iter().filter(|case| !case["rows"].is_array()) {
+        let kind = case["kind"].as_str().unwrap();
+        if !KINDS.contains(&kind) {
+            report.line(id(case), kind == "policy", &format!("{kind}: {}", case["title"]));
+        }
+    }
+    report.finish();
 }
 
 /// cam-02, cam-05, cam-06.

@@ -1,6 +1,6 @@
 //! Worlds out of shapes, by the same way every scene takes: IR, proof, world.
 
-use crate::truth::{number, vector};
+use super::truth::{number, vector};
 use rtc::diag::Sink;
 use rtc::ir;
 use rtc::plan::{Plan, Rules};
@@ -71,7 +71,11 @@ pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> 
 }
 
 pub(crate) fn world(shapes: impl IntoIterator<Item = ir::Shape>) -> World {
-    let scene = proven(&scene(shapes));
+    prepare(&scene(shapes))
+}
+
+pub(crate) fn prepare(scene: &ir::Scene) -> World {
+    let scene = proven(scene);
     World::prepare(&scene, &Plan::new(&scene, Rules::NONE))
 }
 

@@ -3,22 +3,33 @@
 use rtc::math::{U, Vec3};
 use serde_json::Value;
 
-/// The cases of a file, or `None` with a note if it is absent.
-pub(crate) fn load(variable: &str, name: &str) -> Option<Vec<Value>> {
-    let shared = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/numerics/");
-    let path = std::env::var(variable).unwrap_or_else(|_| format!("{shared}{name}"));
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        println!("skipped: {path} is not here (set {variable} to name another file)");
-        return None;
-    };
-    let file: Value = serde_json::from_str(&text).unwrap();
-    Some(file["cases"].as_array().unwrap().clone())
+/// The cases of the files present: of those the variables name, which must exist, or else of `../shared`.
+pub(crate) fn all() -> Vec<Value> {
+    let named = ["RTC_HARDCASES", "RTC_HARDCASES_FAMILIES"].map(|name| std::env::var(name).ok());
+    let mut paths: Vec<_> = named.into_iter().flatten().collect();
+    if paths.is_empty() {
+        let shared = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/numerics/");
+        paths = ["hardcases.json", "hardcases-families.json"].map(|name| format!("{shared}{name}")).to_vec();
+        paths.retain(|path| {
+            std::path::Path::new(path).exists() || {
+                println!("skipped: {path} is not here (set RTC_HARDCASES to name another file)");
+                false
+            }
+        });
+    }
+    paths.iter().flat_map(|path| read(path)).collect()
 }
 
-/// The cases of one kind from the file of single cases.
+fn read(path: &str) -> Vec<Value> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let file: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(file["schema"], "rtc-hardcases/1", "{path}");
+    file["cases"].as_array().unwrap().clone()
+}
+
+/// The single cases of one kind.
 pub(crate) fn cases(kind: &str) -> Vec<Value> {
-    let all = load("RTC_HARDCASES", "hardcases.json").unwrap_or_default();
-    all.into_iter().filter(|case| case["kind"] == kind).collect()
+    all().into_iter().filter(|case| case["kind"] == kind).collect()
 }
 
 pub(crate) fn number(value: &Value) -> f64 {

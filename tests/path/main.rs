@@ -13,7 +13,7 @@ use rtc::ir::{
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Basic, Film, Job, Seeds, Strategy, Values, World};
+use rtc::render::{Basic, Film, Job, Seeds, Strategy, Stride, Values, World};
 use rtc::valid::{self, ValidScene};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at the origin.
@@ -96,7 +96,7 @@ fn prove(scene: &Scene) -> ValidScene {
     proof.unwrap_or_else(|| panic!("{sink:?}"))
 }
 
-const JOB: Job = Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE };
+const JOB: Job = Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE, stride: Stride::EVERY };
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = prove(scene);

@@ -143,6 +143,10 @@ impl<R: Real> Geometry for PlainShape<R> {
         Interaction { point: point.wide(), normal, offset: 0.0, back: Vec3::ZERO }
     }
 
+    fn has_uv(&self) -> bool {
+        self.twin.has_uv()
+    }
+
     fn has_shading_normals(&self) -> bool {
         self.twin.has_shading_normals()
     }

@@ -1,0 +1,156 @@
+//! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is a convex solid.
+
+use super::space::{Flat, ROOM, Sides, Space};
+use crate::math::{Vec3, cross, unit_scale};
+use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Quad, Shape, Sphere, Torus, ValidScene};
+use std::sync::Arc;
+
+/// Where a surface is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Extent {
+    /// Inside a box.
+    Within(Space),
+    /// In an unbounded plane.
+    Plane(Flat),
+    /// Wherever its arithmetic may report a hit.
+    Anywhere,
+}
+
+/// The form and place of a surface, as far as the rules use it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Body {
+    pub(super) extent: Extent,
+    pub(super) form: Form,
+}
+
+/// A form with a property that rules rest on.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// A bounded piece of a plane.
+    Flat(Flat),
+    /// A ball.
+    Ball(Vec3, f64),
+    /// A convex solid.
+    Convex,
+    /// Any other.
+    Other,
+}
+
+impl Body {
+    pub(super) fn of(shape: &Shape, meshes: &[Space]) -> Self {
+        match shape {
+            Shape::Sphere(Sphere { center, radius, .. }) => {
+                let radius = radius.get();
+                Self::within(Space::around(*center, Vec3::splat(radius)), Form::Ball(*center, radius))
+            }
+            Shape::Plane(plane) => {
+                let flat = unit(plane.normal).map(|normal| Flat { point: plane.center, normal });
+                Self { extent: flat.map_or(Extent::Anywhere, Extent::Plane), form: Form::Other }
+            }
+            Shape::Triangle(triangle) => Self::within(Space::of(triangle.vertices), face(triangle.vertices)),
+            Shape::Quad(quad) => Self::of_quad(quad),
+            Shape::Disc(Disc { center, normal, radius }) => {
+                let form = unit(*normal).map_or(Form::Other, |normal| Form::Flat(Flat { point: *center, normal }));
+                Self::within(ring(*center, *normal, radius.get(), 0.0), form)
+            }
+            Shape::Cylinder(Cylinder { base, axis, height, radius }) => {
+                let top = *base + unit(*axis).unwrap_or(Vec3::ZERO) * height.get();
+                let rim = |center| ring(center, *axis, radius.get(), 0.0);
+                Self::within(rim(*base).union(rim(top)), Form::Convex)
+            }
+            Shape::Cone(Cone { base, up, radius }) => {
+                Self::within(ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])), Form::Convex)
+            }
+            Shape::Torus(Torus { center, axis, major, minor }) => {
+                Self::within(ring(*center, *axis, major.get(), minor.get()), Form::Other)
+            }
+            Shape::Instance(instance) => Self::within(placed(instance, &meshes[instance.mesh]), Form::Other),
+        }
+    }
+
+    fn within(space: Space, form: Form) -> Self {
+        Self { extent: Extent::Within(space), form }
+    }
+
+    /// A patch is met by formulas whose error nobody has bounded, so that it may be anywhere.
+    fn of_quad(quad: &Quad) -> Self {
+        let [a, b, c, d] = quad.vertices;
+        if !quad.is_flat() {
+            return Self { extent: Extent::Anywhere, form: Form::Other };
+        }
+        let form = match face([a, b, c]) {
+            Form::Flat(flat) => Form::Flat(flat),
+            Form::Ball(..) | Form::Convex | Form::Other => face([a, c, d]),
+        };
+        Self::within(Space::of(quad.vertices), form)
+    }
+
+    /// The box around it, if it has one.
+    pub(super) fn space(&self) -> Option<&Space> {
+        match &self.extent {
+            Extent::Within(space) => Some(space),
+            Extent::Plane(_) | Extent::Anywhere => None,
+        }
+    }
+
+    /// From which sides things in a box, or anywhere, look at it.
+    pub(super) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
+        let Some(from) = from else { return Sides::BOTH };
+        match self.form {
+            Form::Flat(flat) => flat.sides(from),
+            Form::Ball(..) | Form::Convex if self.is_clear_of(from) => Sides::FRONT,
+            Form::Ball(..) | Form::Convex | Form::Other => Sides::BOTH,
+        }
+    }
+
+    /// Whether a convex solid surely does not reach into a box.
+    pub(super) fn is_clear_of(&self, other: &Space) -> bool {
+        let Some(space) = self.space() else { return false };
+        match self.form {
+            Form::Ball(center, radius) => other.distance(center) > radius + 4.0 * ROOM * (space.size() + other.size()),
+            Form::Flat(_) | Form::Convex | Form::Other => space.is_apart_from(other),
+        }
+    }
+}
+
+/// The bodies of all surfaces.
+pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
+    let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().copied());
+    let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
+    scene.surfaces().iter().map(|surface| Body::of(&surface.shape, &meshes)).collect()
+}
+
+fn unit(v: Vec3) -> Option<Vec3> {
+    unit_scale(v).map(|(scaled, _)| scaled.normalize())
+}
+
+/// The plane of a triangle, unless its corners are so nearly in line that rounding moves its normal.
+fn face([a, b, c]: [Vec3; 3]) -> Form {
+    /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
+    const SLIVER: f64 = 1.0 / 65536.0;
+    let normal = || {
+        let (first, second) = (unit(b - a)?, unit(c - a)?);
+        let normal = cross(first, second);
+        (normal.length() > SLIVER).then(|| normal.normalize())
+    };
+    normal().map_or(Form::Other, |normal| Form::Flat(Flat { point: a, normal }))
+}
+
+/// The box of a circle around an axis, with a tube around it.
+fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
+    let axis = unit(axis).unwrap_or(Vec3::ZERO);
+    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + ROOM * (radius + tube);
+    Space::around(center, Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)))
+}
+
+/// The box of a mesh in the world. Rays go to its own space and back: the flatter the map, the more they round.
+fn placed(instance: &Instance, mesh: &Space) -> Space {
+    let [x, y, z, origin] = instance.world_from_object;
+    let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
+    let axes = [x, y, z].map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
+    let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
+    let space = Space::of(mesh.corners().map(to_world));
+    let terms = x.abs() + y.abs() + z.abs();
+    let size = terms.max_element() * mesh.size() + origin.abs().max_element();
+    space.grown(ROOM * size / volume)
+}

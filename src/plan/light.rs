@@ -1,0 +1,214 @@
+//! What each light adds, and what may stand between it and each surface.
+
+use super::body::{Body, Extent, Form};
+use super::reach::Reach;
+use super::rule::Rule;
+use super::space::{Flat, ROOM, Sides, Space};
+use super::{Facts, LightPlan, MAX_PAIRS};
+use crate::math::Vec3;
+use crate::valid::{Light, Mode};
+
+/// What is left of the lights.
+pub(super) struct Lights {
+    /// Per light.
+    pub(super) plans: Vec<LightPlan>,
+    /// Per light, the rule that left out its direct terms.
+    pub(super) rules: Vec<Option<Rule>>,
+    /// Per surface, whether it may stand between a light and a surface.
+    pub(super) casts: Vec<bool>,
+    /// A light and the surface that may stand between it and another.
+    pub(super) shadow: Option<Shadow>,
+    /// Whether all shadow rays that were left out start on surfaces that stand alone.
+    pub(super) alone: bool,
+    /// Whether there were too many lights and surfaces to ask which hides which.
+    pub(super) capped: bool,
+}
+
+/// A shadow that may fall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shadow {
+    pub(super) light: usize,
+    pub(super) caster: usize,
+    pub(super) receiver: usize,
+}
+
+impl Lights {
+    pub(super) fn new(facts: &Facts<'_>, reach: &Reach) -> Self {
+        let lights = facts.scene.lights();
+        let (plans, rules) = lights.iter().map(|light| facts.light(light, reach)).unzip();
+        let casts = vec![false; facts.bodies.len()];
+        let mut all = Self { plans, rules, casts, shadow: None, alone: true, capped: false };
+        if facts.scene.settings().shadows && matches!(facts.scene.settings().mode, Mode::Phong) {
+            all.find_shadows(facts, reach);
+        }
+        all
+    }
+
+    /// Asks for each light and each surface it may reach what may stand between.
+    fn find_shadows(&mut self, facts: &Facts<'_>, reach: &Reach) {
+        let count = facts.bodies.len();
+        let receives = |surface: &usize| reach.reached[*surface] && facts.looks[*surface].is_lit();
+        let receivers = (0..count).filter(receives).collect::<Vec<_>>();
+        let lights = (0..self.plans.len()).filter(|light| self.plans[*light].direct).collect::<Vec<_>>();
+        let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else { return };
+        if receivers.len().saturating_mul(lights.len()).saturating_mul(count) > MAX_PAIRS {
+            self.capped = true;
+            self.casts = vec![true; count];
+            self.shadow = Some(Shadow { light: *light, caster: count - 1, receiver: *receiver });
+            return;
+        }
+        self.alone = count == 1;
+        for light in lights {
+            let source = &facts.scene.lights()[light];
+            let is_dark = |surface: usize| facts.is_dark(surface, reach.sides[surface], source);
+            for receiver in &receivers {
+                let is_behind = facts.rules.contains(Rule::LightBehind) && is_dark(*receiver);
+                let pair = Pair { light, source: extent(source), receiver: *receiver };
+                self.plans[light].shadowed[*receiver] = !is_behind && self.find_casters(facts, reach, &pair);
+            }
+        }
+    }
+
+    /// Whether anything may stand between a light and a surface; remembers what.
+    fn find_casters(&mut self, facts: &Facts<'_>, reach: &Reach, pair: &Pair) -> bool {
+        let Pair { light, source, receiver } = *pair;
+        let mut falls = false;
+        for caster in 0..facts.bodies.len() {
+            let may_cast = if caster == receiver {
+                !facts.spares_itself(receiver, reach.sides[receiver], &source)
+            } else {
+                !facts.rules.contains(Rule::ShadowPair)
+                    || facts.bodies[receiver].may_be_hidden_by(&facts.bodies[caster], &source)
+            };
+            if may_cast {
+                self.casts[caster] = true;
+                falls = true;
+                self.shadow.get_or_insert(Shadow { light, caster, receiver });
+            }
+        }
+        falls
+    }
+}
+
+/// A light and a surface it may reach.
+struct Pair {
+    light: usize,
+    source: Space,
+    receiver: usize,
+}
+
+/// The box of all points of a light.
+fn extent(light: &Light) -> Space {
+    Space::around(light.position, Vec3::splat(light.radius.get()))
+}
+
+impl Facts<'_> {
+    /// What is left of a light, and why no more.
+    fn light(&self, light: &Light, reach: &Reach) -> (LightPlan, Option<Rule>) {
+        let surfaces = || (0..self.bodies.len()).filter(|surface| reach.reached[*surface]);
+        let shadowed = vec![true; self.bodies.len()];
+        let rule = match self.scene.settings().mode {
+            Mode::Gooch(_) | Mode::Path(_) => None,
+            Mode::Normal | Mode::Zbuffer => self.allowed(Rule::Mode),
+            Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => Some(Rule::LightBlack),
+            Mode::Phong if surfaces().all(|surface| !self.looks[surface].is_lit()) => {
+                self.allowed(Rule::LightUnreached)
+            }
+            Mode::Phong if surfaces().all(|surface| self.is_dark(surface, reach.sides[surface], light)) => {
+                self.allowed(Rule::LightBehind)
+            }
+            Mode::Phong => None,
+        };
+        let ambient = surfaces().any(|surface| self.looks[surface].ambient);
+        let kept = match rule {
+            None => true,
+            Some(Rule::LightBlack | Rule::Mode) => false,
+            Some(_) => ambient || !self.rules.contains(Rule::LightUnreached),
+        };
+        (LightPlan { kept, direct: rule.is_none(), shadowed }, rule)
+    }
+
+    /// Whether a light adds no direct term to a surface: none shows, or the light is behind it.
+    ///
+    /// The light and all that looks at the surface are off its plane by [`super::space::ROOM`] of all coordinates, so
+    /// N·L < −2⁻³³, far beyond its rounding.
+    pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &Light) -> bool {
+        let (body, look) = (&self.bodies[surface], &self.looks[surface]);
+        let gated = self.scene.settings().shadows || !look.shines;
+        let behind = || match body.form {
+            Form::Flat(flat) if gated && !look.is_bent() && seen_from != Sides::BOTH => {
+                flat.sides(&extent(light)) == seen_from.opposite()
+            }
+            Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other => false,
+        };
+        !look.is_lit() || behind()
+    }
+
+    /// Whether a surface surely does not stand between itself and a light on which N·L > 0.
+    fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
+        let (body, look) = (&self.bodies[surface], &self.looks[surface]);
+        let spares = match body.form {
+            Form::Flat(flat) => flat.sides(light) != Sides::BOTH,
+            Form::Ball(..) | Form::Convex => seen_from == Sides::FRONT && !look.is_bent() && body.is_clear_of(light),
+            Form::Other => false,
+        };
+        spares && self.rules.contains(Rule::ShadowConvex)
+    }
+}
+
+impl Body {
+    /// Whether `caster` may stand between this surface and a light.
+    fn may_be_hidden_by(&self, caster: &Self, light: &Space) -> bool {
+        let Some(space) = self.space() else { return true };
+        match &caster.extent {
+            Extent::Within(other) => {
+                space.may_see_through(light, other)
+                    && Ball::of(self).may_see_through(&Ball::around(light), &Ball::of(caster))
+            }
+            Extent::Plane(flat) => !is_beside(flat, space, light),
+            Extent::Anywhere => true,
+        }
+    }
+}
+
+/// A ball, or nothing if what it stands for is none.
+#[derive(Clone, Copy)]
+struct Ball(Option<(Vec3, f64)>);
+
+impl Ball {
+    fn of(body: &Body) -> Self {
+        match body.form {
+            Form::Ball(center, radius) => Self(Some((center, radius))),
+            Form::Flat(_) | Form::Convex | Form::Other => Self(None),
+        }
+    }
+
+    /// The ball in a cube.
+    fn around(cube: &Space) -> Self {
+        Self(Some((cube.min * 0.5 + cube.max * 0.5, 0.5 * (cube.max.x - cube.min.x))))
+    }
+
+    /// Whether a segment from this ball to `end` may meet `other`.
+    ///
+    /// At the share τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c + τ·(l − c)`. It meets
+    /// the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))² ≤ 0`.
+    fn may_see_through(self, end: &Self, other: &Self) -> bool {
+        let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else { return true };
+        let size = (c.abs() + l.abs() + o.abs()).element_sum() + r + rho + big;
+        let (f, d) = (c - o, l - c);
+        let (sum, growth) = (big + r + 8.0 * ROOM * size, rho - r);
+        let square = d.dot(d) - growth * growth;
+        let linear = f.dot(d) - sum * growth;
+        let start = f.dot(f) - sum * sum;
+        let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
+        let slack = ROOM * size * size;
+        let least = if square > 0.0 { (-linear / square).clamp(0.0, 1.0) } else { 0.0 };
+        [0.0, least, 1.0].into_iter().any(|tau| value(tau) <= slack)
+    }
+}
+
+/// Whether two boxes lie on the same side of a plane.
+fn is_beside(flat: &Flat, first: &Space, second: &Space) -> bool {
+    let side = flat.sides(first);
+    side != Sides::BOTH && side == flat.sides(second)
+}

@@ -1,0 +1,114 @@
+//! What of its material a surface shows, maps and constants of textures considered.
+
+use crate::math::Vec3;
+use crate::valid::{Maps, Mesh, Phong, Shape, Surface, Texture, ValidScene};
+
+/// What a surface may show.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    /// ka·C is not 0 everywhere.
+    pub(super) ambient: bool,
+    /// kd·C is not 0 everywhere.
+    pub(super) diffuse: bool,
+    /// ks is not 0 everywhere.
+    pub(super) shines: bool,
+    /// The most that ks and kt together can be.
+    pub(super) weight: f64,
+    /// The most it adds of a light of colour 1.
+    pub(super) brightest: f64,
+    /// kt is above 0.
+    pub(super) refracts: bool,
+    /// Its mirrored rays are several.
+    pub(super) glossy: bool,
+    /// Its shading normals come from its mesh.
+    pub(super) smooth: bool,
+    /// A map bends its shading normals.
+    pub(super) mapped: bool,
+    /// The texture that gives its colour.
+    pub(super) color_map: Option<usize>,
+    /// The texture that scales its ks.
+    pub(super) specular_map: Option<usize>,
+}
+
+impl Look {
+    pub(super) fn of(surface: &Surface, scene: &ValidScene, constants: &[Option<Vec3>]) -> Self {
+        let material = &scene.materials()[surface.material];
+        let Phong { color, ka, kd, ks, kt, glossy_samples, .. } = material;
+        let maps = material.maps.as_deref().filter(|_| has_uv(&surface.shape, scene));
+        let (color_map, specular_map) = (maps.and_then(|maps| maps.color), maps.and_then(|maps| maps.specular));
+        let color = color_map.map_or(Some(*color), |map| constants[map]);
+        let scale = specular_map.map_or(Some(1.0), |map| constants[map].map(|value| value.x));
+        let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
+        let colored = color != Some(Vec3::ZERO);
+        let shines = ks.get() > 0.0 && scale != Some(0.0);
+        Self {
+            ambient: ka.get() > 0.0 && colored,
+            diffuse: kd.get() > 0.0 && colored,
+            shines,
+            weight: most_ks + kt.get(),
+            brightest: (ka.get() + kd.get()) * color.unwrap_or_else(|| largest(scene, color_map)).max_element()
+                + most_ks,
+            refracts: kt.get() > 0.0,
+            glossy: glossy_samples.get() > 1,
+            smooth: has_normals(&surface.shape, scene),
+            mapped: maps.is_some_and(|Maps { normal, bump, .. }| normal.is_some() || bump.is_some()),
+            color_map,
+            specular_map,
+        }
+    }
+
+    /// Whether a light adds more than its ambient term.
+    pub(super) fn is_lit(&self) -> bool {
+        self.diffuse || self.shines
+    }
+
+    /// Whether a mirrored or refracted ray counts.
+    pub(super) fn mirrors(&self) -> bool {
+        self.shines || self.refracts
+    }
+
+    /// Whether the shading normal may not be the geometric one.
+    pub(super) fn is_bent(&self) -> bool {
+        self.smooth || self.mapped
+    }
+}
+
+/// The most that each channel of a texture can be.
+fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
+    match texture.map(|texture| &scene.textures()[texture]) {
+        Some(Texture::Uv) => Vec3::INFINITY,
+        Some(Texture::Image(_) | Texture::Sampled(_)) | None => Vec3::ONE,
+    }
+}
+
+fn has_uv(shape: &Shape, scene: &ValidScene) -> bool {
+    match shape {
+        Shape::Sphere(_) | Shape::Quad(_) => true,
+        Shape::Triangle(triangle) => triangle.uvs.is_some(),
+        Shape::Instance(instance) => !scene.meshes()[instance.mesh].uvs.is_empty(),
+        Shape::Plane(_) | Shape::Disc(_) | Shape::Cylinder(_) | Shape::Cone(_) | Shape::Torus(_) => false,
+    }
+}
+
+fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
+    matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty())
+}
+
+/// The value of each texture whose texels are all equal.
+pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
+    let value = |texture: &Texture| match texture {
+        Texture::Uv | Texture::Sampled(_) => None,
+        Texture::Image(image) => {
+            let pixels = &scene.images()[*image].pixels;
+            let [r, g, b, _] = pixels.get(0);
+            pixels.is_even().then(|| Vec3::new(r, g, b) / 255.0)
+        }
+    };
+    scene.textures().iter().map(value).collect()
+}
+
+/// Whether all corners of each triangle of a mesh have the same normal.
+pub(super) fn is_even(mesh: &Mesh) -> bool {
+    let same = |[a, b, c]: &[usize; 3]| mesh.normals[*a] == mesh.normals[*b] && mesh.normals[*a] == mesh.normals[*c];
+    mesh.normals.is_empty() || mesh.triangles.iter().all(same)
+}

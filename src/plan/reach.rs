@@ -1,0 +1,147 @@
+//! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of mirrors.
+
+use super::body::{Body, Form};
+use super::rule::{Rule, Rules};
+use super::space::Sides;
+use super::window::{Shown, Window};
+use super::{Facts, MAX_PAIRS};
+
+/// What rays may meet.
+pub(super) struct Reach {
+    /// Per surface, whether a camera ray or a ray that bounced may meet it.
+    pub(super) reached: Vec<bool>,
+    /// Per surface, from which sides.
+    pub(super) sides: Vec<Sides>,
+    /// The bounces after the first hit that may add something.
+    pub(super) depth: u32,
+    /// Whether there were too many mirrors and surfaces to ask which sees which.
+    pub(super) capped: bool,
+}
+
+impl Reach {
+    /// What rays may meet, where each surface shows as given, with at most `depth` bounces.
+    pub(super) fn new(facts: &Facts<'_>, window: &Window, shown: &[Shown], depth: u32) -> Self {
+        let lens = window.lens();
+        let reached = shown.iter().map(|shown| *shown != Shown::Nowhere).collect::<Vec<_>>();
+        let seen = |(body, reached): (&Body, &bool)| {
+            if *reached { body.sides_seen_from(Some(&lens)) } else { Sides::default() }
+        };
+        let sides = facts.bodies.iter().zip(&reached).map(seen).collect();
+        let reach = Self { reached, sides, depth: 0, capped: false };
+        if depth == 0 { reach } else { reach.bounce(facts, depth) }
+    }
+
+    /// Adds what mirrors show.
+    ///
+    /// A least fixed point: a ray after k bounces meets what a surface reached by k − 1 shows from a side it is looked at
+    /// from, so by induction no ray leaves the set.
+    fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
+        let count = facts.bodies.len();
+        let mirrors = facts.looks.iter().filter(|look| look.mirrors()).count();
+        let is_reached = |mirror: usize| self.reached[mirror] && facts.looks[mirror].mirrors();
+        let mut open = (0..count).filter(|surface| is_reached(*surface)).collect::<Vec<_>>();
+        if open.is_empty() {
+            return self;
+        }
+        if mirrors.saturating_mul(count) > MAX_PAIRS {
+            return Self { reached: vec![true; count], sides: vec![Sides::BOTH; count], depth, capped: true };
+        }
+        let mut targets = vec![Vec::new(); count];
+        while let Some(mirror) = open.pop() {
+            targets[mirror] = facts.shown_by(mirror, self.sides[mirror]);
+            for target in &targets[mirror] {
+                let sides = facts.bodies[*target].sides_seen_from(facts.bodies[mirror].space());
+                let sides = self.sides[*target].with(sides);
+                let is_news = !self.reached[*target] || sides != self.sides[*target];
+                (self.reached[*target], self.sides[*target]) = (true, sides);
+                if is_news && facts.looks[*target].mirrors() && !open.contains(target) {
+                    open.push(*target);
+                }
+            }
+        }
+        self.depth = longest_chain(&targets).map_or(depth, |chain| chain.min(depth));
+        self
+    }
+}
+
+impl Facts<'_> {
+    /// The surfaces that rays off a mirror looked at from `sides` may meet.
+    fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
+        let (body, look) = (&self.bodies[mirror], &self.looks[mirror]);
+        let scatters = look.refracts || (look.glossy && look.is_bent());
+        let others = |may_show: &dyn Fn(&Body) -> bool| {
+            let others = (0..self.bodies.len()).filter(|surface| *surface != mirror);
+            others.filter(|surface| may_show(&self.bodies[*surface])).collect()
+        };
+        let one_side = if sides == Sides::BOTH { None } else { Some(sides) };
+        match (body.form, one_side) {
+            (Form::Flat(flat), Some(side)) if !scatters && self.rules.contains(Rule::MirrorUnreached) => {
+                others(&|body| body.space().is_none_or(|space| flat.sides(space) != side.opposite()))
+            }
+            (Form::Ball(..) | Form::Convex, Some(Sides::FRONT))
+                if !scatters && self.rules.contains(Rule::MirrorConvex) =>
+            {
+                others(&|_| true)
+            }
+            (Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other, _) => (0..self.bodies.len()).collect(),
+        }
+    }
+}
+
+/// The most bounces of a path through the graph of what mirrors show; `None` if it has a cycle.
+fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Chain {
+        Unknown,
+        Open,
+        Known(u32),
+    }
+    fn from(mirror: usize, targets: &[Vec<usize>], chains: &mut [Chain]) -> Option<u32> {
+        match chains[mirror] {
+            Chain::Known(chain) => return Some(chain),
+            Chain::Open => return None,
+            Chain::Unknown => chains[mirror] = Chain::Open,
+        }
+        let mut longest = 0;
+        for target in &targets[mirror] {
+            longest = longest.max(1 + from(*target, targets, chains)?);
+        }
+        chains[mirror] = Chain::Known(longest);
+        Some(longest)
+    }
+    let mut chains = vec![Chain::Unknown; targets.len()];
+    (0..targets.len()).try_fold(0, |longest, mirror| Some(longest.max(from(mirror, targets, &mut chains)?)))
+}
+
+/// The bounces after which what is left weighs less than half a level of 8 bits, if that is ever so.
+///
+/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, with k the largest weight of all that goes on from a point and
+/// L the most that a point shows directly.
+pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
+    if !rules.contains(Rule::Cut) {
+        return depth;
+    }
+    let weight = facts.looks.iter().map(|look| look.weight).fold(0.0, f64::max);
+    let light = facts.scene.lights().iter().map(|light| light.color.max_element()).sum::<f64>();
+    let brightest = facts.looks.iter().map(|look| look.brightest).fold(0.0, f64::max) * light;
+    let mut rest = brightest * weight / (1.0 - weight);
+    let mut bounces = 0;
+    while bounces < depth && !(weight < 1.0 && rest < 0.5 / 255.0) {
+        rest *= weight;
+        bounces += 1;
+    }
+    bounces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_chain_of_mirrors_is_found_and_a_cycle_has_none() {
+        assert_eq!(longest_chain(&[vec![], vec![]]), Some(0));
+        assert_eq!(longest_chain(&[vec![1, 2], vec![2], vec![3], vec![]]), Some(3));
+        assert_eq!(longest_chain(&[vec![1], vec![0]]), None);
+        assert_eq!(longest_chain(&[vec![0]]), None);
+    }
+}

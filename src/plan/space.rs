@@ -1,0 +1,170 @@
+//! Boxes, and the room that rounding takes: whatever the rules say about where things are holds with a margin.
+//!
+//! Rays meet shapes to within some 10² units of rounding of the coordinates involved. The rules keep [`ROOM`], 2²¹ units,
+//! so that what they find apart is apart for the arithmetic of rays as well.
+
+use crate::math::Vec3;
+
+/// The margin, as a share of the coordinates it is for: 2⁻³².
+pub(super) const ROOM: f64 = 1.0 / 4_294_967_296.0;
+
+/// An axis-aligned box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Space {
+    pub(super) min: Vec3,
+    pub(super) max: Vec3,
+}
+
+impl Space {
+    /// The box that reaches so far from a point along each axis.
+    pub(super) fn around(center: Vec3, reach: Vec3) -> Self {
+        Self { min: center - reach, max: center + reach }
+    }
+
+    /// The box of some points; of none, one that nothing meets.
+    pub(super) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
+        let nothing = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+        points.into_iter().fold(nothing, |space, point| space.union(Self { min: point, max: point }))
+    }
+
+    pub(super) fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The size of the largest coordinate.
+    pub(super) fn size(&self) -> f64 {
+        self.min.abs().max(self.max.abs()).max_element()
+    }
+
+    /// The box with a margin on all sides.
+    pub(super) fn grown(self, by: f64) -> Self {
+        Self { min: self.min - Vec3::splat(by), max: self.max + Vec3::splat(by) }
+    }
+
+    pub(super) fn corners(&self) -> [Vec3; 8] {
+        let pick = |bit: usize, axis: usize| if bit == 0 { self.min[axis] } else { self.max[axis] };
+        std::array::from_fn(|k| Vec3::new(pick(k & 1, 0), pick(k >> 1 & 1, 1), pick(k >> 2, 2)))
+    }
+
+    /// Whether the two surely have no point in common.
+    pub(super) fn is_apart_from(&self, other: &Self) -> bool {
+        let room = ROOM * (self.size() + other.size());
+        (self.min - other.max).max(other.min - self.max).max_element() > room
+    }
+
+    /// The distance from a point to the nearest of the box.
+    pub(super) fn distance(&self, point: Vec3) -> f64 {
+        (self.min - point).max(point - self.max).max(Vec3::ZERO).length()
+    }
+
+    /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
+    ///
+    /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of `other` bounds τ by a
+    /// linear inequality; where no τ satisfies all, nothing meets.
+    pub(super) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
+        /// Far above the rounding of the bounds on τ, which are at most 1.
+        const SLACK: f64 = ROOM;
+        let near = ROOM * (self.size() + other.size());
+        let (start, end) = (self.grown(near), end.grown(ROOM * (end.size() + self.size())));
+        let other = other.grown(near);
+        let (mut low, mut high) = (0.0_f64, 1.0_f64);
+        let mut limit = |at_start: f64, at_end: f64| {
+            // at_start + τ·(at_end − at_start) ≤ 0
+            let root = at_start / (at_start - at_end);
+            match (at_start > 0.0, at_end > 0.0) {
+                (true, true) => high = -1.0,
+                (true, false) => low = low.max(root),
+                (false, true) => high = high.min(root),
+                (false, false) => {}
+            }
+        };
+        for axis in 0..3 {
+            limit(start.min[axis] - other.max[axis], end.min[axis] - other.max[axis]);
+            limit(other.min[axis] - start.max[axis], other.min[axis] - end.max[axis]);
+        }
+        low <= high + SLACK
+    }
+}
+
+/// A plane, by a point of it and its unit normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Flat {
+    pub(super) point: Vec3,
+    pub(super) normal: Vec3,
+}
+
+/// The sides of a surface from which something looks at it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sides {
+    /// From where the normal points to: outside, for a closed shape.
+    pub(super) front: bool,
+    /// From the other side.
+    pub(super) back: bool,
+}
+
+impl Sides {
+    pub(super) const BOTH: Self = Self { front: true, back: true };
+    pub(super) const FRONT: Self = Self { front: true, back: false };
+    pub(super) const BACK: Self = Self { front: false, back: true };
+
+    pub(super) fn opposite(self) -> Self {
+        Self { front: self.back, back: self.front }
+    }
+
+    pub(super) fn with(self, other: Self) -> Self {
+        Self { front: self.front || other.front, back: self.back || other.back }
+    }
+}
+
+impl Flat {
+    /// On which sides of the plane a box lies; both if that is in doubt.
+    pub(super) fn sides(&self, space: &Space) -> Sides {
+        let room = 4.0 * ROOM * (space.size() + self.point.abs().max_element());
+        let heights = space.corners().map(|corner| (corner - self.point).dot(self.normal));
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if low > room {
+            Sides::FRONT
+        } else if high < -room {
+            Sides::BACK
+        } else {
+            Sides::BOTH
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(x: f64, y: f64, z: f64) -> Space {
+        Space::around(Vec3::new(x, y, z), Vec3::splat(0.5))
+    }
+
+    #[test]
+    fn boxes_that_touch_are_not_apart() {
+        assert!(unit(0.0, 0.0, 0.0).is_apart_from(&unit(1.1, 0.0, 0.0)));
+        assert!(!unit(0.0, 0.0, 0.0).is_apart_from(&unit(1.0, 0.0, 0.0)));
+        assert!(!unit(0.0, 0.0, 0.0).is_apart_from(&unit(0.0, 1.0 + 1e-12, 0.0)));
+    }
+
+    #[test]
+    fn what_stands_on_the_way_is_seen_and_what_stands_beside_is_not() {
+        let (from, light) = (unit(0.0, 0.0, 0.0), Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO));
+        assert!(from.may_see_through(&light, &unit(5.0, 0.0, 0.0)));
+        assert!(!from.may_see_through(&light, &unit(11.0, 0.0, 0.0)), "behind the light");
+        assert!(!from.may_see_through(&light, &unit(-1.5, 0.0, 0.0)), "behind the surface");
+        assert!(from.may_see_through(&light, &unit(2.0, 0.8, 0.0)), "the way is still broad here");
+        assert!(!from.may_see_through(&light, &unit(8.0, 0.8, 0.0)), "the way has narrowed");
+        let soft = Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::splat(0.5));
+        assert!(from.may_see_through(&soft, &unit(8.0, 0.8, 0.0)), "a soft light is broad");
+    }
+
+    #[test]
+    fn a_box_across_a_plane_is_on_both_sides() {
+        let flat = Flat { point: Vec3::ZERO, normal: Vec3::Y };
+        assert_eq!(flat.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
+        assert_eq!(flat.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
+        assert_eq!(flat.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
+    }
+}

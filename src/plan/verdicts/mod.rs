@@ -1,0 +1,121 @@
+//! The verdicts: for each effect whether the picture needs it, by which values, or which rule left it out and why.
+
+mod light;
+mod mirror;
+mod picture;
+
+use super::effect::{Effect, State, Verdict};
+use super::region::Region;
+use super::rule::Rule;
+use super::{Findings, Look};
+use crate::ir::{Field, Noun, Place};
+use crate::valid::Mode;
+
+/// The most verdicts on single lights or materials that are kept for one effect.
+const MAX_DETAILS: usize = 24;
+
+/// The verdicts on all effects, each followed by those on single entities.
+pub(super) fn verdicts(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> {
+    let mut all = picture::buffers(findings, region);
+    all.extend(light::verdicts(findings));
+    all.extend(mirror::verdicts(findings));
+    all.extend(picture::maps(findings));
+    all.push(picture::lens(findings));
+    all.push(picture::supersampling(findings, region));
+    all
+}
+
+fn settings(field: Field) -> Place {
+    Place::new(Noun::Settings, 0, field)
+}
+
+fn camera(field: Field) -> Place {
+    Place::new(Noun::Camera, 0, field)
+}
+
+fn light(index: usize, field: Field) -> Place {
+    Place::new(Noun::Light, index, field)
+}
+
+impl Verdict {
+    fn needed(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
+        Self { effect, of: None, state: State::Needed, rule: None, because: because.into(), facts }
+    }
+
+    fn absent(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
+        Self { effect, of: None, state: State::Absent, rule: None, because: because.into(), facts }
+    }
+
+    fn pruned(effect: Effect, rule: Rule, because: impl Into<String>, facts: Vec<Place>) -> Self {
+        Self { effect, of: None, state: State::Pruned, rule: Some(rule), because: because.into(), facts }
+    }
+
+    fn of(self, place: Place) -> Self {
+        Self { of: Some(place), ..self }
+    }
+
+    /// Notes the rule by whose definition a scene does without the effect.
+    fn by(self, rule: Rule) -> Self {
+        Self { rule: Some(rule), ..self }
+    }
+}
+
+impl Findings<'_> {
+    /// The place of a surface in the IR.
+    fn surface(&self, surface: usize, field: Field) -> Place {
+        Place::new(Noun::Surface, self.facts.scene.surfaces()[surface].index, field)
+    }
+
+    /// The place of a value of the material of a surface.
+    fn material(&self, surface: usize, field: Field) -> Place {
+        Place::new(Noun::Material, self.facts.scene.surfaces()[surface].material, field)
+    }
+
+    /// The first surface that is looked at and shows something.
+    fn first(&self, shows: impl Fn(&Look) -> bool) -> Option<usize> {
+        self.reached().find(|surface| shows(&self.facts.looks[*surface]))
+    }
+
+    /// The first surface that shows something but is not looked at.
+    fn first_unseen(&self, shows: impl Fn(&Look) -> bool) -> Option<usize> {
+        let mut surfaces = 0..self.facts.looks.len();
+        surfaces.find(|surface| !self.reach.reached[*surface] && shows(&self.facts.looks[*surface]))
+    }
+
+    /// The materials of which no surface that is looked at shows something, each with such a surface.
+    fn materials_without(&self, shows: impl Fn(&Look) -> bool) -> impl Iterator<Item = usize> {
+        let mut without = vec![None; self.facts.scene.materials().len()];
+        for surface in self.reached() {
+            let first = without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
+            *first = first.filter(|_| !shows(&self.facts.looks[surface]));
+        }
+        without.into_iter().flatten().flatten()
+    }
+
+    /// The verdict on an effect of shading in a mode that shows none, or shows it otherwise.
+    fn by_mode(&self, effect: Effect, asked: bool) -> Option<Verdict> {
+        let words = match self.mode() {
+            Mode::Phong | Mode::Path(_) => return None,
+            Mode::Gooch(_) => "Gooch's shading has none",
+            Mode::Normal => "a normal buffer shows the first hit alone",
+            Mode::Zbuffer => "a depth buffer shows the first hit alone",
+        };
+        let facts = vec![settings(Field::Mode)];
+        Some(if asked {
+            Verdict::pruned(effect, Rule::Mode, words, facts)
+        } else {
+            Verdict::absent(effect, words, facts).by(Rule::Mode)
+        })
+    }
+}
+
+/// The first few of many places.
+fn few(places: impl Iterator<Item = Place>) -> Vec<Place> {
+    let mut few = Vec::new();
+    for place in places {
+        if few.len() < 3 && !few.contains(&place) {
+            few.push(place);
+        }
+    }
+    few
+}

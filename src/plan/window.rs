@@ -1,0 +1,198 @@
+//! Where things may show in the picture: boxes projected through the lens to rectangles of pixels, with a margin.
+
+use super::body::{Body, Extent};
+use super::space::{ROOM, Space};
+use crate::math::{U, Vec3, cross, dot};
+use crate::valid::Camera;
+
+/// How far rounding may move what a pixel shows, in pixels, before nothing is said of it.
+const DOUBT: f64 = 0.25;
+
+/// A rectangle of pixels: columns and rows, each from the first to before the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rect {
+    pub(super) x: [u32; 2],
+    pub(super) y: [u32; 2],
+}
+
+/// Where a surface may show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// Nowhere: no camera ray meets it.
+    Nowhere,
+    /// In these pixels alone.
+    In(Rect),
+    /// Anywhere.
+    Anywhere,
+}
+
+/// The camera, seen as a map from the world to the picture.
+pub(super) struct Window {
+    camera: Camera,
+    /// A direction at a right angle to the image plane, in which that plane is 1 from the eye.
+    depth: Vec3,
+    /// The points of the lens are among these, and in their hull.
+    lens: Vec<Vec3>,
+    /// The pixels, in pixels.
+    size: [f64; 2],
+    /// Whether rounding leaves the map in doubt everywhere.
+    blurred: bool,
+}
+
+impl Window {
+    pub(super) fn new(camera: &Camera, pinhole: bool) -> Self {
+        let (right, up) = (camera.right.length(), camera.up.length());
+        let normal = cross(camera.right / right, camera.up / up);
+        let forward = camera.center - camera.eye;
+        let distance = dot(normal, forward);
+        let radius = if pinhole { 0.0 } else { camera.lens.radius.get() / up };
+        let corner = |[x, y]: [f64; 2]| camera.eye + (camera.right * x + camera.up * y) * radius;
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(corner);
+        let lens = if radius > 0.0 { corners.to_vec() } else { vec![camera.eye] };
+        let size = [camera.width.get(), camera.height.get()].map(f64::from);
+        let reach = camera.eye.abs().max(camera.center.abs()).max_element() + right * size[0] + up * size[1];
+        let blurred = 64.0 * U * reach > DOUBT * right.min(up) || U * reach > ROOM * distance.abs();
+        Self { camera: camera.clone(), depth: normal / distance, lens, size, blurred }
+    }
+
+    /// The box of all points of the lens.
+    pub(super) fn lens(&self) -> Space {
+        Space::of(self.lens.iter().copied())
+    }
+
+    /// Where a surface may show.
+    pub(super) fn shown(&self, body: &Body) -> Shown {
+        match &body.extent {
+            Extent::Within(space) if !self.blurred => self.project(space),
+            Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
+        }
+    }
+
+    /// Where a point shows from the middle of the lens, in pixels; `None` where that is in doubt.
+    pub(super) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
+        let size = point.abs().max_element() + self.lens().size();
+        let depth = (point - self.camera.eye).dot(self.depth);
+        let doubt = 64.0 * U * size * self.depth.length();
+        let (at, error) = self.place(self.camera.eye, point, depth, doubt);
+        (!self.blurred && depth > 16.0 * doubt && error <= DOUBT).then_some(at)
+    }
+
+    /// The rectangle of a box: the hull of its corners, seen from the corners of the lens.
+    fn project(&self, space: &Space) -> Shown {
+        let size = space.size() + self.lens().size();
+        let space = space.grown(ROOM * size);
+        let depths = space.corners().map(|corner| (corner - self.camera.eye).dot(self.depth));
+        let doubt = 64.0 * U * size * self.depth.length();
+        if depths.iter().all(|depth| *depth < -doubt) {
+            return Shown::Nowhere;
+        }
+        if depths.iter().any(|depth| *depth <= 16.0 * doubt) {
+            return Shown::Anywhere;
+        }
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for (corner, depth) in space.corners().into_iter().zip(depths) {
+            for from in &self.lens {
+                let (at, error) = self.place(*from, corner, depth, doubt);
+                if error.is_nan() || error > DOUBT {
+                    return Shown::Anywhere;
+                }
+                low = [0, 1].map(|axis| low[axis].min(at[axis]));
+                high = [0, 1].map(|axis| high[axis].max(at[axis]));
+            }
+        }
+        self.rectangle(low, high)
+    }
+
+    /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on its error.
+    fn place(&self, from: Vec3, point: Vec3, depth: f64, doubt: f64) -> ([f64; 2], f64) {
+        /// The steps of a camera are at a right angle to within this.
+        const RIGHT_ANGLE: f64 = 1e-9;
+        let Camera { center, right, up, .. } = &self.camera;
+        let away = (point - from) / depth;
+        let on_plane = (from - *center) + away;
+        let across = on_plane.dot(*right) / right.dot(*right);
+        let upward = on_plane.dot(*up) / up.dot(*up);
+        let error = (doubt / depth + 16.0 * U) * away.length() + 16.0 * U * (from.length() + center.length());
+        let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (right.length() + up.length());
+        let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
+        (at, (error + skew) / right.length().min(up.length()))
+    }
+
+    /// The pixels within one of a stretch of the picture.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the picture before")]
+    fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Shown {
+        let side = |axis: usize| {
+            let first = (low[axis] - 1.0 - DOUBT).floor().clamp(0.0, self.size[axis]);
+            let last = (high[axis] + 1.0 + DOUBT).ceil().clamp(0.0, self.size[axis]);
+            [first as u32, last as u32]
+        };
+        let rect = Rect { x: side(0), y: side(1) };
+        let is_empty = rect.x[0] >= rect.x[1] || rect.y[0] >= rect.y[1];
+        if is_empty { Shown::Nowhere } else { Shown::In(rect) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::body::Form;
+    use super::*;
+    use crate::math::NonNegative;
+    use crate::valid::{Lens, Projection};
+    use std::num::NonZeroU32;
+
+    /// 100 × 80 pixels of size 1 around the origin, seen from 100 in front.
+    fn window(radius: f64) -> Window {
+        let count = |n| NonZeroU32::new(n).unwrap();
+        let lens = Lens { radius: NonNegative::new(radius).unwrap(), samples: count(9) };
+        let (eye, center, right, up) = (Vec3::Z * 100.0, Vec3::ZERO, Vec3::X, Vec3::Y);
+        let camera = Camera {
+            eye,
+            center,
+            right,
+            up,
+            width: count(100),
+            height: count(80),
+            lens,
+            projection: Projection::Perspective,
+        };
+        Window::new(&camera, radius == 0.0)
+    }
+
+    fn shown(window: &Window, center: Vec3, reach: f64) -> Shown {
+        let space = Space::around(center, Vec3::splat(reach));
+        window.shown(&Body { extent: Extent::Within(space), form: Form::Other })
+    }
+
+    #[test]
+    fn a_box_shows_in_its_pixels_and_one_more_on_each_side() {
+        let rect = Shown::In(Rect { x: [58, 65], y: [27, 33] });
+        assert_eq!(shown(&window(0.0), Vec3::new(11.0, 10.0, 0.0), 1.0), rect);
+    }
+
+    #[test]
+    fn what_is_behind_or_beside_shows_nowhere_and_what_reaches_the_lens_anywhere() {
+        let window = window(0.0);
+        assert_eq!(shown(&window, Vec3::Z * 110.0, 1.0), Shown::Nowhere);
+        assert_eq!(shown(&window, Vec3::X * 60.0, 1.0), Shown::Nowhere);
+        assert_eq!(shown(&window, Vec3::Z * 100.0, 1.0), Shown::Anywhere);
+        assert_ne!(shown(&window, Vec3::X * 51.0, 1.0), Shown::Nowhere);
+    }
+
+    #[test]
+    fn a_lens_sees_round_the_edge_of_the_picture() {
+        let far = Vec3::new(58.0, 0.0, 50.0);
+        assert_eq!(shown(&window(0.0), far, 1.0), Shown::Nowhere);
+        assert_ne!(shown(&window(60.0), far, 1.0), Shown::Nowhere);
+    }
+
+    #[test]
+    fn where_rounding_blurs_a_pixel_nothing_is_said() {
+        let far = Vec3::splat(1e16);
+        let mut window = window(0.0);
+        window.camera.eye += far;
+        window.camera.center += far;
+        let window = Window::new(&window.camera, true);
+        assert_eq!(shown(&window, Vec3::ZERO, 1.0), Shown::Anywhere);
+    }
+}

@@ -1,0 +1,97 @@
+//! The law: with and without the rules the film has the same bits, in both kinds of values, and no rule costs a ray.
+
+use super::dice::Dice;
+use super::{bits, file_name, files, film, proven, scene, small};
+use proptest::prelude::*;
+use rtc::ir::Scene;
+use rtc::plan::{Plan, Rule, Rules};
+use rtc::render::Values;
+
+/// The sets of rules to compare with none: all, each alone, all but each.
+fn sets() -> Vec<(String, Rules)> {
+    let exact = || Rule::ALL.into_iter().filter(|rule| *rule != Rule::Cut);
+    let mut sets = vec![("all".to_owned(), Rules::ALL)];
+    sets.extend(exact().map(|rule| (format!("{} alone", rule.name()), Rules::NONE.with(rule))));
+    sets.extend(exact().map(|rule| (format!("all but {}", rule.name()), Rules::ALL.without(rule))));
+    sets
+}
+
+/// The sets under which the film differs from that without rules, or takes more rays.
+fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
+    let scene = proven(scene);
+    let mut faults = Vec::new();
+    // What is clamped can only hide a difference; one set shows that it is clamped alike.
+    let kinds: &[Values] = if sets.len() == 1 { &[Values::Linear, Values::Display] } else { &[Values::Linear] };
+    for values in kinds.iter().copied() {
+        let unpruned = film(&scene, Rules::NONE, values);
+        for (name, rules) in sets {
+            let pruned = film(&scene, *rules, values);
+            if bits(&pruned) != bits(&unpruned) {
+                let same = |(a, b): (&[f64; 3], &[f64; 3])| a.map(f64::to_bits) == b.map(f64::to_bits);
+                let pixels = || pruned.image.pixels.iter().zip(&unpruned.image.pixels);
+                let first = pixels().position(|pair| !same(pair)).unwrap();
+                let (a, b) = (pruned.image.pixels[first], unpruned.image.pixels[first]);
+                let count = pixels().filter(|pair| !same(*pair)).count();
+                faults.push(format!("{name}: {count} pixels, the first is {first}: {a:?} instead of {b:?}"));
+            }
+            if pruned.counts.rays() > unpruned.counts.rays() {
+                faults.push(format!("{name}: {:?} rays instead of {:?}", pruned.counts, unpruned.counts));
+            }
+        }
+    }
+    faults
+}
+
+fn obey(folder: &str, sets: &[(String, Rules)]) {
+    for path in files(folder) {
+        let Some(scene) = scene(&path) else { continue };
+        let faults = faults(&small(scene), sets);
+        assert!(faults.is_empty(), "{}:\n{}", file_name(&path), faults.join("\n"));
+    }
+}
+
+#[test]
+fn all_rules_together_change_no_bit_of_a_scene_at_hand() {
+    for folder in ["scenes", "../shared/course/scenes", "../shared/wild"] {
+        obey(folder, &sets()[..1]);
+    }
+}
+
+#[test]
+fn each_rule_alone_and_all_but_each_change_no_bit_of_the_scenes_of_the_repo() {
+    obey("scenes", &sets()[1..]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn all_rules_together_change_no_bit_of_a_random_scene(seed in any::<u64>()) {
+        let faults = faults(&Dice::new(seed).scene(), &sets()[..1]);
+        prop_assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(8))]
+
+    #[test]
+    fn each_rule_alone_changes_no_bit_of_a_random_scene(seed in any::<u64>()) {
+        let faults = faults(&Dice::new(seed).scene(), &sets()[1..]);
+        prop_assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }
+}
+
+/// A rule that never fires is a rule nobody has tested.
+#[test]
+fn each_rule_leaves_something_out_of_some_scene() {
+    let mut idle = Rule::ALL.to_vec();
+    let at_hits = [Rule::ShadowFacing, Rule::Cut, Rule::PixelMiss, Rule::PixelFlat];
+    idle.retain(|rule| !at_hits.contains(rule));
+    for seed in 0..1000 {
+        let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
+        let fired = |rule: &Rule| plan.verdicts.iter().any(|verdict| verdict.rule == Some(*rule));
+        idle.retain(|rule| !fired(rule));
+    }
+    assert!(idle.is_empty(), "never fired: {idle:?}");
+}

@@ -1,0 +1,114 @@
+//! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the right reason.
+//!
+//! The strength of this suite is measured by `cargo mutants -f 'src/plan/**' -- --test plan`: mutants of the rules that
+//! it does not kill want a test here. Scenes of the course and of the wild are read from `../shared`; where that is
+//! absent, the tests that need it say so and pass.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise and says what it skips"
+)]
+
+mod counters;
+mod dice;
+mod law;
+mod need;
+mod oracle;
+mod sensitivity;
+mod stage;
+mod validation;
+
+use rtc::diag::Sink;
+use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Effect, Plan, Rule, Rules, State, Verdict};
+use rtc::render::{Film, Job, Values};
+use rtc::source::{Loader, SourceMap};
+use rtc::valid::ValidScene;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
+}
+
+/// The scene files of a folder and the folders in it; none, with a note, if it is absent.
+fn files(folder: &str) -> Vec<PathBuf> {
+    if !root(folder).exists() {
+        println!("skipped: {folder} is not here");
+        return Vec::new();
+    }
+    let (mut open, mut found) = (vec![root(folder)], Vec::new());
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A scene as it is; `None` if it is refused.
+fn scene(path: &Path) -> Option<Scene> {
+    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
+    (!sink.has_errors()).then_some(lowered.scene)
+}
+
+/// A scene of the course as it is; `None` with a note if that is absent.
+fn course(name: &str) -> Option<Scene> {
+    let path = root("../shared/course/scenes").join(name);
+    if !path.exists() {
+        println!("skipped: {name} is not here");
+        return None;
+    }
+    scene(&path)
+}
+
+/// The scene with few pixels, samples and bounces.
+fn small(mut scene: Scene) -> Scene {
+    let (sampling, depth) = (scene.settings.supersampling.min(2), scene.settings.max_depth.min(4));
+    let size = Some([22, 18]);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
+    scene.camera.lens.samples = scene.camera.lens.samples.min(3);
+    scene.settings.light_samples = scene.settings.light_samples.min(4);
+    scene
+}
+
+fn proven(scene: &Scene) -> ValidScene {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
+    let job = Job { values, ..Job::default() };
+    pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true).unwrap().unwrap()
+}
+
+fn bits(film: &Film) -> Vec<u64> {
+    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+}
+
+/// The verdict on an effect of the whole scene.
+fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
+    let mut all = plan.verdicts.iter().filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+    let first = all.next().unwrap_or_else(|| panic!("there is a verdict on {effect:?}"));
+    assert!(all.next().is_none(), "there is one verdict on {effect:?}");
+    first
+}
+
+/// What became of an effect, and by which rule.
+fn fate(scene: &Scene, effect: Effect) -> (State, Option<Rule>) {
+    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let Verdict { state, rule, .. } = verdict(&plan, effect);
+    (*state, *rule)
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap().to_string_lossy().into_owned()
+}

@@ -1,0 +1,61 @@
+//! Scenes small enough to be rendered many times, and their films, for suites that state laws of pictures.
+
+use rtc::diag::Sink;
+use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Film, Job, Seeds, Stride, Values};
+use rtc::source::{FileId, Loader, SourceMap};
+use std::path::{Path, PathBuf};
+
+/// The scenes of the repo.
+pub(crate) fn paths() -> Vec<PathBuf> {
+    let paths = scenes_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
+    assert!(paths.len() >= 10, "the repo has scenes");
+    paths
+}
+
+/// The scenes of a folder, in order; none if it is not there.
+pub(crate) fn scenes_in(folder: &Path) -> Vec<PathBuf> {
+    let entries = folder.read_dir().into_iter().flatten();
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    paths.sort();
+    paths
+}
+
+/// A scene of a file, made small.
+pub(crate) fn small(path: &Path) -> Scene {
+    let mut map = SourceMap::default();
+    let file = Loader.file(path, &mut map).unwrap();
+    reduced(file, &mut map, &Options::default())
+}
+
+/// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples, 4 points of the lens and 8 bounces.
+pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> Scene {
+    let mut sink = Sink::default();
+    let scene = pipeline::load(file, map, options, &mut sink);
+    assert!(!sink.has_errors(), "{:?}", sink.kept());
+    let mut scene = scene.unwrap().scene;
+    let sampling = scene.settings.supersampling.min(2);
+    let depth = scene.settings.max_depth.min(8);
+    let size = Some([48, 40]);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
+    scene.camera.lens.samples = scene.camera.lens.samples.min(4);
+    scene
+}
+
+pub(crate) const WHOLE: Job =
+    Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE, stride: Stride::EVERY };
+
+pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), job, threads, &|_| true).unwrap().unwrap()
+}
+
+/// The bits of every value.
+pub(crate) fn bits(film: &Film) -> Vec<u64> {
+    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+}
