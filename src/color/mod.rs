@@ -23,8 +23,11 @@ pub fn srgb_decoded(v: f64) -> f64 {
 /// The coded value of sRGB of a linear value, clamped to [0, 1].
 #[must_use]
 pub fn srgb_encoded(v: f64) -> f64 {
-    let v = if v > 0.0 { v.min(1.0) } else { 0.0 };
-    if v <= 0.003_130_8 { v * 12.92 } else { (1.055 * libm::pow(v, 1.0 / 2.4) - 0.055).min(1.0) }
+    match v {
+        _ if v >= 1.0 => 1.0,
+        _ if v > 0.003_130_8 => 1.055 * libm::pow(v, 1.0 / 2.4) - 0.055,
+        _ => v.max(0.0) * 12.92,
+    }
 }
 
 #[cfg(test)]
