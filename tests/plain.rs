@@ -9,7 +9,7 @@ use rtc::diag::Sink;
 use rtc::ir::Overrides;
 use rtc::math::{Positive, Vec3};
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Arithmetic, Plan, Symptom, loss};
+use rtc::plan::{Arithmetic, Plan, Rules, Symptom, loss};
 use rtc::render::{Film, Geometry, Job, PlainShape, Ray, Real, Shape, Shear};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::{self, ValidScene};
@@ -141,7 +141,7 @@ fn small(path: &Path, side: u32) -> ValidScene {
 }
 
 fn film(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
-    pipeline::render(scene, &Plan::by(arithmetic, scene), &Job::default(), 0, &|_| true).unwrap().unwrap()
+    pipeline::render(scene, &Plan::by(arithmetic, scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap()
 }
 
 /// The share of pixels that differ in 8 bits.

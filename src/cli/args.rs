@@ -1,12 +1,13 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
-use crate::plan;
+use crate::plan::{self, Rule};
 use crate::render::Crop;
 use crate::{diag, ir, study};
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use std::path::PathBuf;
 use std::sync::LazyLock;
+use std::time::Duration;
 
 static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
@@ -58,9 +59,12 @@ pub(super) struct Compile {
     /// The scene, as YAML or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
-    /// Where to write; `-` is standard output
-    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
-    pub(super) output: PathBuf,
+    /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) output: Option<PathBuf>,
+    /// Say which effects the picture needs, and why it does without the others
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
+    pub(super) explain: Option<Explanation>,
     /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
@@ -96,6 +100,13 @@ pub(super) struct Render {
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,
+    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, 95 % sure), to what ever more samples at this
+    /// depth would show
+    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples"])]
+    pub(super) target_error: Option<f64>,
+    /// Sample for this long, in seconds of the clock, where it helps most; the picture then depends on the machine
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples"])]
+    pub(super) time_budget: Option<Duration>,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
@@ -109,9 +120,33 @@ pub(super) struct Render {
     #[arg(long)]
     pub(super) bits: Option<Bits>,
     #[command(flatten)]
+    pub(super) pruning: Pruning,
+    #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
     pub(super) talk: Talk,
+}
+
+/// What is left out of the work for a picture.
+#[derive(Debug, Args)]
+pub(super) struct Pruning {
+    /// Simulate what a rule would leave out: all rules, or those named, as E-SPEC
+    #[arg(long, value_name = "RULE", num_args = 0.., require_equals = true, value_delimiter = ',', value_parser = rule)]
+    pub(super) no_prune: Option<Vec<Rule>>,
+    /// Leave out also what changes the picture by less than half a level of 8 bits
+    #[arg(long)]
+    pub(super) approx: bool,
+    /// Simulate also what is left out, and stop at a pixel where it would show
+    #[arg(long, conflicts_with_all = ["no_prune", "arithmetic"])]
+    pub(super) verify_effects: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Explanation {
+    /// A table to read
+    Human,
+    /// One JSON object
+    Json,
 }
 
 #[derive(Debug, Args)]
@@ -177,7 +212,7 @@ impl From<Effort> for study::Effort {
 
 #[derive(Debug, Args)]
 pub(super) struct Explain {
-    /// The code, as VA001
+    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC
     #[arg(required_unless_present = "all")]
     pub(super) code: Option<String>,
     /// Explain every code there is, as Markdown
@@ -335,6 +370,23 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
 }
 
+fn rule(text: &str) -> Result<Rule, String> {
+    Rule::find(text).ok_or_else(|| {
+        let names = Rule::ALL.map(Rule::name).join(", ");
+        format!("there is no such rule; there are {names}")
+    })
+}
+
+fn levels(text: &str) -> Result<f64, String> {
+    let levels = text.parse().ok().filter(|levels| (0.01..=255.0).contains(levels));
+    levels.ok_or_else(|| "expected 0.01 to 255 grey levels".to_owned())
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
+}
+
 fn folder(text: &str) -> Result<PathBuf, String> {
     Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
 }
@@ -361,6 +413,9 @@ mod tests {
     fn sizes_and_crops() {
         assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
         assert!(["640", "0x4", "4x", "-1x2", "1x2x3"].into_iter().all(|text| size(text).is_err()));
+        assert!(["0", "-1", "nan", "inf", "256", "x"].into_iter().all(|text| levels(text).is_err()));
+        assert!(["0", "-1", "nan", "inf", "1e300", "x"].into_iter().all(|text| seconds(text).is_err()));
+        assert_eq!((levels("0.5"), seconds("2.5")), (Ok(0.5), Ok(Duration::from_millis(2500))));
         assert_eq!(crop("1, 2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         assert!(["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"].into_iter().all(|text| crop(text).is_err()));
     }

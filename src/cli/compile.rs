@@ -1,10 +1,11 @@
 //! `rtc compile`: a scene to the IR as text or binary, or back to its canonical spelling.
 
 use super::Failure;
-use super::args::{Compile, Emit};
+use super::args::{Compile, Emit, Explanation, MessageFormat};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
+use super::report::Report;
 use super::talk::Talk;
 use crate::codec::{self, Form};
 use crate::front::course;
@@ -13,9 +14,10 @@ use std::path::Path;
 
 /// Compiles the scene and writes it.
 pub(super) fn run(args: &Compile) -> Result<(), Failure> {
-    let emit = args.emit.map_or_else(|| by_extension(&args.output), Ok)?;
+    let target = target(args).unwrap_or(Path::new("-"));
+    let emit = args.emit.map_or_else(|| by_extension(target), Ok)?;
     if emit == Emit::IrBin {
-        output::refuse_terminal(&args.output)?;
+        output::refuse_terminal(target)?;
     }
     let mut talk = Talk::beside_result(&args.talk);
     let outcome = carry_out(args, emit, &mut talk);
@@ -26,10 +28,21 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
 fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure> {
     let mut input = Input::read(&args.file, &args.reading);
     let proven = input::require(&mut input, talk, |_| ())?;
+    if let Some(form) = args.explain {
+        let form = if args.talk.message_format == MessageFormat::Json { Explanation::Json } else { form };
+        output::to_stdout(Report::new(&proven, &input)?.print(form).as_bytes())?;
+    }
+    let Some(target) = target(args) else { return Ok(()) };
     let bytes = encode(emit, &proven.lowered.scene)
         .map_err(|reason| Failure::Input(format!("`{}` can't be written so: {reason}", input.name())))?;
     let interrupt = Interrupt::listen()?;
-    Output::open(&args.output, &interrupt)?.commit(&bytes, &interrupt)
+    Output::open(target, &interrupt)?.commit(&bytes, &interrupt)
+}
+
+/// Where the IR goes, if anywhere: an explanation takes its place on standard output.
+fn target(args: &Compile) -> Option<&Path> {
+    let default = args.explain.is_none().then_some(Path::new("-"));
+    args.output.as_deref().or(default)
 }
 
 fn by_extension(output: &Path) -> Result<Emit, Failure> {

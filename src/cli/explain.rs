@@ -3,6 +3,7 @@
 use super::args::Explain;
 use super::{Failure, output};
 use crate::diag::{Code, Severity, codes};
+use crate::plan::Rule;
 
 /// Columns of the text.
 const WIDTH: usize = 80;
@@ -10,7 +11,11 @@ const WIDTH: usize = 80;
 /// Prints the text of the code asked for.
 pub(super) fn run(args: &Explain) -> Result<(), Failure> {
     let text = match &args.code {
-        Some(id) => entry(codes::find(id).ok_or_else(|| unknown(id))?),
+        Some(id) => match (codes::find(id), Rule::find(id)) {
+            (Some(code), _) => entry(code),
+            (None, Some(rule)) => format!("## {} (rule)\n\n{}", rule.name(), fill(rule.text())),
+            (None, None) => return Err(unknown(id)),
+        },
         None => page(),
     };
     output::to_stdout(text.as_bytes())

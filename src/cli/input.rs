@@ -6,7 +6,7 @@ use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::{Lowered, Scene};
 use crate::pipeline::{self, Options};
-use crate::source::{FileId, LoadError, Loader, SourceMap};
+use crate::source::{FileId, LoadError, Loader, SourceMap, Span};
 use crate::valid::ValidScene;
 use crate::{codec, front, valid};
 use std::io;
@@ -75,6 +75,11 @@ impl Input {
     /// Adds a finding.
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
         self.sink.push(diagnostic);
+    }
+
+    /// The file and the line at which a span begins.
+    pub(super) fn line(&self, span: Span) -> (&str, u32) {
+        (self.map.name(span.file), self.map.line_column(span.file, span.start).line)
     }
 
     /// The name of the scene in messages.

@@ -12,6 +12,7 @@ mod interrupt;
 mod output;
 mod progress;
 mod render;
+mod report;
 mod talk;
 mod tell;
 

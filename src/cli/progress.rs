@@ -29,6 +29,17 @@ impl Progress {
         self.bar.inc(1);
     }
 
+    /// A round of `pixels` more begins, of a render of which `words` say how good it is.
+    pub(super) fn round(&self, pixels: u64, words: String) {
+        self.bar.set_length(self.bar.position() + pixels);
+        self.bar.set_message(words);
+    }
+
+    /// The time since the start.
+    pub(super) fn elapsed(&self) -> Duration {
+        self.bar.elapsed()
+    }
+
     /// Takes the bar away and says how long it took.
     pub(super) fn finish(self) -> Duration {
         let elapsed = self.bar.elapsed();
@@ -46,7 +57,7 @@ fn style(rays: Arc<AtomicU64>) -> ProgressStyle {
     let left = |state: &ProgressState, text: &mut dyn Write| {
         let _ = write!(text, "{:#} left", HumanDuration(state.eta()));
     };
-    ProgressStyle::with_template("{bar:30} {percent:>3} %  {rate}  {left}")
+    ProgressStyle::with_template("{bar:30} {percent:>3} %  {rate}  {left}  {msg}")
         .expect("the template is a constant and well formed")
         .with_key("rate", rate)
         .with_key("left", left)

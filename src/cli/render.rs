@@ -11,8 +11,9 @@ use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline;
-use crate::plan::{self, Symptom};
-use crate::render::{Crop, Film, Job, Values};
+use crate::plan::{self, Rule, Rules, Symptom};
+use crate::render::{Counts, Crop, Fault, Film, Job, Values};
+use crate::study::{Goal, Order, Samples, Stopped, Watch};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -23,7 +24,19 @@ struct Plan {
     overrides: Overrides,
     arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
+    goal: Goal,
     threads: usize,
+    rules: Rules,
+    verify: bool,
+}
+
+/// A picture, and what is said of it.
+struct Picture {
+    image: image::Image,
+    counts: Counts,
+    elapsed: Duration,
+    /// How good it is, if that was asked.
+    quality: Option<String>,
 }
 
 /// A kind of pixel file.
@@ -63,7 +76,10 @@ impl Plan {
             },
             arithmetic: args.arithmetic.into(),
             crop: args.crop,
+            goal: Goal { error: args.target_error, time: args.time_budget },
             threads: args.threads.map_or(0, usize::from),
+            rules: rules(&args.pruning),
+            verify: args.pruning.verify_effects,
         })
     }
 
@@ -77,16 +93,19 @@ impl Plan {
         let interrupt = Interrupt::listen()?;
         let output = Output::open(&self.output, &interrupt)?;
         let quiet = talk.is_quiet();
-        let (film, elapsed) = self.trace(&proven, window, &interrupt, quiet)?;
-        if self.crop.is_none() && film.counts.hits == 0 {
+        let picture = match self.goal {
+            Goal { error: None, time: None } => self.trace(&proven, window, &interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(&proven, window, &interrupt, quiet)?,
+        };
+        if self.crop.is_none() && picture.counts.hits == 0 {
             input.push(nothing_in_view(&proven));
             input.tell(talk)?;
         }
         let form = self.form(&proven.lowered.scene);
-        let bytes = film.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
+        let bytes = picture.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
         output.commit(&bytes, &interrupt)?;
         if !quiet {
-            talk::say(&self.summary(&film, elapsed));
+            talk::say(&self.summary(&picture));
         }
         Ok(())
     }
@@ -101,32 +120,66 @@ impl Plan {
         Ok(window)
     }
 
-    /// The film and how long it took.
-    fn trace(
-        &self,
-        proven: &Proven,
-        window: Crop,
-        interrupt: &Interrupt,
-        quiet: bool,
-    ) -> Result<(Film, Duration), Failure> {
-        let values = if self.kind == Kind::Exr { Values::Linear } else { Values::Display };
-        let job = Job { crop: Some(window), values, ..Job::default() };
+    fn values(&self) -> Values {
+        if self.kind == Kind::Exr { Values::Linear } else { Values::Display }
+    }
+
+    /// The picture in the setting of the scene.
+    fn trace(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Picture, Failure> {
+        let job = Job { crop: Some(window), values: self.values(), ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let plan = plan::Plan::by(self.arithmetic, &proven.scene);
-        let film = pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed);
+        let plan = plan::Plan::by(self.arithmetic, &proven.scene, self.rules);
+        let film = if self.verify {
+            pipeline::verify(&proven.scene, &plan, &job, self.threads, &proceed)
+        } else {
+            pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed).map(|film| film.map(Ok))
+        };
         let elapsed = progress.finish();
-        let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-        Ok((film.ok_or(Failure::Interrupted)?, elapsed))
+        let film = film.map_err(no_threads)?.ok_or(Failure::Interrupted)?;
+        let Film { image, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        Ok(Picture { image, counts, elapsed, quality: None })
     }
 
-    fn summary(&self, film: &Film, elapsed: Duration) -> String {
-        let Film { image, counts } = film;
-        let work = progress::summary(counts.rays(), elapsed);
-        format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height)
+    /// The picture with the samples that its goal takes.
+    fn approach(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Picture, Failure> {
+        let order = Order {
+            goal: self.goal,
+            arithmetic: self.arithmetic,
+            crop: window,
+            values: self.values(),
+            keep_lights: self.overrides.light_samples.is_some(),
+            seed: 0,
+        };
+        let progress = Progress::start(0, quiet);
+        let watch = Watch {
+            proceed: &|rays| {
+                progress.pixel(rays);
+                !interrupt.is_raised()
+            },
+            elapsed: &|| progress.elapsed(),
+            round: &|state| progress.round(state.pixels, state.error.map_or_else(String::new, error)),
+        };
+        let reached = pipeline::approach(&proven.lowered.scene, &order, self.threads, &watch);
+        let elapsed = progress.finish();
+        let reached = reached.map_err(no_threads)?.map_err(|Stopped| Failure::Interrupted)?;
+        let Samples { least, mean, most } = reached.samples;
+        let quality =
+            format!("{} (95 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
+        Ok(Picture { image: reached.image, counts: reached.counts, elapsed, quality: Some(quality) })
+    }
+
+    fn summary(&self, picture: &Picture) -> String {
+        let Picture { image, counts, elapsed, quality } = picture;
+        let work = progress::summary(counts.rays(), *elapsed);
+        let line = format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height);
+        match quality {
+            Some(quality) => format!("{line}\n{quality}"),
+            None => line,
+        }
     }
 
     fn form(&self, scene: &Scene) -> image::Form {
@@ -139,18 +192,56 @@ impl Plan {
 
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
     fn origin(&self, scene: &Scene) -> image::Origin {
-        let settings = serde_json::json!({
+        let mut settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
             "settings": scene.settings,
             "crop": self.crop.map(|Crop { x, y, width, height }| [x, y, width, height]),
         });
+        if let Some(levels) = self.goal.error {
+            settings["targetError"] = levels.into();
+        }
+        if let Some(time) = self.goal.time {
+            settings["timeBudget"] = time.as_secs_f64().into();
+        }
         image::Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
             scene: input::hash(scene),
             settings: settings.to_string(),
         }
     }
+}
+
+/// The rules that may leave something out.
+fn rules(args: &args::Pruning) -> Rules {
+    let all = if args.approx { Rules::ALL.with(Rule::Cut) } else { Rules::ALL };
+    match args.no_prune.as_deref() {
+        None => all,
+        Some([]) => Rules::NONE,
+        Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
+    }
+}
+
+/// What to say of a rule that was wrong.
+fn left_out(fault: &Fault) -> String {
+    let Fault { pixel: [x, y], effect, rule, what } = fault;
+    let rule = rule.map_or("no rule", Rule::name);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
+         This is a fault of rtc {version}, please report it with the scene.",
+        effect.name()
+    )
+}
+
+fn no_threads(fault: rayon::ThreadPoolBuildError) -> Failure {
+    Failure::Trouble(format!("can't start threads: {fault}"))
+}
+
+/// An error in grey levels, in words.
+fn error(levels: f64) -> String {
+    // Rounded up, so that the words promise no more than was measured.
+    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
 }
 
 /// The name of the scene with `.png`, in the current folder.

@@ -14,6 +14,19 @@ pub fn quantize16(v: f64) -> u16 {
     (v.clamp(0.0, 1.0) * f64::from(u16::MAX)) as u16
 }
 
+/// The linear value of a coded value of sRGB in [0, 1] (IEC 61966-2-1).
+#[must_use]
+pub fn srgb_decoded(v: f64) -> f64 {
+    if v <= 0.040_45 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) }
+}
+
+/// The coded value of sRGB of a linear value, clamped to [0, 1].
+#[must_use]
+pub fn srgb_encoded(v: f64) -> f64 {
+    let v = if v > 0.0 { v.min(1.0) } else { 0.0 };
+    if v <= 0.003_130_8 { v * 12.92 } else { (1.055 * libm::pow(v, 1.0 / 2.4) - 0.055).min(1.0) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,5 +42,15 @@ mod tests {
     #[test]
     fn a_byte_goes_there_and_back() {
         assert!((0..=255u8).all(|byte| quantize8((f64::from(byte) + 0.5) / 255.0) == byte));
+    }
+
+    #[test]
+    fn srgb_goes_there_and_back() {
+        for byte in 0..=255 {
+            let coded = f64::from(byte) / 255.0;
+            assert!((srgb_encoded(srgb_decoded(coded)) - coded).abs() < 1e-7, "{byte}");
+        }
+        assert!((srgb_decoded(0.5) - 0.214_041_1).abs() < 1e-7);
+        assert_eq!([f64::NAN, -1.0, 2.0].map(srgb_encoded), [0.0, 0.0, 1.0]);
     }
 }

@@ -32,4 +32,9 @@ impl Basis {
     pub fn to_world(&self, local: Vec3) -> Vec3 {
         self.tangent * local.x + self.bitangent * local.y + self.normal * local.z
     }
+    /// The coordinates of a vector along tangent, bitangent and normal.
+    #[must_use]
+    pub fn to_local(&self, world: Vec3) -> Vec3 {
+        Vec3::new(self.tangent.dot(world), self.bitangent.dot(world), self.normal.dot(world))
+    }
 }

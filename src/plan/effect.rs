@@ -25,6 +25,43 @@ pub enum Effect {
     Supersampling,
 }
 
+impl Effect {
+    /// The name, as in the books.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DepthBuffer => "depth buffer",
+            Self::NormalBuffer => "normal buffer",
+            Self::Surfaces => "surfaces",
+            Self::DirectLight => "direct light",
+            Self::Shadows => "shadows",
+            Self::SoftLight => "soft light",
+            Self::Highlight => "highlight",
+            Self::Mirror => "mirror",
+            Self::GlossyReflection => "glossy mirror",
+            Self::Refraction => "refraction",
+            Self::Depth => "bounces",
+            Self::Textures => "textures",
+            Self::NormalInterpolation => "corner normals",
+            Self::NormalMapping => "normal maps",
+            Self::Lens => "lens",
+            Self::Supersampling => "supersampling",
+        }
+    }
+}
+
+impl State {
+    /// The state in a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Needed => "needed",
+            Self::Pruned => "pruned",
+            Self::Absent => "absent",
+        }
+    }
+}
+
 /// What became of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {

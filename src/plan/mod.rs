@@ -25,7 +25,7 @@ pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Shape, ValidScene};
+use crate::valid::{Mode, Pattern, Projection, Shape, ValidScene};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
@@ -87,11 +87,12 @@ impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
     pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+        let rules = proven_for(scene, rules);
         let facts = Facts::new(scene, rules);
         let settings = scene.settings();
         let window = Window::new(scene.camera(), facts.is_pinhole());
         let shown = facts.bodies.iter().map(|body| window.shown(body)).collect::<Vec<_>>();
-        let asked = if let Mode::Phong = settings.mode { settings.max_depth } else { 0 };
+        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 };
         let anywhere = vec![Shown::Anywhere; shown.len()];
         let seen = if rules.contains(Rule::Cull) { &shown } else { &anywhere };
         let reach = Reach::new(&facts, &window, seen, asked);
@@ -116,15 +117,22 @@ impl Plan {
         }
     }
 
-    /// Plans the picture by an arithmetic, with all rules that add exactly nothing by it: what is proven of the shapes
-    /// is proven for the robust one.
+    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing by it: what is proven
+    /// of the shapes is proven for the robust one.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
-            Arithmetic::Robust => Rules::ALL,
-            Arithmetic::Plain | Arithmetic::F32 => Rules::AT_HITS,
+            Arithmetic::Robust => rules,
+            Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
         };
         Self { arithmetic, ..Self::new(scene, rules) }
+    }
+
+    /// The rule that left out an effect, of the whole scene or else of some entity.
+    #[must_use]
+    pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
+        let mut verdicts = self.verdicts.iter().filter(|verdict| verdict.effect == effect);
+        verdicts.find_map(|verdict| verdict.rule)
     }
 
     /// Whether the picture needs an effect, of whatever entity.
@@ -144,6 +152,8 @@ struct Facts<'scene> {
     looks: Vec<Look>,
     /// Per texture, its value if it has only one.
     constants: Vec<Option<Vec3>>,
+    /// Per mesh, whether no triangle has several shading normals.
+    even: Vec<bool>,
 }
 
 impl<'scene> Facts<'scene> {
@@ -151,7 +161,8 @@ impl<'scene> Facts<'scene> {
         let constants =
             if rules.contains(Rule::TextureConstant) { constants(scene) } else { vec![None; scene.textures().len()] };
         let looks = scene.surfaces().iter().map(|surface| Look::of(surface, scene, &constants)).collect();
-        Self { scene, rules, bodies: bodies(scene), looks, constants }
+        let even = scene.meshes().iter().map(|mesh| look::is_even(mesh)).collect();
+        Self { scene, rules, bodies: bodies(scene), looks, constants, even }
     }
 
     /// The rule, if it may be applied.
@@ -163,7 +174,7 @@ impl<'scene> Facts<'scene> {
     fn is_even(&self, surface: usize) -> bool {
         let shape = &self.scene.surfaces()[surface].shape;
         let Shape::Instance(instance) = shape else { return true };
-        self.rules.contains(Rule::NormalFlat) && look::is_even(&self.scene.meshes()[instance.mesh])
+        self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
     }
 
     /// Whether all rays of a pixel's point start at the eye.
@@ -282,6 +293,15 @@ impl Findings<'_> {
         add(Features::SAMPLED, self.is_soft() || self.is_glossy());
         add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
         features
+    }
+}
+
+/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from an eye.
+fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+    match (scene.settings().mode, scene.camera().projection) {
+        (Mode::Path(_), _) => Rules::NONE,
+        (_, Projection::Orthographic) => rules.of(Rules::AT_HITS),
+        (_, Projection::Perspective) => rules,
     }
 }
 

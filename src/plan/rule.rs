@@ -197,6 +197,12 @@ impl Rules {
         Self(self.0 & !(1 << rule as u32))
     }
 
+    /// The rules that are in both sets.
+    #[must_use]
+    pub const fn of(self, others: Self) -> Self {
+        Self(self.0 & others.0)
+    }
+
     /// Whether the rule is in the set.
     #[must_use]
     pub const fn contains(self, rule: Rule) -> bool {

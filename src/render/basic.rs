@@ -82,6 +82,14 @@ impl Geometry for Basic {
         }
     }
 
+    fn triangles(&self) -> usize {
+        usize::from(matches!(self, Self::Triangle(..)))
+    }
+
+    fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
+        if let Self::Triangle(triangle, _) = self { Some(*triangle.vertices()) } else { None }
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         match self {
             Self::Sphere(sphere, _) => Some(Bounds::around(sphere.center, sphere.radius)),

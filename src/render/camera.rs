@@ -3,7 +3,7 @@
 use super::ray::Ray;
 use super::sampler::Key;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
-use crate::valid::{Camera, Lens};
+use crate::valid::{Camera, Lens, Projection};
 
 /// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1] from its left and
 /// upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y − place₁)·up`.
@@ -18,6 +18,15 @@ pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
 #[must_use]
 pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
     Ray { origin, direction: (image_point - origin).normalize() }
+}
+
+/// The ray through a point of the image from a point of the lens: of an orthographic camera all of them run side by side.
+#[must_use]
+pub(super) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
+    match camera.projection {
+        Projection::Perspective => camera_ray(lens_point, image_point),
+        Projection::Orthographic => camera_ray(lens_point + (image_point - camera.center), image_point),
+    }
 }
 
 /// How many points of the lens a sub-sample takes: one where all points are the same.
@@ -67,6 +76,21 @@ impl Twist {
 
 /// Keeps the numbers of the lens apart from those of sub-samples and paths.
 const LENS: u64 = u64::MAX - 1;
+
+/// The origin of a ray for a place in the unit square: uniform over the lens if that is.
+#[must_use]
+pub(super) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
+    /// 2⁶⁴.
+    const TURN: f64 = 18_446_744_073_709_551_616.0;
+    let radius = camera.lens.radius.get();
+    if radius == 0.0 {
+        return camera.eye;
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a turn, below one")]
+    let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
+    let r = radius * share.sqrt() / camera.up.length();
+    camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)
+}
 
 /// The origin of ray k of a sub-sample.
 #[must_use]

@@ -2,6 +2,7 @@
 
 use super::sampler::mix;
 use crate::image::Image;
+use std::num::NonZeroU32;
 
 /// What to render of a world.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,6 +15,8 @@ pub struct Job {
     pub tiles: Option<Tiles>,
     /// Where sampling starts.
     pub seeds: Seeds,
+    /// Which pixels are rendered; the others stay black.
+    pub stride: Stride,
 }
 
 /// Where each kind of sampling starts: 0 is the one of every render, any other number gives a picture that is
@@ -59,6 +62,39 @@ impl Tiles {
     }
 }
 
+/// Every k-th pixel of a row and of a column, from the first: enough to estimate rays by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stride(NonZeroU32);
+
+impl Stride {
+    /// Every pixel.
+    pub const EVERY: Self = Self(NonZeroU32::MIN);
+
+    /// Every k-th pixel; every one for 0.
+    #[must_use]
+    pub fn new(k: u32) -> Self {
+        NonZeroU32::new(k).map_or(Self::EVERY, Self)
+    }
+
+    /// The step.
+    #[must_use]
+    pub fn get(self) -> u32 {
+        self.0.get()
+    }
+
+    /// How many of a row or column of `count` pixels are rendered.
+    #[must_use]
+    pub fn of(self, count: u32) -> u32 {
+        count.div_ceil(self.get())
+    }
+}
+
+impl Default for Stride {
+    fn default() -> Self {
+        Self::EVERY
+    }
+}
+
 /// A rectangle of pixels, y downwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crop {
@@ -84,7 +120,7 @@ impl Crop {
 /// Which values a film holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
-    /// Each sub-sample clamped to [0, 1] before the mean: what a display shows.
+    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the mean, coded by sRGB.
     #[default]
     Display,
     /// The plain mean of the sub-samples.

@@ -1,14 +1,14 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
-use super::camera::{Twist, camera_ray, image_point, lens_point, lens_samples};
-use super::film::{Counts, Crop, Film, Job, Values};
+use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
+use super::film::{Counts, Crop, Film, Job, Stride, Values};
 use super::geometry::Geometry;
 use super::sampler::Key;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
-use crate::plan::{Features, Sight};
+use crate::plan::{Effect, Features, Sight};
 use crate::valid::{Mode, Pattern};
 use rayon::prelude::*;
 
@@ -22,14 +22,14 @@ impl<S: Geometry> World<S> {
         match self.scene.settings().mode {
             Mode::Zbuffer => {
                 let (mut depths, counts) =
-                    self.tiles(whole, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
+                    self.tiles(whole, job.stride, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
                 Some(Film { image, counts })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
-                let (pixels, counts) = self.tiles(crop, proceed, pixel)?;
+                let (pixels, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
             }
         }
@@ -39,13 +39,14 @@ impl<S: Geometry> World<S> {
     fn tiles<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
+        stride: Stride,
         proceed: &(dyn Fn(u64) -> bool + Sync),
         value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
     ) -> Option<(Vec<T>, Counts)> {
         let mut pixels = vec![T::default(); crop.width as usize * crop.height as usize];
         let row = |(y, row): (u32, &mut [T])| {
             let mut tracer = Tracer::new(self);
-            for (x, pixel) in (crop.x..).zip(row) {
+            for (x, pixel) in (crop.x..).zip(row).step_by(stride.get() as usize) {
                 let before = tracer.counts.rays();
                 *pixel = value(&mut tracer, [x, y]);
                 if !proceed(tracer.counts.rays() - before) {
@@ -56,6 +57,7 @@ impl<S: Geometry> World<S> {
         };
         let width = (crop.width as usize).max(1);
         let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
+        let rows = rows.step_by(stride.get() as usize);
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some((pixels, counts))
     }
@@ -67,8 +69,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         if job.tiles.is_some_and(|tiles| !tiles.contain(pixel)) {
             return [0.0; 3];
         }
+        self.pixel = pixel;
         let scene = self.scene();
         let camera = scene.camera();
+        let hits = self.counts.hits;
         let sight = self.world.plan.region.sight(pixel);
         if sight == Sight::Nothing {
             return [0.0; 3];
@@ -90,10 +94,14 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     let radiance = match first.filter(|_| sight == Sight::Uniform) {
                         Some(first) => first,
                         None => {
-                            let ray = camera_ray(lens_point(camera, k, twist), target);
+                            let ray = ray_through(camera, lens_point(camera, k, twist), target);
                             self.radiance(ray, Key::new(pixel, sample).seeded(job.seeds.path))
                         }
                     };
+                    self.weightless = false;
+                    self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
+                        plan.region.sight(pixel) == Sight::Uniform && first.is_some_and(|first| first != radiance)
+                    });
                     first = Some(radiance);
                     sum += match job.values {
                         Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
@@ -103,6 +111,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 }
             }
         }
+        self.weightless = false;
+        self.verify(Effect::Surfaces, "a pixel that shows nothing shows something", |plan| {
+            plan.region.sight(pixel) == Sight::Nothing && self.counts.hits > hits
+        });
         (sum / sample as f64).to_array()
     }
 
@@ -112,7 +124,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return None;
         }
         let camera = self.scene().camera();
-        let ray = camera_ray(camera.eye, image_point(camera, pixel, [0.5; 2]));
+        let ray = ray_through(camera, camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)
     }
 }

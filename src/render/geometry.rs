@@ -4,6 +4,7 @@ use super::bounds::Bounds;
 use super::instance::Details;
 use super::ray::{Interaction, Ray};
 use super::triangle::Shear;
+use crate::math::Vec3;
 use crate::valid;
 use std::sync::Arc;
 
@@ -40,6 +41,18 @@ pub trait Geometry: Sized + Send + Sync {
     /// What the shape knows of the point beyond its geometry.
     #[must_use]
     fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details;
+
+    /// How many flat parts it has that can be lights; each is a `part` of [`Geometry::intersect`].
+    #[must_use]
+    fn triangles(&self) -> usize {
+        0
+    }
+
+    /// The corners of such a part.
+    #[must_use]
+    fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
+        None
+    }
 
     /// A box around it, for shapes that have an end.
     #[must_use]

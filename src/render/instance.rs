@@ -50,6 +50,8 @@ pub struct Instance {
     origin: Vec3,
     /// The rows of the inverse of the axes.
     inverse: [Vec3; 3],
+    /// Whether the map turns left hands into right ones.
+    mirrors: bool,
     bounds: Bounds,
 }
 
@@ -59,7 +61,8 @@ impl Instance {
     pub fn new(mesh: &Arc<PreparedMesh>, [x, y, z, origin]: [Vec3; 4]) -> Self {
         let volume = cross(x, y).dot(z);
         let inverse = [cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume];
-        let mut instance = Self { mesh: Arc::clone(mesh), axes: [x, y, z], origin, inverse, bounds: Bounds::EMPTY };
+        let (axes, mirrors) = ([x, y, z], volume < 0.0);
+        let mut instance = Self { mesh: Arc::clone(mesh), axes, origin, inverse, mirrors, bounds: Bounds::EMPTY };
         let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices());
         for corner in corners {
             let point = instance.to_world(*corner);
@@ -132,6 +135,16 @@ impl Instance {
         !self.mesh.mesh.uvs.is_empty()
     }
 
+    /// How many triangles it has.
+    pub(super) fn parts(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// The corners of triangle `part` in the world.
+    pub(super) fn corners(&self, part: u32) -> [Vec3; 3] {
+        self.mesh.triangles[part as usize].vertices().map(|corner| self.to_world(corner))
+    }
+
     /// Whether the mesh has normals of its own.
     pub(super) fn has_shading_normals(&self) -> bool {
         !self.mesh.mesh.normals.is_empty()
@@ -151,8 +164,21 @@ impl Instance {
         });
         let uvs = (!mesh.uvs.is_empty()).then(|| corners.map(|k| mesh.uvs[k]));
         let uv = uvs.map(|uvs| interpolate(uvs, weights));
-        let tangent = uvs.and_then(|uvs| triangle.tangent(uvs)).map(|tangent| self.vector_to_world(tangent));
-        Details { normal: normal.filter(|normal| *normal != Vec3::ZERO), uv, tangent }
+        let (tangent, side) = match mesh.tangents.as_slice() {
+            [] => (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness)),
+            tangents => {
+                let [x, y, z, w] = blend(corners.map(|k| tangents[k]), weights);
+                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
+            }
+        };
+        Details {
+            normal: normal.filter(|normal| *normal != Vec3::ZERO),
+            uv,
+            tangent: tangent.map(|tangent| self.vector_to_world(tangent)),
+            side: if self.mirrors { -side } else { side },
+            second_uv: (!mesh.second_uvs.is_empty()).then(|| interpolate(corners.map(|k| mesh.second_uvs[k]), weights)),
+            color: (!mesh.colors.is_empty()).then(|| blend(corners.map(|k| mesh.colors[k]), weights)),
+        }
     }
 
     /// A box around it.
@@ -162,7 +188,7 @@ impl Instance {
 }
 
 /// What a surface knows of a point beyond its geometry.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Details {
     /// The unit shading normal, where it is not the geometric one.
     pub normal: Option<Vec3>,
@@ -170,6 +196,29 @@ pub struct Details {
     pub uv: Option<[f64; 2]>,
     /// A direction along the surface in which u grows and v stays.
     pub tangent: Option<Vec3>,
+    /// ±1: the second axis of normal maps is `side·(normal × tangent)`.
+    pub side: f64,
+    /// The second set of texture coordinates.
+    pub second_uv: Option<[f64; 2]>,
+    /// The colour of the corners, with alpha.
+    pub color: Option<[f64; 4]>,
+}
+
+impl Default for Details {
+    fn default() -> Self {
+        Self { normal: None, uv: None, tangent: None, side: 1.0, second_uv: None, color: None }
+    }
+}
+
+/// The side on which the second axis of a normal map lies: against v, which glTF counts downwards.
+fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    -1.0_f64.copysign(area)
+}
+
+/// The mean with these weights of the corners.
+fn blend(values: [[f64; 4]; 3], weights: [f64; 3]) -> [f64; 4] {
+    [0, 1, 2, 3].map(|axis| (0..3).map(|k| weights[k] * values[k][axis]).sum())
 }
 
 /// The uv at a point with these weights of the corners.

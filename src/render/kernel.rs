@@ -3,11 +3,12 @@
 use super::basic::Basic;
 use super::film::{Film, Job};
 use super::geometry::Geometry;
+use super::path::Strategy;
 use super::plain::PlainShape;
 use super::shape::Shape;
 use super::world::World;
 use crate::plan::{Arithmetic, Features, Plan, Shapes};
-use crate::valid::ValidScene;
+use crate::valid::{Mode, ValidScene};
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +49,25 @@ pub fn choose(needed: Features) -> usize {
     able.min_by_key(|index| KERNELS[*index].features.count()).unwrap_or(KERNELS.len() - 1)
 }
 
+/// Calls a method of a world with the features of the integrator that its plan chooses.
+macro_rules! dispatch {
+    ($world:ident.$method:ident $arguments:tt) => {
+        $crate::render::kernel::dispatch!(@ $world.$method $arguments; 0 1 2 3 4 5 6 7 8 9 10)
+    };
+    (@ $world:ident.$method:ident $arguments:tt; $($index:literal)*) => {
+        match $crate::render::kernel::choose($world.plan.features) {
+            $($index => {
+                $crate::render::kernel::dispatch!(@ $world.$method::<$index> $arguments)
+            })*
+            _ => $crate::render::kernel::dispatch!(@ $world.$method::<11> $arguments),
+        }
+    };
+    (@ $world:ident.$method:ident::<$index:literal> ($($argument:expr),*)) => {
+        $world.$method::<{ $crate::render::kernel::KERNELS[$index].features.0 }>($($argument),*)
+    };
+}
+pub(super) use dispatch;
+
 /// Renders a scene as planned, on the threads of the current pool; `None` if `proceed` said stop.
 ///
 /// `proceed` is called from all threads after each pixel with the number of rays it took.
@@ -65,15 +85,10 @@ impl<S: Geometry> World<S> {
     /// Renders on the threads of the current pool; see [`render`].
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
-        macro_rules! run {
-            ($($index:literal)*) => {
-                match choose(self.plan.features) {
-                    $($index => self.render_with::<{ KERNELS[$index].features.0 }>(job, proceed),)*
-                    _ => self.render_with::<{ KERNELS[11].features.0 }>(job, proceed),
-                }
-            };
+        if let Mode::Path(path) = self.scene.settings().mode {
+            return self.render_paths(path, Strategy::Both, job, proceed);
         }
-        run!(0 1 2 3 4 5 6 7 8 9 10)
+        dispatch!(self.render_with(job, proceed))
     }
 }
 

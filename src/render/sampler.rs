@@ -50,21 +50,24 @@ pub(super) fn mix(x: u64) -> u64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscPoints {
     count: u32,
+    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points without bias.
+    shift: f64,
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
 }
 
 impl DiscPoints {
-    /// A set of `count` points.
+    /// A set of `count` points, each in the middle of its ring or, if `spread`, anywhere in it.
     #[must_use]
-    pub(super) fn new(count: u32, key: Key) -> Self {
-        Self { count, rotation: key.bits(2) }
+    pub(super) fn new(count: u32, key: Key, spread: bool) -> Self {
+        let shift = if spread { key.uniform(3) } else { 0.5 };
+        Self { count, shift, rotation: key.bits(2) }
     }
 
     /// Point k.
     #[must_use]
     pub(super) fn point(&self, k: u32) -> [f64; 2] {
-        let r = ((f64::from(k) + 0.5) / f64::from(self.count)).sqrt();
+        let r = ((f64::from(k) + self.shift) / f64::from(self.count)).sqrt();
         let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
         [r * x, r * y]
     }

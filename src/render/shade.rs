@@ -6,7 +6,7 @@ use super::ray::Interaction;
 use super::sampler::{DiscPoints, Key};
 use super::whitted::Tracer;
 use crate::math::{Basis, Vec3};
-use crate::plan::{Features, Rule};
+use crate::plan::{Effect, Features, Rule};
 use crate::valid::{Gooch, Light, Phong};
 
 /// A point seen from one side.
@@ -27,6 +27,14 @@ pub(super) struct View<'world> {
     pub(super) surface: usize,
     /// Names the point for sampling.
     pub(super) key: Key,
+}
+
+/// Whether something may hide a light from a point.
+#[derive(Clone, Copy)]
+struct Hidden {
+    /// The index of the light.
+    light: usize,
+    maybe: bool,
 }
 
 /// A light as seen from a point.
@@ -62,24 +70,31 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 continue;
             }
             let mut term = view.color * view.material.ka.get();
+            let ambient = term;
             if Self::can(Features::LIGHT) && plan.direct {
-                let shadowed = plan.shadowed[view.surface];
+                let shadowed = Hidden { light: index, maybe: plan.shadowed[view.surface] };
                 if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
                     term += self.direct(view, light.position, shadowed);
                 } else {
                     let key = view.key.child(index as u64);
-                    let points = soft_light_points(light, view.interaction.point, samples, key);
+                    let points = DiscPoints::new(samples, key, self.spread);
+                    let points = on_soft_light(light, view.interaction.point, samples, points);
                     let direct = points.map(|point| self.direct(view, point, shadowed)).sum::<Vec3>();
                     term += direct / f64::from(samples);
                 }
             }
+            self.verify(Effect::DirectLight, "a light left out shines", |plan| {
+                let kept = &plan.lights[index];
+                let left_out = if kept.kept { term - ambient } else { term };
+                !(kept.kept && kept.direct) && light.color * left_out != Vec3::ZERO
+            });
             sum += light.color * term;
         }
         sum
     }
 
     /// What one point of a light adds, for a light of colour 1.
-    fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: bool) -> Vec3 {
+    fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
         let diffuse = view.color * view.material.kd.get();
         let shines = Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
         if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
@@ -97,12 +112,17 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 
     /// Whether a surface faces a light and nothing stands between.
-    fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: bool) -> bool {
+    fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: Hidden) -> bool {
         let faces = n_dot_l > 0.0;
         if !faces && self.applies(Rule::ShadowFacing) {
             return false;
         }
-        let sees = !Self::can(Features::SHADOW) || !shadowed || self.sees(view, light);
+        let sees = !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(view, light);
+        self.verify(Effect::Shadows, "a shadow ray left out is blocked", |plan| {
+            let light = &plan.lights[shadowed.light];
+            let shows = view.ks > 0.0 || view.color * view.material.kd.get() != Vec3::ZERO;
+            faces && !sees && light.direct && !light.shadowed[view.surface] && shows
+        });
         faces && sees
     }
 
@@ -133,10 +153,10 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 }
 
-/// Points of the disc that a soft light shows to `from`.
-fn soft_light_points(light: &Light, from: Vec3, count: u32, key: Key) -> impl Iterator<Item = Vec3> {
+/// The first points of the disc that a soft light shows to `from`.
+fn on_soft_light(light: &Light, from: Vec3, count: u32, points: DiscPoints) -> impl Iterator<Item = Vec3> {
     let towards = (light.position - from).try_normalize().unwrap_or(Vec3::Z);
-    let (basis, points) = (Basis::around(towards), DiscPoints::new(count, key));
+    let basis = Basis::around(towards);
     let (center, radius) = (light.position, light.radius.get());
     (0..count).map(move |k| {
         let [x, y] = points.point(k);

@@ -134,7 +134,7 @@ impl Geometry for Shape {
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
             Self::Quad(quad) => {
                 let [u, v] = quad.uv(ray, at.point, part);
-                Details { normal: None, uv: Some([u, v]), tangent: quad.tangent(v) }
+                Details { uv: Some([u, v]), tangent: quad.tangent(v), ..Details::default() }
             }
             Self::Instance(instance) => instance.details(at.point, part),
             Self::Triangle(_, None)
@@ -143,6 +143,34 @@ impl Geometry for Shape {
             | Self::Cylinder(_)
             | Self::Cone(_)
             | Self::Torus(_) => Details::default(),
+        }
+    }
+
+    fn triangles(&self) -> usize {
+        match self {
+            Self::Triangle(..) => 1,
+            Self::Instance(instance) => instance.parts(),
+            Self::Sphere(..)
+            | Self::Plane(_)
+            | Self::Quad(_)
+            | Self::Disc(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_)
+            | Self::Torus(_) => 0,
+        }
+    }
+
+    fn corners(&self, part: u32) -> Option<[Vec3; 3]> {
+        match self {
+            Self::Triangle(triangle, _) => Some(*triangle.vertices()),
+            Self::Instance(instance) => Some(instance.corners(part)),
+            Self::Sphere(..)
+            | Self::Plane(_)
+            | Self::Quad(_)
+            | Self::Disc(_)
+            | Self::Cylinder(_)
+            | Self::Cone(_)
+            | Self::Torus(_) => None,
         }
     }
 
@@ -168,10 +196,11 @@ pub(super) fn sphere_details([x, y, z]: [Vec3; 3], direction: Vec3) -> Details {
     let u = if turns < 0.0 { turns + 1.0 } else { turns };
     let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
     let tangent = (y * d.x - x * d.y).try_normalize();
-    Details { normal: None, uv: Some([u, v]), tangent }
+    Details { uv: Some([u, v]), tangent, ..Details::default() }
 }
 
 /// uv between those of the corners.
 pub(super) fn triangle_details(triangle: &Triangle, uvs: [[f64; 2]; 3], at: &Interaction) -> Details {
-    Details { normal: None, uv: Some(interpolate(uvs, triangle.weights(at.point))), tangent: triangle.tangent(uvs) }
+    let uv = Some(interpolate(uvs, triangle.weights(at.point)));
+    Details { uv, tangent: triangle.tangent(uvs), ..Details::default() }
 }

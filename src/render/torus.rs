@@ -59,26 +59,24 @@ impl Line {
     /// quartic's critical points.
     fn first_root(&self, low: f64, high: f64) -> Option<f64> {
         let (linear, constant) = self.derivative();
-        let mut borders = [high; 4];
-        borders[..3].copy_from_slice(&cubic_roots(linear, constant, low, high));
-        let (mut before, mut inside) = (low, self.distance(low) < 0.0);
+        let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
+        let mut before = (low, self.distance(low));
         for border in borders {
-            let there = self.distance(border);
-            if there == 0.0 && border > low {
+            let there = (border, self.distance(border));
+            if there.1 == 0.0 && border > low {
                 return Some(border);
             }
-            if (there < 0.0) != inside {
-                return Some(self.bisect(before, border));
+            if (there.1 < 0.0) != (before.1 < 0.0) {
+                return Some(self.bisect(before, there));
             }
-            (before, inside) = (border, there < 0.0);
+            before = there;
         }
         None
     }
 
-    /// The root between two points where the distance has opposite signs: secant steps, kept inside the bracket by
+    /// The root between two points given with their distances, which have opposite signs: secant steps, kept inside the bracket by
     /// bisection (Dekker's method with Illinois' weights).
-    fn bisect(&self, low: f64, high: f64) -> f64 {
-        let (mut a, mut b) = ((low, self.distance(low)), (high, self.distance(high)));
+    fn bisect(&self, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
         for step in 0..MAX_STEPS {
             let middle = 0.5 * (a.0 + b.0);
             let secant = b.0 - b.1 * ((b.0 - a.0) / (b.1 - a.1));
@@ -99,40 +97,39 @@ impl Line {
     }
 }
 
-/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order; places without a root hold `high`.
-fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> [f64; 3] {
-    let value = |s: f64| (s * s + linear) * s + constant;
+/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is asked for.
+fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
     // Bracket by the extremes of the cubic.
     let spread = (-linear / 3.0).max(0.0).sqrt();
     let borders = [low, (-spread).clamp(low, high), spread.clamp(low, high), high];
-    let mut roots = [high; 3];
-    let mut count = 0;
-    for pair in borders.windows(2) {
-        let (mut a, mut b) = (pair[0], pair[1]);
-        let rises = value(b) > value(a);
-        if a >= b || (value(a) < 0.0) == (value(b) < 0.0) {
-            continue;
-        }
-        let mut at = 0.5 * (a + b);
-        for _ in 0..MAX_STEPS {
-            let height = value(at);
-            if (height > 0.0) == rises {
-                b = at
-            } else {
-                a = at
-            }
-            // A Newton step, or half the bracket where it leaves it.
-            let newton = at - height / (3.0 * at * at + linear);
-            let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
-            if next == at || next <= a || next >= b {
-                break;
-            }
-            at = next;
-        }
-        roots[count] = at;
-        count += 1;
+    (0..3).filter_map(move |k| cubic_root(linear, constant, borders[k], borders[k + 1]))
+}
+
+/// The root of the cubic between two points, if it changes sign there.
+fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64> {
+    let value = |s: f64| (s * s + linear) * s + constant;
+    let (first, last) = (value(a), value(b));
+    if a >= b || (first < 0.0) == (last < 0.0) {
+        return None;
     }
-    roots
+    let rises = last > first;
+    let mut at = 0.5 * (a + b);
+    for _ in 0..MAX_STEPS {
+        let height = value(at);
+        if (height > 0.0) == rises {
+            b = at
+        } else {
+            a = at
+        }
+        // A Newton step, or half the bracket where it leaves it.
+        let newton = at - height / (3.0 * at * at + linear);
+        let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+        if next == at || next <= a || next >= b {
+            break;
+        }
+        at = next;
+    }
+    Some(at)
 }
 
 impl Torus {

@@ -11,7 +11,7 @@ use super::shade::View;
 use super::texture::{Frame, look_up};
 use super::world::World;
 use crate::math::Vec3;
-use crate::plan::{Features, Rule};
+use crate::plan::{Effect, Features, Plan, Rule};
 use crate::valid::{Mode, Phong, ValidScene};
 
 /// One path under way.
@@ -54,6 +54,12 @@ struct Fan {
 pub(super) struct Tracer<'world, S, const F: u32> {
     pub(super) world: &'world World<S>,
     pending: Vec<Pending>,
+    /// The pixel under way.
+    pub(super) pixel: [u32; 2],
+    /// Whether the path under way counts 0 times: then nothing it meets says anything about a plan.
+    pub(super) weightless: bool,
+    /// Whether points of soft lights are spread without bias, however few they are.
+    pub(super) spread: bool,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
@@ -62,7 +68,8 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// A tracer of the world.
     #[must_use]
     pub(super) fn new(world: &'world World<S>) -> Self {
-        Self { world, pending: Vec::new(), counts: Counts::default() }
+        let (pixel, counts) = ([0; 2], Counts::default());
+        Self { world, pending: Vec::new(), pixel, weightless: false, spread: false, counts }
     }
 
     /// The scene traced.
@@ -83,14 +90,27 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         !Self::can(Features::NAIVE) || self.world.plan.rules.contains(rule)
     }
 
+    /// Reports a fault of the plan under validation, if there is one and `is_fault` finds it.
+    pub(super) fn verify(&self, effect: Effect, what: &'static str, is_fault: impl FnOnce(&Plan) -> bool) {
+        if Self::can(Features::NAIVE)
+            && !self.weightless
+            && let Some(verify) = &self.world.verify
+            && is_fault(&verify.plan)
+        {
+            verify.report(self.pixel, effect, what);
+        }
+    }
+
     /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
     pub(super) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
+        self.weightless = false;
         let first = Path { ray, beta: 1.0, bounces_left: depth, key, kind: Kind::Mirrored };
         if let Some(view) = self.view(&first.ray, first.key) {
             self.counts.hits += 1;
+            self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| !plan.surfaces[view.surface]);
             sum += self.local(&view);
             if Self::can(Features::BOUNCE) {
                 self.branch(&first, &view);
@@ -99,12 +119,26 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         while Self::can(Features::BOUNCE)
             && let Some(path) = self.next_path()
         {
+            self.weightless = path.beta == 0.0;
             if let Some(view) = self.view(&path.ray, path.key) {
-                sum += self.local(&view) * path.beta;
+                let value = self.local(&view) * path.beta;
+                self.verify_bounce(&path, &view, value);
+                sum += value;
                 self.branch(&path, &view);
             }
         }
         sum
+    }
+
+    /// Looks whether a bounce that counts meets what the plan leaves out.
+    fn verify_bounce(&self, path: &Path, view: &View<'_>, value: Vec3) {
+        let bounces = self.world.plan.max_depth - path.bounces_left;
+        self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
+            bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
+        });
+        self.verify(Effect::Surfaces, "a bounce meets a surface left out", |plan| {
+            bounces <= plan.max_depth && !plan.surfaces[view.surface]
+        });
     }
 
     /// The distance along a camera ray to what it sees.

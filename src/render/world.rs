@@ -6,6 +6,7 @@ use super::material::Materials;
 use super::ray::Ray;
 use super::shape::Shape;
 use super::triangle::Shear;
+use super::verify::Verify;
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::valid::{self, Phong, ValidScene};
@@ -43,6 +44,8 @@ pub struct World<S = Shape> {
     pub materials: Vec<Phong>,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
+    /// The plan to be validated by a naive render.
+    pub(super) verify: Option<Verify>,
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
@@ -72,7 +75,7 @@ impl<S: Geometry> World<S> {
         }
         let bvh = Bvh::build(&boxes);
         let materials = materials.all;
-        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, unbounded, bounded, bvh }
+        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, verify: None, unbounded, bounded, bvh }
     }
 
     /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
@@ -120,7 +123,7 @@ impl<S: Geometry> World<S> {
     }
 
     /// Whether anything is hit with 0 < t < `t_max`.
-    fn any(&self, ray: &Ray, t_max: f64) -> bool {
+    pub(super) fn any(&self, ray: &Ray, t_max: f64) -> bool {
         const FOUND: f64 = -1.0;
         let shear = Shear::new(ray);
         let hits = |surface: u32| {

@@ -14,6 +14,7 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
     };
     let mut lines = vec![best(study, &front[chosen..])];
     lines.extend(study.own().map(|own| about_own(study, own, &front)));
+    lines.extend(precision(study));
     if study.reference.depth == Some(DepthEnd::Open) {
         lines.push(
             "Paths go deeper than this study could follow: errors hold for the depth of the reference.".to_owned(),
@@ -44,20 +45,33 @@ fn best(study: &Study, rows: &[&Row]) -> String {
 fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
     let words = own.setting.words(&study.used());
     if own.front {
-        return format!("The scene's own setting, {words}, is on the front.");
+        let bargain = |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * own.errors.rmse;
+        let line = format!("The scene's own setting, {words}, is on the front");
+        return match front.iter().rfind(bargain) {
+            Some(row) => format!("{line}, but {}.", instead(study, row, own)),
+            None => line + ".",
+        };
     }
     let better = front.iter().rfind(|row| row.seconds.value <= own.seconds.high);
     let better = better.or(front.first());
     match better {
-        Some(row) => format!(
-            "The scene's own setting, {words}, is off the front: {} has {} instead of {} for {:.2}× the time.",
-            row.setting.words(&study.used()),
-            error(row),
-            digits(own.errors.rmse),
-            row.ratio.value
-        ),
+        Some(row) => format!("The scene's own setting, {words}, is off the front: {}.", instead(study, row, own)),
         None => format!("The scene's own setting is {words}."),
     }
+}
+
+/// What a row has that the scene's own setting has not.
+fn instead(study: &Study, row: &Row, own: &Row) -> String {
+    let (words, times) = (row.setting.words(&study.used()), row.ratio.value);
+    format!("{words} has {} instead of {} for {times:.2}× the time", error(row), digits(own.errors.rmse))
+}
+
+/// The fastest arithmetic that nobody could tell from the robust one by looking.
+fn precision(study: &Study) -> Option<String> {
+    let same = study.precision.iter().filter(|cost| cost.difference.visible == 0.0 && cost.ratio.high < 0.95);
+    let fastest = same.min_by(|a, b| a.ratio.value.total_cmp(&b.ratio.value))?;
+    let (name, times) = (&fastest.arithmetic, fastest.ratio.value);
+    Some(format!("In {name} arithmetic no pixel looked at differs by a grey level, for {times:.2}× the time."))
 }
 
 /// As "error 0.4 grey levels".

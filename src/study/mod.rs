@@ -10,13 +10,16 @@ mod flip;
 mod front;
 mod knob;
 mod metrics;
+mod noise;
 mod outcome;
+mod precision;
 mod race;
 mod reference;
 mod report;
 mod statistics;
 mod subject;
 mod sweep;
+mod target;
 
 pub use bench::{Bench, Clock};
 pub use effects::EffectCost;
@@ -25,10 +28,12 @@ pub use front::{Point, front};
 pub use knob::{Knob, Setting, idle};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
+pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Rung};
 pub use report::{csv, html, json, table};
 pub use statistics::{Chance, Estimate, PowerLaw, median};
 pub use subject::Stopped;
+pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach};
 
 use crate::ir::Scene;
 use crate::render::Seeds;
@@ -57,7 +62,8 @@ const FOR_DEPTH: u64 = 5;
 const FOR_REFERENCE: u64 = 40;
 const FOR_SWEEPS: u64 = 15;
 const FOR_ROWS: u64 = 30;
-const FOR_EFFECTS: u64 = 10;
+const FOR_EFFECTS: u64 = 6;
+const FOR_PRECISION: u64 = 4;
 
 /// A reference may be off by this share of an error that it judges.
 const JUDGE: f64 = 0.2;
@@ -73,6 +79,7 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
     let mut chance = Chance::new(seed);
     let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
     let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut chance)?;
+    let precision = precision::costs(&subject, scope.own, scope.hundredths(FOR_PRECISION), &mut chance)?;
     let mut study = Study {
         schema: "rtc-cost/1".to_owned(),
         about,
@@ -88,6 +95,7 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
         knobs: Knob::ALL.map(|knob| grounds.model.report(knob, idle(knob, scene))).to_vec(),
         rows,
         effects,
+        precision,
         wall_over_cpu,
         advice: Vec::new(),
         truth: grounds.reference.tiles,

@@ -4,7 +4,7 @@ use super::knob::{Knob, Setting};
 use super::metrics::Errors;
 use super::reference::{DepthEnd, Rung};
 use super::statistics::{Estimate, PowerLaw};
-use super::{EffectCost, Effort};
+use super::{EffectCost, Effort, PrecisionCost};
 use crate::image::Image;
 use crate::render::Counts;
 use serde::{Deserialize, Serialize};
@@ -142,6 +142,8 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// What each effect costs.
     pub effects: Vec<EffectCost>,
+    /// What each arithmetic costs.
+    pub precision: Vec<PrecisionCost>,
     /// Wall time over processor time: above 1.2 the machine was busy.
     pub wall_over_cpu: f64,
     /// What follows, in plain words.

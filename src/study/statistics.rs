@@ -161,6 +161,28 @@ fn student(degrees: usize) -> f64 {
     }
 }
 
+/// The number that a standard normal variable exceeds with the probability `tail` ≤ 1/2, to 0.0005 (Abramowitz and
+/// Stegun, "Handbook of mathematical functions" (1964), 26.2.23).
+pub(super) fn normal_quantile(tail: f64) -> f64 {
+    let t = (-2.0 * ln(tail)).sqrt();
+    t - (2.515_517 + t * (0.802_853 + t * 0.010_328)) / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
+}
+
+/// The number that Fisher's F of `over` and `under` degrees of freedom exceeds with the probability `tail`; infinite where
+/// the approximation (Paulson, Annals of Mathematical Statistics 13 (1942)) has none.
+pub(super) fn fisher_quantile(tail: f64, over: f64, under: f64) -> f64 {
+    let z = normal_quantile(tail);
+    // Both χ² are the cubes of normal variables (Wilson and Hilferty): means 1 − a and 1 − b, variances a and b.
+    let (a, b) = (2.0 / (9.0 * over), 2.0 / (9.0 * under));
+    let (ma, mb) = (1.0 - a, 1.0 - b);
+    let denominator = mb * mb - z * z * b;
+    if denominator <= 0.0 || ma <= 0.0 {
+        return f64::INFINITY;
+    }
+    let root = (ma * mb + z * (ma * ma * b + mb * mb * a - z * z * a * b).max(0.0).sqrt()) / denominator;
+    root * root * root
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,6 +210,19 @@ mod tests {
             held += usize::from(estimate.low <= 0.5 && 0.5 <= estimate.high);
         }
         assert!((180..=199).contains(&held), "{held} of 200");
+    }
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        let normal = [(0.5, 0.0), (0.05, 1.6449), (0.025, 1.9600), (0.001, 3.0902)];
+        for (tail, z) in normal {
+            assert!((normal_quantile(tail) - z).abs() < 1e-3, "{tail}");
+        }
+        let fisher = [(0.05, 10.0, 20.0, 2.348), (0.05, 60.0, 120.0, 1.429), (0.01, 30.0, 60.0, 2.028)];
+        for (tail, over, under, f) in fisher {
+            assert!((fisher_quantile(tail, over, under) / f - 1.0).abs() < 0.005);
+        }
+        assert_eq!(fisher_quantile(0.001, 0.5, 1.0), f64::INFINITY);
     }
 
     #[test]

@@ -6,8 +6,8 @@ use super::knob::Setting;
 use crate::diag::Sink;
 use crate::image::Image;
 use crate::ir::{Origins, Pattern, Scene};
-use crate::plan::{Plan, Rules};
-use crate::render::{Counts, Crop, Job, Seeds, Tiles, Values, render};
+use crate::plan::{Arithmetic, Plan, Rules};
+use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
 use crate::valid::{self, ValidScene};
 
 /// A scene, and the part of its picture that is looked at.
@@ -17,6 +17,7 @@ pub(super) struct Subject<'bench> {
     seed: u64,
     /// The tiles by rank, as column and row.
     tiles: Vec<[u32; 2]>,
+    arithmetic: Arithmetic,
     bench: &'bench Bench<'bench>,
 }
 
@@ -37,7 +38,7 @@ impl<'bench> Subject<'bench> {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
         let mut tiles: Vec<_> = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
         tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
-        Self { scene: scene.clone(), seed, tiles, bench }
+        Self { scene: scene.clone(), seed, tiles, arithmetic: Arithmetic::Robust, bench }
     }
 
     /// The same with the first `count` tiles only, at least one.
@@ -50,6 +51,11 @@ impl<'bench> Subject<'bench> {
     /// The same part of another scene's picture.
     pub(super) fn with_scene(&self, scene: Scene) -> Self {
         Self { scene, ..self.clone() }
+    }
+
+    /// The same by another arithmetic.
+    pub(super) fn by(&self, arithmetic: Arithmetic) -> Self {
+        Self { arithmetic, ..self.clone() }
     }
 
     /// Whether all of the picture is looked at; then it is one tile.
@@ -93,7 +99,9 @@ impl<'bench> Subject<'bench> {
         let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
-            let work = || render(&scene, &Plan::new(&scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays));
+            let work = || {
+                render(&scene, &Plan::by(self.arithmetic, &scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays))
+            };
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -109,16 +117,14 @@ impl<'bench> Subject<'bench> {
         if seeds.pixel != 0 {
             scene.settings.pattern = Pattern::Jitter;
         }
-        let options = valid::Options { allow_huge: true };
-        let proof = valid::validate(&scene, &Origins::default(), &options, &mut Sink::default());
-        proof.expect("the scene was proven before, and a setting is in range")
+        prove(&scene)
     }
 
     fn render(&self, scene: &ValidScene, seeds: Seeds) -> Result<Shot, Stopped> {
         let last = self.tiles.last().map_or(0, |tile| Tiles::rank(self.seed, *tile));
         let tiles = Some(Tiles { seed: self.seed, last });
-        let job = Job { crop: None, values: Values::Display, tiles, seeds };
-        let plan = Plan::new(scene, Rules::ALL);
+        let job = Job { tiles, seeds, ..Job::default() };
+        let plan = Plan::by(self.arithmetic, scene, Rules::ALL);
         let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
@@ -134,6 +140,13 @@ impl<'bench> Subject<'bench> {
         let side = Tiles::SIDE;
         Crop { x: x * side, y: y * side, width: side, height: side }.within(width, height)
     }
+}
+
+/// The proof of a scene that was proven before, in whatever setting.
+pub(super) fn prove(scene: &Scene) -> ValidScene {
+    let options = valid::Options { allow_huge: true };
+    let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
+    proof.expect("the scene was proven before, and a setting is in range")
 }
 
 /// A part of a picture.

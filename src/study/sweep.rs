@@ -143,7 +143,9 @@ impl Model {
 
 impl Ladder {
     fn error(&self, value: u32) -> f64 {
-        let clear: Vec<_> = self.rungs.iter().filter(|rung| rung.resolved || self.knob == Knob::Depth).collect();
+        // The first rung leaves the most error; it counts even where the noise hides it.
+        let counts = |(index, rung): &(usize, &Rung)| *index == 0 || rung.resolved || self.knob == Knob::Depth;
+        let clear: Vec<_> = self.rungs.iter().enumerate().filter(counts).map(|(_, rung)| rung).collect();
         if let Some(rung) = clear.iter().find(|rung| rung.value == value) {
             return rung.error;
         }

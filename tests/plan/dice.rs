@@ -68,6 +68,8 @@ impl Dice {
             surfaces: (0..surfaces)
                 .map(|_| ir::Surface { shape: self.shape(), material: MaterialId(self.roll(materials)) })
                 .collect(),
+            names: Vec::new(),
+            environment: None,
         }
     }
 
@@ -82,7 +84,7 @@ impl Dice {
         let (right, up) = view_basis(gaze, up * self.pick(&[0.1, 0.5, 1.0])).unwrap();
         let lens = ir::Lens { radius: self.pick(&[0.0, 0.0, 0.0, 0.5]), samples: 1 + self.roll(3) };
         let (center, right, up) = (center, right.to_array(), up.to_array());
-        ir::Camera { eye, center, right, up, size: [11, 9], lens }
+        ir::Camera { eye, center, right, up, size: [11, 9], lens, projection: ir::Projection::Perspective }
     }
 
     fn settings(&mut self) -> ir::Settings {
@@ -112,7 +114,8 @@ impl Dice {
     fn textures(&mut self) -> (Vec<ir::Image>, Vec<Texture>) {
         let image = |value: &dyn Fn(u8) -> u8| {
             let pixels = (0..12).map(value).collect::<Vec<_>>();
-            ir::Image { name: "dice".to_owned(), width: 2, height: 2, pixels: STANDARD.encode(pixels) }
+            let (kind, pixels) = (ir::Pixels::Rgb8, STANDARD.encode(pixels));
+            ir::Image { name: "dice".to_owned(), width: 2, height: 2, kind, pixels }
         };
         let images = vec![image(&|k| 20 * k), image(&|k| [90, 180, 30][usize::from(k) % 3]), image(&|_| 0)];
         let image = |k| Texture::Image(ImageId(k));
@@ -156,6 +159,7 @@ impl Dice {
             normals,
             uvs,
             triangles: vec![[0, 1, 2], [0, 2, 3]],
+            ..ir::Mesh::default()
         }
     }
 

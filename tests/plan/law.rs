@@ -20,7 +20,9 @@ fn sets() -> Vec<(String, Rules)> {
 fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
     let scene = proven(scene);
     let mut faults = Vec::new();
-    for values in [Values::Linear, Values::Display] {
+    // What is clamped can only hide a difference; one set shows that it is clamped alike.
+    let kinds: &[Values] = if sets.len() == 1 { &[Values::Linear, Values::Display] } else { &[Values::Linear] };
+    for values in kinds.iter().copied() {
         let unpruned = film(&scene, Rules::NONE, values);
         for (name, rules) in sets {
             let pruned = film(&scene, *rules, values);
@@ -61,7 +63,7 @@ fn each_rule_alone_and_all_but_each_change_no_bit_of_the_scenes_of_the_repo() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
     fn all_rules_together_change_no_bit_of_a_random_scene(seed in any::<u64>()) {
@@ -71,7 +73,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
     fn each_rule_alone_changes_no_bit_of_a_random_scene(seed in any::<u64>()) {
@@ -86,7 +88,7 @@ fn each_rule_leaves_something_out_of_some_scene() {
     let mut idle = Rule::ALL.to_vec();
     let at_hits = [Rule::ShadowFacing, Rule::Cut, Rule::PixelMiss, Rule::PixelFlat];
     idle.retain(|rule| !at_hits.contains(rule));
-    for seed in 0..2000 {
+    for seed in 0..1000 {
         let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
         let fired = |rule: &Rule| plan.verdicts.iter().any(|verdict| verdict.rule == Some(*rule));
         idle.retain(|rule| !fired(rule));

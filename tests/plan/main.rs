@@ -17,10 +17,11 @@ mod need;
 mod oracle;
 mod sensitivity;
 mod stage;
+mod validation;
 
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Scene};
-use rtc::pipeline::{self, Options, Overrides};
+use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::pipeline::{self, Options};
 use rtc::plan::{Effect, Plan, Rule, Rules, State, Verdict};
 use rtc::render::{Film, Job, Values};
 use rtc::source::{Loader, SourceMap};
@@ -72,7 +73,7 @@ fn course(name: &str) -> Option<Scene> {
 fn small(mut scene: Scene) -> Scene {
     let (sampling, depth) = (scene.settings.supersampling.min(2), scene.settings.max_depth.min(4));
     let size = Some([22, 18]);
-    Overrides { size, supersampling: Some(sampling), depth: Some(depth), light_samples: None }.apply(&mut scene);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(3);
     scene.settings.light_samples = scene.settings.light_samples.min(4);
     scene

@@ -224,3 +224,14 @@ fn too_many_surfaces_are_kept_without_asking() {
 fn a_plane_is_never_said_to_spare_itself() {
     assert_eq!(fate(&with(&[(plane(-1.0), matt())]), Effect::Shadows).0, State::Needed);
 }
+
+/// What is said of materials takes one look at each surface.
+#[test]
+fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
+    let scene = with(&[(ball([-1.2, 0.0, 0.0], 1.0), matt()), (ball([1.2, 0.0, 0.0], 1.0), shiny())]);
+    let plan = Plan::new(&super::proven(&scene), Rules::ALL);
+    for effect in [Effect::Highlight, Effect::Mirror] {
+        let named = plan.verdicts.iter().filter(|verdict| verdict.effect == effect).filter_map(|verdict| verdict.of);
+        assert_eq!(named.map(|place| place.to_string()).collect::<Vec<_>>(), ["/materials/0"], "{effect:?}");
+    }
+}

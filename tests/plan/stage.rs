@@ -37,6 +37,7 @@ pub(super) fn stage() -> Scene {
             up: [0.0, 0.25, 0.0],
             size: [24, 20],
             lens: ir::Lens { radius: 0.0, samples: 1 },
+            projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
             mode: ir::Mode::Phong,
@@ -52,6 +53,8 @@ pub(super) fn stage() -> Scene {
         meshes: Vec::new(),
         materials: Vec::new(),
         surfaces: Vec::new(),
+        names: Vec::new(),
+        environment: None,
     }
 }
 
@@ -85,20 +88,19 @@ pub(super) fn plane(height: f64) -> Shape {
 
 /// The material of surface `index`.
 pub(super) fn material(scene: &mut Scene, index: usize) -> &mut Phong {
-    let Material::Phong(phong) = &mut scene.materials[index];
-    phong
+    scene.materials[index].phong_mut().unwrap()
 }
 
 /// The first light.
 pub(super) fn first_light(scene: &mut Scene) -> &mut ir::PointLight {
-    let Light::Point(light) = &mut scene.lights[0];
+    let Light::Point(light) = &mut scene.lights[0] else { panic!("the light of the stage is a point") };
     light
 }
 
 /// Adds a texture of 2 × 2 texels, one value but for the last.
 pub(super) fn texture(scene: &mut Scene, value: [u8; 3], last: [u8; 3]) -> TextureId {
     let pixels = STANDARD.encode([value, value, value, last].concat());
-    scene.images.push(ir::Image { name: "stage".to_owned(), width: 2, height: 2, pixels });
+    scene.images.push(ir::Image { name: "stage".to_owned(), width: 2, height: 2, kind: ir::Pixels::Rgb8, pixels });
     scene.textures.push(Texture::Image(ImageId(0)));
     TextureId(0)
 }
@@ -109,8 +111,8 @@ pub(super) fn square(scene: &mut Scene, normals: [[f64; 3]; 4]) {
         name: "square".to_owned(),
         positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
         normals: normals.to_vec(),
-        uvs: Vec::new(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..ir::Mesh::default()
     };
     scene.meshes.push(mesh);
     let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];

@@ -153,13 +153,10 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
 /// Materials that show somewhere, but never a highlight, beside others that do.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.is_shaded() && findings.any(|look| look.shines);
-    let materials = 0..findings.facts.scene.materials().len();
-    materials.filter(move |_| is_needed).filter_map(|material| {
-        let uses = || findings.reached().filter(|at| findings.facts.scene.surfaces()[*at].material == material);
-        let first = uses().next()?;
-        let shines = uses().any(|surface| findings.facts.looks[surface].shines);
-        let facts = vec![findings.material(first, Field::Ks)];
+    let surfaces = findings.materials_without(|look| look.shines).filter(move |_| is_needed);
+    surfaces.map(|surface| {
+        let facts = vec![findings.material(surface, Field::Ks)];
         let verdict = Verdict::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);
-        (!shines).then(|| verdict.of(findings.material(first, Field::Whole)))
+        verdict.of(findings.material(surface, Field::Whole))
     })
 }

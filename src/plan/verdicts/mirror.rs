@@ -97,14 +97,11 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
 /// Materials that show somewhere, but mirror nothing, beside others that do.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.max_depth > 0 && findings.any(Look::mirrors);
-    let materials = 0..findings.facts.scene.materials().len();
-    materials.filter(move |_| is_needed).filter_map(|material| {
-        let uses = || findings.reached().filter(|at| findings.facts.scene.surfaces()[*at].material == material);
-        let first = uses().next()?;
-        let mirrors = uses().any(|surface| findings.facts.looks[surface].mirrors());
-        let facts = vec![findings.material(first, Field::Ks)];
+    let surfaces = findings.materials_without(Look::mirrors).filter(move |_| is_needed);
+    surfaces.map(|surface| {
+        let facts = vec![findings.material(surface, Field::Ks)];
         let verdict = Verdict::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
-        (!mirrors).then(|| verdict.of(findings.material(first, Field::Whole)))
+        verdict.of(findings.material(surface, Field::Whole))
     })
 }
 

@@ -82,6 +82,16 @@ impl Findings<'_> {
         surfaces.find(|surface| !self.reach.reached[*surface] && shows(&self.facts.looks[*surface]))
     }
 
+    /// The materials of which no surface that is looked at shows something, each with such a surface.
+    fn materials_without(&self, shows: impl Fn(&Look) -> bool) -> impl Iterator<Item = usize> {
+        let mut without = vec![None; self.facts.scene.materials().len()];
+        for surface in self.reached() {
+            let first = without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
+            *first = first.filter(|_| !shows(&self.facts.looks[surface]));
+        }
+        without.into_iter().flatten().flatten()
+    }
+
     /// The verdict on an effect of shading in a mode that shows none, or shows it otherwise.
     fn by_mode(&self, effect: Effect, asked: bool) -> Option<Verdict> {
         let words = match self.mode() {

@@ -47,7 +47,7 @@ impl<R: Real> Cone<R> {
             let height = above + rise * t;
             if height >= R::of(0.0) && height <= self.height { t } else { none }
         };
-        let [first, second] = quadratic(a, b, c).map_or([none; 2], |roots| roots.map(within));
+        let [first, second] = quadratic(a, b, c)?.map(within);
         line.first([(first, side), (second, side), (self.cap.parameter(line), base)])
     }
 

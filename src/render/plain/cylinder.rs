@@ -42,7 +42,7 @@ impl<R: Real> Cylinder<R> {
             let height = above + rise * t;
             if height >= R::of(0.0) && height <= self.height { t } else { none }
         };
-        let [first, second] = quadratic(across.dot(across), b, c).map_or([none; 2], |roots| roots.map(within));
+        let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
         let [low, high] = self.caps.map(|cap| cap.parameter(line));
         line.first([(first, side), (second, side), (low, base), (high, top)])
     }

@@ -31,8 +31,8 @@ pub(super) fn front(study: &Study) -> String {
         chart.draw_series([PathElement::new(steps, ACCENT.stroke_width(2))])?;
         if let Some(floor) = floor {
             chart.draw_series([PathElement::new([(xs.start, floor), (xs.end, floor)], FLOOR.stroke_width(1))])?;
-            let label = Text::new("error of the reference", (xs.start * 1.1, floor * 1.06), font(11));
-            chart.draw_series([label])?;
+            let label = Text::new("error of the reference", (6, -14), font(11));
+            chart.draw_series([EmptyElement::at((xs.start, floor)) + label])?;
         }
         for row in rows {
             draw_row(&mut chart, row, &study.used())?;
@@ -67,7 +67,8 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
     if row.front || row.own {
         let values: Vec<_> = used.iter().map(|knob| row.setting.get(*knob).to_string()).collect();
         let own = if row.own { " (own)" } else { "" };
-        chart.draw_series([Text::new(format!("{}{own}", values.join("·")), (x * 1.05, y * 1.12), font(11))])?;
+        let label = Text::new(format!("{}{own}", values.join("·")), (6, -15), font(11));
+        chart.draw_series([EmptyElement::at((x, y)) + label])?;
     }
     Ok(())
 }
@@ -128,7 +129,7 @@ fn axes<'a, 'b>(
     x_words: fn(f64) -> String,
 ) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
     let mut builder = ChartBuilder::on(root);
-    builder.margin(8).x_label_area_size(40).y_label_area_size(56);
+    builder.margin(8).margin_right(20).x_label_area_size(40).y_label_area_size(56);
     let mut chart = builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?;
     chart
         .configure_mesh()

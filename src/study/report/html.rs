@@ -15,7 +15,7 @@ const PICTURES: usize = 8;
 #[must_use]
 pub fn html(study: &Study) -> String {
     let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
-    let sections = [front(study), knobs(study), effects(study), pictures(study), fine_print(study)];
+    let sections = [front(study), knobs(study), effects(study), precision(study), pictures(study), fine_print(study)];
     let advice: String = study.advice.iter().map(|line| format!("<p>{}</p>\n", escaped(line))).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -99,6 +99,27 @@ fn effects(study: &Study) -> String {
         "<h2>What each effect costs</h2>\n<p>The scene without the effect, in its own setting, over the scene as it is. \
          </p>\n<div class=\"wide\"><table><thead><tr><th>without</th><th>time</th><th>rays</th>\
          <th>picture differs by (grey levels)</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+fn precision(study: &Study) -> String {
+    let mut rows = String::new();
+    for cost in &study.precision {
+        let (time, off, difference) = (cost.ratio.value, 100.0 * cost.ratio.relative(), &cost.difference);
+        let cells = [
+            escaped(&cost.arithmetic),
+            format!("{time:.2} ± {off:.1} %"),
+            digits(difference.rmse),
+            digits(difference.max),
+            format!("{} %", digits(100.0 * difference.visible)),
+        ];
+        let _ = writeln!(rows, "<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+    }
+    format!(
+        "<h2>What each precision costs</h2>\n<p>The same samples by each arithmetic, against the robust one: time, and \
+         how far the picture is off in grey levels.</p>\n<div class=\"wide\"><table><thead><tr><th>arithmetic</th>\
+         <th>time</th><th>error</th><th>largest</th><th>pixels off</th></tr></thead>\n<tbody>\n{rows}</tbody></table>\
+         </div>\n"
     )
 }
 

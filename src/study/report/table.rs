@@ -22,20 +22,32 @@ pub fn table(study: &Study) -> String {
     study.rows.iter().for_each(|row| text += &format!("{}\n", line(row, &used, study.part.share)));
     text += "\n";
     study.knobs.iter().for_each(|knob| text += &wrapped(&knob_line(knob, study.reference.depth)));
-    if !study.effects.is_empty() {
-        text += "\nwithout            time      rays  picture differs by\n";
-    }
-    for cost in &study.effects {
-        let name = cost.effect.as_str();
-        let (time, rays) = (cost.ratio.value, cost.ray_ratio);
-        text += &format!("{name:23}{time:5.2}×   {rays:5.2}×  {} grey levels\n", digits(cost.difference));
-    }
+    text += &effects(study);
     text += "\n";
     study.advice.iter().for_each(|advice| text += &wrapped(advice));
     if study.wall_over_cpu > 1.2 {
         let times = study.wall_over_cpu;
         let note = format!("The machine was busy (wall time {times:.1}× processor time); times are of the processor.");
         text += &wrapped(&note);
+    }
+    text
+}
+
+/// What effects and arithmetics cost.
+fn effects(study: &Study) -> String {
+    let mut text = String::new();
+    if !study.effects.is_empty() {
+        text += "\nwithout                   time    rays  picture differs by\n";
+    }
+    for cost in &study.effects {
+        let (name, time, rays) = (&cost.effect, cost.ratio.value, cost.ray_ratio);
+        text += &format!("{name:24}{time:5.2}×  {rays:5.2}×  {} grey levels\n", digits(cost.difference));
+    }
+    text += "\narithmetic                time  picture differs by\n";
+    for cost in &study.precision {
+        let (name, time, visible) = (&cost.arithmetic, cost.ratio.value, digits(100.0 * cost.difference.visible));
+        let difference = digits(cost.difference.rmse);
+        text += &format!("{name:24}{time:5.2}×  {difference} grey levels, {visible} % of pixels by over 1\n");
     }
     text
 }

@@ -1,0 +1,128 @@
+//! Renders the set-up of a reference picture and says how far the two are apart: `compare REFERENCE.json [SAMPLES]`.
+//!
+//! The set-up names the asset, the camera and the lights; `REFERENCE.exr` beside it is the picture, linear. One line of
+//! JSON comes out: ratios of the means, and errors of the means of blocks of 8 × 8 pixels.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::disallowed_methods,
+    reason = "a measurement stops at the first surprise, and reads what it compares with"
+)]
+
+use cpu_time::ProcessTime;
+use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
+use rtc::diag::Sink;
+use rtc::ir::{Camera, Emitter, Environment, Lens, Light, Lowered, Mode, Path as Paths, Projection, Punctual, Scene};
+use rtc::math::{Vec3, camera_basis};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Film, Job, Values};
+use rtc::source::SourceMap;
+use serde_json::Value;
+use std::path::Path;
+
+/// The side of a block in pixels.
+const BLOCK: usize = 8;
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments.next().expect("usage: compare REFERENCE.json [SAMPLES]");
+    let samples = arguments.next().map_or(256, |samples| samples.parse().unwrap());
+    let path = Path::new(&path);
+    let setup: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+    let asset = path.parent().unwrap().join(setup["asset"].as_str().unwrap());
+    let (options, mut map, mut sink) = (Options::default(), SourceMap::default(), Sink::default());
+    let mut lowered = load(&asset, &mut map, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"));
+    set_up(&mut lowered.scene, &setup, samples);
+    let proof = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"));
+    let plan = Plan::new(&proof, Rules::ALL);
+    let job = Job { values: Values::Linear, ..Job::default() };
+    let start = ProcessTime::now();
+    let film = pipeline::render(&proof, &plan, &job, 1, &|_| true).unwrap().unwrap();
+    let seconds = start.elapsed().as_secs_f64();
+    let reference = reference(&path.with_extension("exr"));
+    println!("{}", report(&film, &reference, seconds));
+}
+
+fn load(asset: &Path, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+    let file = map.add(asset.to_str().unwrap(), std::fs::read(asset).unwrap());
+    pipeline::load(file, map, options, sink)
+}
+
+/// Camera, lights and surroundings of the set-up in place of those of the asset.
+fn set_up(scene: &mut Scene, setup: &Value, samples: u32) {
+    let triple = |value: &Value| [0, 1, 2].map(|k| value[k].as_f64().unwrap());
+    let (camera, lights) = (&setup["camera"], &setup["lights"]);
+    let size = [&setup["width"], &setup["height"]].map(|side| u32::try_from(side.as_u64().unwrap()).unwrap());
+    let [eye, center, up] = [&camera["position"], &camera["look_at"], &camera["up"]].map(triple);
+    let distance = Vec3::from_array(center).distance(Vec3::from_array(eye));
+    let half = libm::tan(camera["yfov_deg"].as_f64().unwrap().to_radians() / 2.0);
+    let pixel = Vec3::from_array(up) * (2.0 * half * distance / f64::from(size[1]));
+    let (right, up) = camera_basis(Vec3::from_array(eye), Vec3::from_array(center), pixel).unwrap();
+    let lens = Lens { radius: 0.0, samples: 1 };
+    let (right, up) = (right.to_array(), up.to_array());
+    scene.camera = Camera { eye, center, right, up, size, lens, projection: Projection::Perspective };
+    let radiance = triple(&lights["env_radiance"]);
+    scene.environment = Some(Environment { radiance, image: None, image_from_world: None });
+    let sun = |sun: &Value| {
+        let emitter = Emitter::Sun { direction: triple(&sun["direction_to_light"]) };
+        Light::Punctual(Punctual { emitter, intensity: triple(&sun["irradiance"]) })
+    };
+    scene.lights = lights["suns"].as_array().unwrap().iter().map(sun).collect();
+    scene.settings.mode = Mode::Path(Paths { samples, multiple_scattering: false });
+    scene.settings.max_depth = u32::try_from(setup["max_bounces"].as_u64().unwrap()).unwrap();
+}
+
+/// The pixels of an EXR.
+fn reference(path: &Path) -> Vec<[f64; 3]> {
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size, _| (size.width(), vec![[0.0; 3]; size.area()]),
+            |(width, pixels): &mut (usize, Vec<[f64; 3]>), at, (r, g, b): (f32, f32, f32)| {
+                pixels[at.y() * *width + at.x()] = [r, g, b].map(f64::from);
+            },
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .unwrap();
+    image.layer_data.channel_data.pixels.1
+}
+
+/// The means of blocks, row by row.
+fn blocks(pixels: &[[f64; 3]], width: usize) -> Vec<Vec3> {
+    let columns = width / BLOCK;
+    let mut sums = vec![Vec3::ZERO; columns * (pixels.len() / width / BLOCK)];
+    for (index, pixel) in pixels.iter().enumerate() {
+        let (x, y) = (index % width / BLOCK, index / width / BLOCK);
+        sums[y * columns + x] += Vec3::from_array(*pixel) / (BLOCK * BLOCK) as f64;
+    }
+    sums
+}
+
+fn report(film: &Film, reference: &[[f64; 3]], seconds: f64) -> Value {
+    let width = film.image.width as usize;
+    let mean = |pixels: &[[f64; 3]]| pixels.iter().map(|p| Vec3::from_array(*p)).sum::<Vec3>() / pixels.len() as f64;
+    let ratio = mean(&film.image.pixels) / mean(reference);
+    let (ours, theirs) = (blocks(&film.image.pixels, width), blocks(reference, width));
+    let error = |(a, b): (&Vec3, &Vec3)| ((*a - *b).abs() / (*b + 0.01)).max_element();
+    let mut errors = ours.iter().zip(&theirs).map(error).enumerate().collect::<Vec<_>>();
+    errors.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let at = |share: f64| errors[(share * (errors.len() - 1) as f64).round() as usize].1;
+    let columns = width / BLOCK;
+    let worst = errors.last().unwrap().0;
+    serde_json::json!({
+        "mean_ratio": ratio.to_array(),
+        "block_median": at(0.5),
+        "block_p95": at(0.95),
+        "block_max": at(1.0),
+        "worst_block_xy": [worst % columns * BLOCK, worst / columns * BLOCK],
+        "camera_rays": film.counts.camera,
+        "rays": film.counts.rays(),
+        "cpu_seconds": seconds,
+        "camera_rays_per_cpu_second": film.counts.camera as f64 / seconds,
+    })
+}

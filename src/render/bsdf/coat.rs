@@ -1,0 +1,48 @@
+//! The clear layer on top of a material, with a roughness and a normal of its own.
+
+use super::fresnel::schlick;
+use super::ggx::Ggx;
+use super::standard::Clearcoat;
+use crate::math::{Basis, Vec3};
+
+/// The layer as one viewer sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coat {
+    basis: Basis,
+    ggx: Ggx,
+    wo: Vec3,
+    /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the viewer.
+    pub(super) share: f64,
+}
+
+impl Coat {
+    /// `None` if the viewer sees nothing of it.
+    pub(super) fn new(clearcoat: &Clearcoat, normal: Vec3, wo: Vec3) -> Option<Self> {
+        let basis = Basis::around(normal);
+        let wo = basis.to_local(wo);
+        let share = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
+        (wo.z > 0.0 && share > 0.0).then(|| Self { basis, ggx: Ggx::isotropic(clearcoat.roughness), wo, share })
+    }
+
+    /// Whether it is a mirror.
+    pub(super) fn is_smooth(&self) -> bool {
+        self.ggx.is_smooth()
+    }
+
+    /// The BRDF without its reflectance, and the density of [`Coat::sample`].
+    pub(super) fn evaluate(&self, wi: Vec3) -> (f64, f64) {
+        let wi = self.basis.to_local(wi);
+        if self.ggx.is_smooth() || wi.z <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let h = (self.wo + wi).normalize();
+        let f = self.ggx.density(h) * self.ggx.visibility(self.wo, wi);
+        (f, self.ggx.visible_density(self.wo, h) / 4.0)
+    }
+
+    /// A direction that it reflects to the viewer.
+    pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
+        let h = if self.is_smooth() { Vec3::Z } else { self.ggx.visible_normal(self.wo, u) };
+        self.basis.to_world(h * (2.0 * self.wo.dot(h)) - self.wo)
+    }
+}

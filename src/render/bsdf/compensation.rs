@@ -1,0 +1,89 @@
+//! The light that leaves a rough surface after more than one bounce between microfacets.
+//!
+//! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that returns exactly what
+//! the single bounce loses, and a diffuse base under the reflection that gets exactly what both leave. Both are
+//! reciprocal; a white surface in a white sky is white.
+
+use super::albedo::{Split, tables};
+use super::fresnel::Fresnel;
+use crate::math::Vec3;
+use std::f64::consts::PI;
+
+/// The compensation at one point for one direction to the viewer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Compensation {
+    roughness: f64,
+    /// 1 − E(μ) for the viewer and in the mean.
+    missing: f64,
+    missing_mean: f64,
+    /// How much of what is missing comes back.
+    returned: Vec3,
+    base: Base,
+}
+
+/// What the dielectric reflection leaves for the diffuse base.
+#[derive(Clone, Copy, Debug)]
+struct Base {
+    f0: f64,
+    f90: f64,
+    returned: f64,
+    left: f64,
+    left_mean: f64,
+}
+
+impl Base {
+    /// The albedo of the base's cover.
+    fn covered(&self, e: Split) -> f64 {
+        self.f0 * e.e0 + self.f90 * e.e90 + self.returned * (1.0 - e.whole())
+    }
+}
+
+/// How much of the light that bounces on comes out: `F²·E/(1 − F·(1 − E))` with the means of F and E.
+fn returned(mean: Vec3, missing: f64) -> Vec3 {
+    let whole = mean * mean * (1.0 - missing) / (Vec3::ONE - mean * missing);
+    whole.clamp(Vec3::ZERO, Vec3::ONE)
+}
+
+impl Compensation {
+    /// For a surface of which `metallic` is metal.
+    #[must_use]
+    pub(super) fn new(roughness: f64, cosine: f64, dielectric: &Fresnel, metal: &Fresnel, metallic: f64) -> Self {
+        let (e, mean) = (tables().specular(roughness, cosine), tables().specular_mean(roughness));
+        let missing_mean = 1.0 - mean.whole();
+        let from_dielectric = returned(dielectric.mean(), missing_mean);
+        let from_metal = if metallic > 0.0 { returned(metal.mean(), missing_mean) } else { Vec3::ZERO };
+        let (f0, f90) = (dielectric.at(1.0).max_element(), dielectric.f90.max_element());
+        let mut base = Base { f0, f90, returned: from_dielectric.max_element(), left: 0.0, left_mean: 0.0 };
+        base.left = 1.0 - base.covered(e);
+        base.left_mean = 1.0 - base.covered(mean);
+        Self {
+            roughness,
+            missing: 1.0 - e.whole(),
+            missing_mean,
+            returned: from_dielectric.lerp(from_metal, metallic),
+            base,
+        }
+    }
+
+    /// The albedo of the lobe of further bounces.
+    #[must_use]
+    pub(super) fn albedo(&self) -> Vec3 {
+        self.returned * self.missing
+    }
+
+    /// The albedo of a white base.
+    #[must_use]
+    pub(super) fn base_albedo(&self) -> f64 {
+        self.base.left
+    }
+
+    /// The BRDF of a base of the albedo given, and of the further bounces.
+    #[must_use]
+    pub(super) fn f(&self, base: Vec3, cosine: f64) -> Vec3 {
+        let e = tables().specular(self.roughness, cosine);
+        let share = |here: f64, there: f64, mean: f64| if mean > 0.0 { here * there / (mean * PI) } else { 0.0 };
+        let below = share(self.base.left, 1.0 - self.base.covered(e), self.base.left_mean);
+        let again = share(self.missing, 1.0 - e.whole(), self.missing_mean);
+        base * below.max(0.0) + self.returned * again.max(0.0)
+    }
+}

@@ -1,0 +1,131 @@
+//! The distribution of microfacets of Trowbridge and Reitz (GGX) with Smith's height-correlated shadowing.
+//!
+//! Directions are unit vectors in a frame whose z is the normal of the surface; formulas as in glTF 2.0, appendix B, and
+//! for anisotropy in Heitz, "Understanding the masking-shadowing function" (JCGT 3, 2014).
+
+use super::warp::direction_turned;
+use crate::math::Vec3;
+use std::f64::consts::PI;
+
+/// Below this α a surface is a mirror: the lobe would be narrower than any pixel could tell.
+const SMOOTH: f64 = 1e-5;
+
+/// A rough surface: the widths α of its slopes along x and y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ggx {
+    x: f64,
+    y: f64,
+}
+
+impl Ggx {
+    /// The same width, α = roughness², in all directions.
+    #[must_use]
+    pub(super) fn isotropic(roughness: f64) -> Self {
+        let alpha = roughness * roughness;
+        Self { x: alpha, y: alpha }
+    }
+
+    /// Stretched along x as KHR_materials_anisotropy says: αₓ = α + (1 − α)·strength².
+    #[must_use]
+    pub(super) fn anisotropic(roughness: f64, strength: f64) -> Self {
+        let alpha = roughness * roughness;
+        Self { x: alpha + (1.0 - alpha) * (strength * strength), y: alpha }
+    }
+
+    /// Whether it is a mirror.
+    #[must_use]
+    pub(super) fn is_smooth(self) -> bool {
+        self.x.max(self.y) < SMOOTH
+    }
+
+    /// The roughness of the isotropic surface of about the same albedo.
+    #[must_use]
+    pub(super) fn mean_roughness(self) -> f64 {
+        (self.x * self.y).sqrt().sqrt()
+    }
+
+    /// The density D of microfacets with normal `h`, per projected area.
+    #[must_use]
+    #[inline]
+    pub(super) fn density(self, h: Vec3) -> f64 {
+        let (x, y) = (self.width_x(), self.width_y());
+        let stretched = Vec3::new(h.x / x, h.y / y, h.z).length_squared();
+        1.0 / (PI * x * y * (stretched * stretched))
+    }
+
+    /// The length of `w` stretched to the surface of unit slopes; `Λ = (stretched/|w_z| − 1)/2`.
+    #[must_use]
+    #[inline]
+    pub(super) fn stretched(self, w: Vec3) -> f64 {
+        Vec3::new(w.x * self.x, w.y * self.y, w.z).length()
+    }
+
+    /// `G₂/(4·|cos θ_o|·|cos θ_i|)`.
+    #[must_use]
+    #[inline]
+    pub(super) fn visibility(self, wo: Vec3, wi: Vec3) -> f64 {
+        let (o, i) = (wo.z.abs(), wi.z.abs());
+        0.5 / (i * self.stretched(wo) + o * self.stretched(wi))
+    }
+
+    /// The density of the normals that `wo` sees, divided by `wo·h`: `G₁·D/cos θ_o`.
+    #[must_use]
+    #[inline]
+    pub(super) fn visible_density(self, wo: Vec3, h: Vec3) -> f64 {
+        2.0 * self.density(h) / (wo.z + self.stretched(wo))
+    }
+
+    /// A normal out of those that `wo` sees (Dupuy, Benyoub, "Sampling visible GGX normals with spherical caps", 2023).
+    #[must_use]
+    #[inline]
+    pub(super) fn visible_normal(self, wo: Vec3, u: [f64; 2]) -> Vec3 {
+        let (x, y) = (self.width_x(), self.width_y());
+        // Stretch to the hemisphere of unit slopes.
+        let view = Vec3::new(wo.x * x, wo.y * y, wo.z).normalize();
+        // Sample the cap of directions that the hemisphere reflects `view` to.
+        let z = (1.0 - u[0]) * (1.0 + view.z) - view.z;
+        let cap = direction_turned(z, u[1]);
+        // The normal is half-way; take the stretching back.
+        let h = cap + view;
+        Vec3::new(h.x * x, h.y * y, h.z.max(0.0)).normalize_or(Vec3::Z)
+    }
+
+    /// The width along x, never 0: along one axis alone a surface may be smooth.
+    fn width_x(self) -> f64 {
+        self.x.max(SMOOTH)
+    }
+
+    fn width_y(self) -> f64 {
+        self.y.max(SMOOTH)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_microfacets_cover_the_surface_once() {
+        for ggx in [Ggx::isotropic(0.5), Ggx::isotropic(1.0), Ggx::anisotropic(0.5, 0.8)] {
+            // ∫ D(h)·cos θ dω = 1, by the midpoint rule over cos²θ and φ.
+            let n = 400;
+            let mut sum = 0.0;
+            for i in 0..n {
+                for j in 0..n {
+                    let z = ((f64::from(i) + 0.5) / f64::from(n)).sqrt();
+                    let h = direction_turned(z, (f64::from(j) + 0.5) / f64::from(n));
+                    sum += ggx.density(h) * PI / f64::from(n * n);
+                }
+            }
+            assert!((sum - 1.0).abs() < 1e-3, "{ggx:?}: {sum}");
+        }
+    }
+
+    #[test]
+    fn a_smooth_axis_gives_no_infinity() {
+        let ggx = Ggx::anisotropic(0.0, 0.5);
+        assert!(!ggx.is_smooth());
+        let h = ggx.visible_normal(Vec3::new(0.6, 0.0, 0.8), [0.3, 0.7]);
+        assert!(h.is_finite() && ggx.density(h).is_finite());
+    }
+}

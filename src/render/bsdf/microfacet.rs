@@ -1,0 +1,197 @@
+//! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let through.
+
+use super::Evaluation;
+use super::compensation::Compensation;
+use super::fresnel::Fresnel;
+use super::ggx::Ggx;
+use super::standard::Standard;
+use super::thin_film::ThinFilm;
+use crate::math::Vec3;
+
+/// The boundary seen from one side, with z towards that side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Microfacet {
+    ggx: Ggx,
+    smooth: bool,
+    dielectric: Fresnel,
+    metal: Fresnel,
+    metallic: f64,
+    /// What of the light that the dielectric lets in goes through, by channel.
+    tint: Vec3,
+    crossing: Crossing,
+    /// The index beyond divided by that on the side of the viewer.
+    eta: f64,
+}
+
+/// How light goes on behind the boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Crossing {
+    /// Through a thin wall: as reflected, but to the other side.
+    Wall,
+    /// Into a medium of the same index.
+    Straight,
+    /// Into a medium of another index.
+    Bent,
+}
+
+/// What a microfacet does with light at one angle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shares {
+    /// Reflected.
+    pub(super) reflected: Vec3,
+    /// Let in by the dielectric part.
+    pub(super) entering: f64,
+    /// Let through.
+    pub(super) through: Vec3,
+}
+
+impl Shares {
+    /// The probability of sampling the reflection.
+    fn chance(&self) -> f64 {
+        let (reflected, through) = (self.reflected.max_element(), self.through.max_element());
+        if through > 0.0 { reflected / (reflected + through) } else { 1.0 }
+    }
+}
+
+/// A direction that microfacets scatter to.
+pub(super) enum Way {
+    /// One of a lobe.
+    Lobe(Vec3),
+    /// A single one, with the share of the light and the probability of taking it.
+    Single(Vec3, Vec3, f64),
+}
+
+impl Microfacet {
+    /// The boundary of a material, seen from within the body if `inside`.
+    pub(super) fn new(standard: &Standard, inside: bool) -> Self {
+        let ggx = match standard.anisotropy {
+            None => Ggx::isotropic(standard.roughness),
+            Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
+        };
+        let film =
+            standard.iridescence.map(|film| (ThinFilm { ior: film.ior, thickness: film.thickness }, film.factor));
+        let dielectric = Fresnel { f0: standard.dielectric_f0(), f90: Vec3::splat(standard.specular), film };
+        let ior = if standard.ior > 0.0 { standard.ior } else { 1.0 };
+        let crossing = match standard.thin_walled {
+            true => Crossing::Wall,
+            false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
+            false => Crossing::Bent,
+        };
+        Self {
+            ggx,
+            smooth: ggx.is_smooth(),
+            dielectric,
+            metal: Fresnel { f0: standard.base_color, f90: Vec3::ONE, film },
+            metallic: standard.metallic,
+            tint: standard.base_color * ((1.0 - standard.metallic) * standard.transmission),
+            crossing,
+            eta: if inside { 1.0 / ior } else { ior },
+        }
+    }
+
+    /// What bounces on between its microfacets.
+    pub(super) fn compensation(&self, cosine: f64) -> Compensation {
+        Compensation::new(self.ggx.mean_roughness(), cosine, &self.dielectric, &self.metal, self.metallic)
+    }
+
+    /// Whether it scatters into single directions only.
+    pub(super) fn is_smooth(&self) -> bool {
+        self.smooth
+    }
+
+    /// What a microfacet that meets light at the cosine given does with it.
+    pub(super) fn shares(&self, cosine: f64) -> Shares {
+        let dielectric = self.dielectric_at(cosine);
+        let entering = 1.0 - dielectric.max_element();
+        let reflected = match self.metallic {
+            0.0 => dielectric,
+            metallic => dielectric.lerp(self.metal.at(cosine), metallic),
+        };
+        Shares { reflected, entering, through: self.tint * entering }
+    }
+
+    /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is reflected.
+    fn dielectric_at(&self, cosine: f64) -> Vec3 {
+        if self.eta >= 1.0 {
+            return self.dielectric.at(cosine);
+        }
+        refracted_cosine(cosine, self.eta).map_or(Vec3::ONE, |cosine| self.dielectric.at(cosine))
+    }
+
+    /// Both directions above.
+    pub(super) fn reflected(&self, wo: Vec3, wi: Vec3, h: Vec3, shares: &Shares) -> Evaluation {
+        if self.smooth {
+            return Evaluation::NONE;
+        }
+        let density = self.ggx.density(h);
+        let f = shares.reflected * (density * self.ggx.visibility(wo, wi));
+        Evaluation { f, pdf: shares.chance() * 0.5 * density / (wo.z + self.ggx.stretched(wo)) }
+    }
+
+    /// `wi` below.
+    pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+        if self.smooth || self.tint == Vec3::ZERO {
+            return Evaluation::NONE;
+        }
+        match self.crossing {
+            Crossing::Straight => Evaluation::NONE,
+            Crossing::Wall => {
+                let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
+                let h = (wo + mirrored).normalize();
+                let shares = self.shares(wo.dot(h));
+                let f = shares.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
+                Evaluation { f, pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) / 4.0 }
+            }
+            Crossing::Bent => self.bent(wo, wi),
+        }
+    }
+
+    /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007), equation 21.
+    fn bent(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+        let half = wo + wi * self.eta;
+        let h = (half * half.z.signum()).normalize_or_zero();
+        let (o, i) = (wo.dot(h), wi.dot(h));
+        if o <= 0.0 || i >= 0.0 {
+            return Evaluation::NONE;
+        }
+        let shares = self.shares(o);
+        // How fast the direction turns with the normal: |ω_i·h|/(ω_i·h + ω_o·h/η)².
+        let root = i + o / self.eta;
+        let turn = -i / (root * root);
+        let f = shares.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
+        Evaluation { f, pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) * o * turn }
+    }
+
+    /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on the wrong side.
+    pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<Way> {
+        let h = if self.smooth { Vec3::Z } else { self.ggx.visible_normal(wo, u) };
+        let cosine = wo.dot(h);
+        let shares = self.shares(cosine);
+        let chance = shares.chance();
+        if choice < chance {
+            let wi = h * (2.0 * cosine) - wo;
+            let way = if self.smooth { Way::Single(wi, shares.reflected, chance) } else { Way::Lobe(wi) };
+            return (wi.z > 0.0).then_some(way);
+        }
+        let wi = match self.crossing {
+            Crossing::Straight => -wo,
+            Crossing::Wall => {
+                let mirrored = h * (2.0 * cosine) - wo;
+                Vec3::new(mirrored.x, mirrored.y, -mirrored.z)
+            }
+            Crossing::Bent => h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta,
+        };
+        let single = self.smooth || self.crossing == Crossing::Straight;
+        let way = if single { Way::Single(wi, shares.through, 1.0 - chance) } else { Way::Lobe(wi) };
+        (wi.z < 0.0).then_some(way)
+    }
+}
+
+/// Indices that differ by less bend no ray by more than rounding would.
+const NEARLY_STRAIGHT: f64 = 1e-6;
+
+/// The cosine beyond a boundary by Snell's law; `None` where all is reflected.
+fn refracted_cosine(cosine: f64, eta: f64) -> Option<f64> {
+    let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
+    (square > 0.0).then(|| square.sqrt())
+}

@@ -1,0 +1,230 @@
+//! The BSDF of the glTF material, in a frame whose z is the shading normal, for one direction `wo` to the viewer.
+//!
+//! `f` is without the cosine; directions are unit vectors that point away from the surface, those with z < 0 inside a
+//! body or behind a wall. What crosses a boundary is counted as basic radiance L/n²: no factor n² is in `f`.
+
+mod albedo;
+mod coat;
+mod compensation;
+mod fresnel;
+mod ggx;
+mod microfacet;
+mod sheen;
+mod standard;
+mod thin_film;
+mod warp;
+
+pub use fresnel::dispersed;
+pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+
+use crate::math::Vec3;
+use coat::Coat;
+use compensation::Compensation;
+use microfacet::{Microfacet, Way};
+use sheen::Fibres;
+use std::f64::consts::FRAC_1_PI;
+pub(super) use warp::direction_turned;
+use warp::{cosine_density, cosine_direction};
+
+/// The BSDF for one pair of directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evaluation {
+    /// The BSDF, without what is scattered into single directions.
+    pub f: Vec3,
+    /// The density per solid angle with which [`Bsdf::sample`] takes the direction.
+    pub pdf: f64,
+}
+
+impl Evaluation {
+    const NONE: Self = Self { f: Vec3::ZERO, pdf: 0.0 };
+}
+
+/// A direction sampled: what comes from there counts `f·|cos θ|/pdf`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The direction light comes from.
+    pub wi: Vec3,
+    /// The BSDF; for a single direction, what it scatters divided by |cos θ|.
+    pub f: Vec3,
+    /// The density; for a single direction, the probability of taking it.
+    pub pdf: f64,
+    /// Whether it is a single direction, which no other way of sampling finds.
+    pub delta: bool,
+}
+
+/// The material at a point as seen from one direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Bsdf {
+    side: Side,
+    wo: Vec3,
+    microfacet: Microfacet,
+    /// The albedo of the base where no microfacet reflects.
+    diffuse: Vec3,
+    compensation: Option<Compensation>,
+    sheen: Option<Fibres>,
+    coat: Option<Coat>,
+    chances: Chances,
+}
+
+/// The probabilities of the ways to sample; they sum to 1, or to 0 for a black surface.
+#[derive(Clone, Copy, Debug)]
+struct Chances {
+    cosine: f64,
+    microfacet: f64,
+    coat: f64,
+}
+
+impl Bsdf {
+    /// The material seen from `wo`.
+    #[must_use]
+    pub fn new(standard: &Standard, wo: Vec3) -> Self {
+        let along = standard.anisotropy.map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
+        let side = Side { below: wo.z < 0.0, along };
+        let wo = side.enter(wo);
+        let inside = side.below && !standard.thin_walled && standard.transmission > 0.0;
+        let microfacet = Microfacet::new(standard, inside);
+        // What lies on a body is not seen from within.
+        let (sheen, clearcoat) = if inside { (None, None) } else { (standard.sheen, standard.clearcoat) };
+        let coat = clearcoat.and_then(|coat| {
+            let normal = if side.below { -coat.normal } else { coat.normal };
+            Coat::new(&coat, side.enter(normal), wo)
+        });
+        let mut bsdf = Self {
+            side,
+            wo,
+            microfacet,
+            diffuse: standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission)),
+            compensation: (standard.multiple_scattering && !inside).then(|| microfacet.compensation(wo.z)),
+            sheen: sheen.and_then(|sheen| Fibres::new(&sheen, wo)),
+            coat,
+            chances: Chances { cosine: 0.0, microfacet: 0.0, coat: 0.0 },
+        };
+        bsdf.chances = bsdf.chances();
+        bsdf
+    }
+
+    /// Chances proportional to estimates of what each way brings.
+    fn chances(&self) -> Chances {
+        let shares = self.microfacet.shares(self.wo.z);
+        let base = match &self.compensation {
+            // The half-way vector is seldom as grazing as the view.
+            None => self.diffuse * self.microfacet.shares(1.0).entering,
+            Some(compensation) => self.diffuse * compensation.base_albedo() + compensation.albedo(),
+        };
+        let mut cosine = base.max_element().max(0.0);
+        let mut microfacet = shares.reflected.max_element() + shares.through.max_element();
+        if let Some(sheen) = &self.sheen {
+            (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
+        }
+        let coat = self.coat.as_ref().map_or(0.0, |coat| coat.share);
+        let whole = (cosine + microfacet) * (1.0 - coat) + coat;
+        let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
+        let below = scale * (1.0 - coat);
+        Chances { cosine: cosine * below, microfacet: microfacet * below, coat: coat * scale }
+    }
+
+    /// Whether all light is scattered into single directions, so that a light can't be aimed at.
+    #[must_use]
+    pub fn is_delta(&self) -> bool {
+        let coat = self.coat.as_ref().is_none_or(Coat::is_smooth);
+        self.chances.cosine == 0.0 && self.microfacet.is_smooth() && coat
+    }
+
+    /// The BSDF and the density of [`Bsdf::sample`] for light from `wi`.
+    #[must_use]
+    pub fn evaluate(&self, wi: Vec3) -> Evaluation {
+        self.evaluate_entered(self.side.enter(wi))
+    }
+
+    fn evaluate_entered(&self, wi: Vec3) -> Evaluation {
+        let above = wi.z > 0.0;
+        if wi.z == 0.0 || self.wo.z == 0.0 {
+            return Evaluation::NONE;
+        }
+        let mut sum = if above { self.reflected(wi) } else { self.microfacet.through(self.wo, wi) };
+        sum.pdf *= self.chances.microfacet;
+        if above {
+            sum.pdf += self.chances.cosine * cosine_density(wi);
+        }
+        if let Some(sheen) = &self.sheen {
+            sum.f = sheen.over(sum.f, self.wo, wi);
+        }
+        if let Some(coat) = &self.coat {
+            let (f, pdf) = if above { coat.evaluate(wi) } else { (0.0, 0.0) };
+            sum.f = sum.f.lerp(Vec3::splat(f), coat.share);
+            sum.pdf += self.chances.coat * pdf;
+        }
+        sum
+    }
+
+    /// What the boundary and the diffuse base reflect, with the density of the boundary's samples.
+    fn reflected(&self, wi: Vec3) -> Evaluation {
+        let h = (self.wo + wi).normalize();
+        let shares = self.microfacet.shares(self.wo.dot(h));
+        let mut sum = self.microfacet.reflected(self.wo, wi, h, &shares);
+        sum.f += match &self.compensation {
+            None => self.diffuse * (shares.entering * FRAC_1_PI),
+            Some(compensation) => compensation.f(self.diffuse, wi.z),
+        };
+        sum
+    }
+
+    /// A direction for three numbers in [0, 1); `None` where nothing is scattered.
+    #[must_use]
+    pub fn sample(&self, u: [f64; 3]) -> Option<Sample> {
+        let Chances { cosine, microfacet, coat } = self.chances;
+        let rest = [u[1], u[2]];
+        if u[0] < cosine {
+            return self.in_lobe(cosine_direction(rest));
+        }
+        let left = u[0] - cosine;
+        if left < microfacet {
+            return match self.microfacet.sample(self.wo, left / microfacet, rest)? {
+                Way::Lobe(wi) => self.in_lobe(wi),
+                Way::Single(wi, share, chance) => {
+                    let left = self.sheen.as_ref().map_or(1.0, |sheen| sheen.left_for(wi));
+                    let covered = self.coat.as_ref().map_or(0.0, |coat| coat.share);
+                    self.single(wi, share * (left * (1.0 - covered)), microfacet * chance)
+                }
+            };
+        }
+        let layer = self.coat.as_ref()?;
+        let wi = layer.sample(rest);
+        match layer.is_smooth() {
+            _ if wi.z <= 0.0 => None,
+            true => self.single(wi, Vec3::splat(layer.share), coat),
+            false => self.in_lobe(wi),
+        }
+    }
+
+    fn in_lobe(&self, wi: Vec3) -> Option<Sample> {
+        let Evaluation { f, pdf } = self.evaluate_entered(wi);
+        (pdf > 0.0).then(|| Sample { wi: self.side.leave(wi), f, pdf, delta: false })
+    }
+
+    fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<Sample> {
+        let f = scattered / wi.z.abs();
+        (wi.z != 0.0 && pdf > 0.0).then(|| Sample { wi: self.side.leave(wi), f, pdf, delta: true })
+    }
+}
+
+/// How the frame is turned so that the viewer is above and the anisotropy along x.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    below: bool,
+    along: [f64; 2],
+}
+
+impl Side {
+    #[inline]
+    fn enter(self, w: Vec3) -> Vec3 {
+        let [c, s] = self.along;
+        Vec3::new(c * w.x + s * w.y, c * w.y - s * w.x, if self.below { -w.z } else { w.z })
+    }
+
+    #[inline]
+    fn leave(self, w: Vec3) -> Vec3 {
+        let [c, s] = self.along;
+        Vec3::new(c * w.x - s * w.y, c * w.y + s * w.x, if self.below { -w.z } else { w.z })
+    }
+}

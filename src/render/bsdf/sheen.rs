@@ -1,0 +1,105 @@
+//! The sheen of cloth: KHR_materials_sheen.
+//!
+//! After Estevez, Kulla, "Production friendly microfacet sheen BRDF" (2017): fibres that stand up, with a fitted
+//! shadowing term.
+
+use super::albedo::tables;
+use super::standard::Sheen;
+use crate::math::{Vec3, exp, pow};
+use std::f64::consts::{PI, TAU};
+
+/// The fibres on a surface as one viewer sees them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fibres {
+    charlie: Charlie,
+    color: Vec3,
+    /// How much of the light they return, by the strongest channel.
+    pub(super) albedo: f64,
+    /// How much they leave for what is below.
+    pub(super) left: f64,
+}
+
+impl Fibres {
+    /// `None` for black ones, which leave everything.
+    pub(super) fn new(sheen: &Sheen, wo: Vec3) -> Option<Self> {
+        let charlie = Charlie::new(sheen.roughness);
+        let albedo = sheen.color.max_element() * charlie.albedo(wo.z);
+        (sheen.color != Vec3::ZERO).then_some(Self { charlie, color: sheen.color, albedo, left: 1.0 - albedo })
+    }
+
+    /// The BSDF with the fibres over what is below, which keeps what they leave on the way in or out, whichever is less.
+    pub(super) fn over(&self, below: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
+        let own = if wi.z > 0.0 { self.color * self.charlie.f(wo, wi) } else { Vec3::ZERO };
+        below * self.left_for(wi) + own
+    }
+
+    /// What is left for light that leaves along `wi`.
+    pub(super) fn left_for(&self, wi: Vec3) -> f64 {
+        self.left.min(1.0 - self.color.max_element() * self.charlie.albedo(wi.z.abs()))
+    }
+}
+
+/// Sheen of one roughness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Charlie {
+    alpha: f64,
+    roughness: f64,
+}
+
+impl Charlie {
+    /// The sheen of a roughness; below 0.02 the lobe would be infinitely thin.
+    #[must_use]
+    pub(super) fn new(roughness: f64) -> Self {
+        let roughness = roughness.clamp(0.02, 1.0);
+        Self { alpha: roughness * roughness, roughness }
+    }
+
+    /// The BRDF of white sheen.
+    #[must_use]
+    pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> f64 {
+        let h = (wo + wi).normalize();
+        let sine = ((1.0 - h.z) * (1.0 + h.z)).max(0.0).sqrt();
+        let density = (2.0 + 1.0 / self.alpha) * pow(sine, 1.0 / self.alpha) / TAU;
+        let shadowing = 1.0 / (1.0 + self.lambda(wo.z) + self.lambda(wi.z));
+        density * (shadowing / (4.0 * wo.z * wi.z)).min(1.0)
+    }
+
+    /// How much of the light from all around white sheen sends to a direction.
+    #[must_use]
+    pub(super) fn albedo(&self, cosine: f64) -> f64 {
+        tables().sheen(self.roughness, cosine)
+    }
+
+    fn lambda(&self, cosine: f64) -> f64 {
+        if cosine < 0.5 {
+            return exp(self.fit(cosine));
+        }
+        exp(2.0 * self.fit(0.5) - self.fit(1.0 - cosine))
+    }
+
+    /// The fit of table 1 of the paper.
+    fn fit(&self, x: f64) -> f64 {
+        let smooth = (1.0 - self.alpha) * (1.0 - self.alpha);
+        let between = |rough: f64, thin: f64| rough + (thin - rough) * smooth;
+        let (a, b) = (between(21.5473, 25.3245), between(3.82987, 3.32435));
+        let (c, d, e) = (between(0.19823, 0.16801), between(-1.97760, -1.27393), between(-4.32054, -4.85967));
+        a / (1.0 + b * pow(x, c)) + d * x + e
+    }
+}
+
+/// The albedo of white sheen by the midpoint rule over the hemisphere of directions.
+pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
+    const STEPS: u32 = 48;
+    let charlie = Charlie::new(roughness);
+    let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+    let step = |k: u32| (f64::from(k) + 0.5) / f64::from(STEPS);
+    let mut sum = 0.0;
+    for i in 0..STEPS {
+        for j in 0..STEPS {
+            // Half a turn is enough; the other is its mirror image.
+            let wi = super::warp::direction_turned(step(i), step(j) * 0.5);
+            sum += charlie.f(wo, wi) * wi.z;
+        }
+    }
+    (sum * 2.0 * PI / f64::from(STEPS * STEPS)).min(1.0)
+}

@@ -1,0 +1,106 @@
+//! The glTF material at one point: the numbers that textures and factors gave.
+
+use super::fresnel::normal_reflectance;
+use crate::math::Vec3;
+
+/// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the volume inside.
+///
+/// Colours are linear, shares and roughnesses in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standard {
+    /// Albedo of the diffuse, reflectance of the metallic, tint of the transmitting part.
+    pub base_color: Vec3,
+    /// The share that is metal.
+    pub metallic: f64,
+    /// Perceptual roughness; α is its square.
+    pub roughness: f64,
+    /// The index of refraction inside, at least 1, or 0 for an infinite one (`KHR_materials_ior`).
+    pub ior: f64,
+    /// The strength of the dielectric reflection (`KHR_materials_specular`).
+    pub specular: f64,
+    /// The colour of the dielectric reflection at normal incidence, each channel at least 0.
+    pub specular_color: Vec3,
+    /// The share of the dielectric base that lets light through instead of scattering it (`KHR_materials_transmission`).
+    pub transmission: f64,
+    /// Whether what lies behind the surface is outside again: light goes straight through.
+    pub thin_walled: bool,
+    /// A direction in which the reflection is stretched.
+    pub anisotropy: Option<Anisotropy>,
+    /// A clear layer on top.
+    pub clearcoat: Option<Clearcoat>,
+    /// Fibres that stand up.
+    pub sheen: Option<Sheen>,
+    /// A thin film on top.
+    pub iridescence: Option<Iridescence>,
+    /// Whether light that bounces between microfacets is accounted for; without, as glTF's appendix B has it.
+    pub multiple_scattering: bool,
+}
+
+/// `KHR_materials_anisotropy`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anisotropy {
+    /// How far the roughness along the direction grows towards 1.
+    pub strength: f64,
+    /// The unit vector of the direction in x and y.
+    pub direction: [f64; 2],
+}
+
+/// `KHR_materials_clearcoat`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearcoat {
+    /// How much of the surface it covers.
+    pub factor: f64,
+    /// Its roughness.
+    pub roughness: f64,
+    /// Its own unit normal.
+    pub normal: Vec3,
+}
+
+/// `KHR_materials_sheen`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheen {
+    /// Its colour.
+    pub color: Vec3,
+    /// Its roughness.
+    pub roughness: f64,
+}
+
+/// `KHR_materials_iridescence`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iridescence {
+    /// How much of the surface the film covers.
+    pub factor: f64,
+    /// The index of refraction of the film, at least 1.
+    pub ior: f64,
+    /// The thickness of the film in nanometres.
+    pub thickness: f64,
+}
+
+impl Default for Standard {
+    /// The defaults of glTF, but for the metal: white and rough, of glass's index.
+    fn default() -> Self {
+        Self {
+            base_color: Vec3::ONE,
+            metallic: 0.0,
+            roughness: 1.0,
+            ior: 1.5,
+            specular: 1.0,
+            specular_color: Vec3::ONE,
+            transmission: 0.0,
+            thin_walled: true,
+            anisotropy: None,
+            clearcoat: None,
+            sheen: None,
+            iridescence: None,
+            multiple_scattering: true,
+        }
+    }
+}
+
+impl Standard {
+    /// The reflectance of the dielectric part at normal incidence.
+    #[must_use]
+    pub(super) fn dielectric_f0(&self) -> Vec3 {
+        (self.specular_color * normal_reflectance(self.ior)).min(Vec3::ONE) * self.specular
+    }
+}

@@ -1,0 +1,78 @@
+//! The path integrator: the light that arrives along all paths, by next-event estimation and scattering together.
+//!
+//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads.
+
+mod environment;
+mod lights;
+mod material;
+mod sobol;
+mod table;
+mod texture;
+mod tracer;
+
+use super::film::{Counts, Crop, Film, Job, Values};
+use super::geometry::Geometry;
+use super::world::World;
+use crate::color::srgb_encoded;
+use crate::image::Image;
+use crate::math::Vec3;
+use crate::valid::Path;
+use lights::Lights;
+use rayon::prelude::*;
+use tracer::Tracer;
+
+/// How light is looked for. All find the same; only the noise differs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Strategy {
+    /// Both ways, weighted by the power heuristic (Veach, Guibas, 1995).
+    #[default]
+    Both,
+    /// By aiming at lights, wherever a surface scatters widely enough for that.
+    Lights,
+    /// By scattering, but for lights without extent.
+    Scattering,
+}
+
+impl<S: Geometry> World<S> {
+    /// Renders by tracing paths; `None` if `proceed` said stop.
+    #[must_use]
+    pub fn render_paths(
+        &self,
+        path: Path,
+        strategy: Strategy,
+        job: &Job,
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> Option<Film> {
+        let camera = self.scene.camera();
+        let (width, height) = (camera.width.get(), camera.height.get());
+        let whole = Crop { x: 0, y: 0, width, height };
+        let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
+        let lights = Lights::new(self, strategy);
+        let mut pixels = vec![[0.0; 3]; crop.width as usize * crop.height as usize];
+        let row = |(y, row): (u32, &mut [[f64; 3]])| {
+            let mut tracer = Tracer::new(self, &lights, path, strategy);
+            for (x, pixel) in (crop.x..).zip(row) {
+                let before = tracer.counts.rays();
+                if job.tiles.is_none_or(|tiles| tiles.contain([x, y])) {
+                    *pixel = shown(tracer.pixel([x, y], job.seeds), job.values);
+                }
+                if !proceed(tracer.counts.rays() - before) {
+                    return None;
+                }
+            }
+            Some(tracer.counts)
+        };
+        let rows = (crop.y..crop.y + crop.height).into_par_iter();
+        let rows = rows.zip(pixels.par_chunks_mut((crop.width as usize).max(1)));
+        let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
+        Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+    }
+}
+
+/// What the film holds of a mean radiance: itself, or its code of sRGB.
+fn shown(radiance: Vec3, values: Values) -> [f64; 3] {
+    match values {
+        Values::Display => radiance.to_array().map(srgb_encoded),
+        Values::Linear => radiance.to_array(),
+    }
+}

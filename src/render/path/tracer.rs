@@ -1,0 +1,307 @@
+//! One path after another: what it meets, where it goes on, and the light it finds at each corner.
+
+use super::super::bsdf::Bsdf;
+use super::super::camera::{image_point, ray_through};
+use super::super::film::{Counts, Seeds};
+use super::super::geometry::Geometry;
+use super::super::ray::{Interaction, Ray};
+use super::super::world::{Hit, World};
+use super::Strategy;
+use super::lights::{Incident, Lights};
+use super::material::{Frame, Point};
+use super::sobol::{CORNERS, FILM, LENS, Sobol};
+use crate::math::{Vec3, cos_sin_turns, exp};
+use crate::valid::{Alpha, Path};
+
+/// Corners before Russian roulette may end a path.
+const SPARED: u32 = 3;
+
+/// Veils that a ray goes through at most.
+const VEILS: u32 = 1 << 10;
+
+/// Pairs of numbers that a corner takes.
+const PAIRS: u32 = 4;
+
+/// Follows paths through a world.
+pub(super) struct Tracer<'world, S> {
+    world: &'world World<S>,
+    lights: &'world Lights<'world, S>,
+    path: Path,
+    strategy: Strategy,
+    /// Whether any surface may be absent in part.
+    has_veils: bool,
+    /// The rays traced so far.
+    pub(super) counts: Counts,
+}
+
+/// A path under way.
+struct Walk {
+    ray: Ray,
+    /// The factor by which what the ray sees counts.
+    beta: Vec3,
+    /// The light found so far.
+    found: Vec3,
+    sobol: Sobol,
+    corners: u32,
+    /// The density with which scattering took the ray; `None` if nothing else could have.
+    pdf: Option<f64>,
+    /// The coefficient of absorption along the ray.
+    absorption: Vec3,
+    /// The colour that dispersion left.
+    channel: Option<usize>,
+    /// How far the ray has come through veils.
+    travelled: f64,
+}
+
+/// What a ray met.
+struct Corner<'world> {
+    at: Interaction,
+    point: Point<'world>,
+    frame: Frame,
+    coat: Vec3,
+    hit: Hit,
+}
+
+impl<'world, S: Geometry> Tracer<'world, S> {
+    pub(super) fn new(
+        world: &'world World<S>,
+        lights: &'world Lights<'world, S>,
+        path: Path,
+        strategy: Strategy,
+    ) -> Self {
+        let has_veils = world.surfaces.iter().any(|s| world.scene.standards()[s.material].alpha != Alpha::Opaque);
+        Self { world, lights, path, strategy, has_veils, counts: Counts::default() }
+    }
+
+    /// The mean radiance of a pixel's paths, spread over all of its area.
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for index in 0..self.path.samples.get() {
+            let sobol = Sobol::new(pixel, index, seeds);
+            let ray = self.camera_ray(pixel, &sobol);
+            let radiance = self.radiance(ray, sobol);
+            // A number that overflowed says nothing.
+            sum += if radiance.is_finite() { radiance } else { Vec3::ZERO };
+        }
+        sum / f64::from(self.path.samples.get())
+    }
+
+    fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
+        let camera = self.world.scene.camera();
+        let target = image_point(camera, pixel, sobol.pair(FILM));
+        let radius = camera.lens.radius.get();
+        if radius == 0.0 {
+            return ray_through(camera, camera.eye, target);
+        }
+        let [u, turn] = sobol.pair(LENS);
+        let (x, y) = cos_sin_turns(turns(turn));
+        let r = radius * u.sqrt() / camera.up.length();
+        ray_through(camera, camera.eye + camera.right * (r * x) + camera.up * (r * y), target)
+    }
+
+    /// The radiance along one path.
+    fn radiance(&mut self, ray: Ray, sobol: Sobol) -> Vec3 {
+        self.counts.camera += 1;
+        let mut walk = Walk {
+            ray,
+            beta: Vec3::ONE,
+            found: Vec3::ZERO,
+            sobol,
+            corners: 0,
+            pdf: None,
+            absorption: Vec3::ZERO,
+            channel: None,
+            travelled: 0.0,
+        };
+        loop {
+            let Some(corner) = self.meet(&mut walk) else {
+                self.find_environment(&mut walk);
+                return walk.found;
+            };
+            self.counts.hits += u64::from(walk.corners == 0);
+            if !self.scatter(&mut walk, &corner) {
+                return walk.found;
+            }
+            walk.corners += 1;
+        }
+    }
+
+    /// The next surface that is there; veils let the ray on by chance.
+    fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
+        walk.travelled = 0.0;
+        for veil in 0..VEILS {
+            let hit = self.world.nearest(&walk.ray)?;
+            let surface = &self.world.surfaces[hit.surface];
+            let at = surface.shape.interaction(&walk.ray, hit.t, hit.part);
+            let details = surface.shape.details(&walk.ray, &at, hit.part);
+            let point = Point::new(&self.world.scene, surface.material, &details);
+            walk.travelled += hit.t;
+            let coverage = point.coverage();
+            if coverage < 1.0 && walk.sobol.uniform(walk.corners, veil) >= coverage {
+                walk.ray = at.ray(walk.ray.direction);
+                continue;
+            }
+            let (frame, coat) = point.frame(&at, &details, -walk.ray.direction);
+            return Some(Corner { at, point, frame, coat, hit });
+        }
+        None
+    }
+
+    /// Light from where no surface stands.
+    fn find_environment(&self, walk: &mut Walk) {
+        let radiance = self.lights.environment.radiance(walk.ray.direction);
+        let weight = self.weight(walk.pdf, || self.lights.pdf_of_environment(walk.ray.direction));
+        walk.found += walk.beta * radiance * weight;
+    }
+
+    /// The weight of light that scattering found and aiming could have.
+    fn weight(&self, scattered: Option<f64>, aimed: impl FnOnce() -> f64) -> f64 {
+        match (scattered, self.strategy) {
+            (Some(scattered), Strategy::Both) => power_heuristic(scattered, aimed()),
+            (Some(_), Strategy::Lights) if aimed() > 0.0 => 0.0,
+            _ => 1.0,
+        }
+    }
+
+    /// Finds light at a corner and turns the path; false if it ends here.
+    fn scatter(&mut self, walk: &mut Walk, corner: &Corner<'world>) -> bool {
+        let Corner { at, point, frame, coat, hit } = corner;
+        let wo = -walk.ray.direction;
+        if walk.absorption != Vec3::ZERO {
+            walk.beta *= (walk.absorption * -walk.travelled).map(exp);
+        }
+        if point.material.unlit {
+            walk.found += walk.beta * point.base_color();
+            return false;
+        }
+        let emission = point.emission();
+        if emission != Vec3::ZERO {
+            let square = walk.travelled * walk.travelled;
+            let aimed = || self.lights.pdf_of_surface(hit.surface, hit.part, -wo, square);
+            walk.found += walk.beta * emission * self.weight(walk.pdf, aimed);
+        }
+        if walk.corners >= self.world.plan.max_depth {
+            return false;
+        }
+        let [choice, light] = walk.pair(0);
+        if point.material.dispersion > 0.0 && walk.channel.is_none() {
+            walk.disperse();
+        }
+        let standard = point.standard(frame, *coat, walk.channel, self.path.multiple_scattering);
+        let local = frame.to_local(wo);
+        let bsdf = Bsdf::new(&standard, local);
+        if !bsdf.is_delta() {
+            walk.found += walk.beta * self.direct(walk, corner, &bsdf, light);
+        }
+        let [u, v] = walk.pair(1);
+        let Some(sample) = bsdf.sample([choice, u, v]) else { return false };
+        let wi = frame.to_world(sample.wi).normalize();
+        let through = sample.wi.z * local.z < 0.0;
+        if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
+            return false;
+        }
+        walk.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
+        walk.pdf = (!sample.delta).then_some(sample.pdf);
+        if through && point.bounds_a_volume() {
+            walk.absorption = if wi.dot(at.normal) < 0.0 { point.absorption() } else { Vec3::ZERO };
+        }
+        walk.ray = at.ray(wi);
+        *if through { &mut self.counts.refracted } else { &mut self.counts.mirror } += 1;
+        walk.survives()
+    }
+
+    /// The light that one light sends to a corner and on along the path.
+    fn direct(&mut self, walk: &Walk, corner: &Corner<'world>, bsdf: &Bsdf, choice: f64) -> Vec3 {
+        let Corner { at, frame, .. } = corner;
+        let Some(Incident { wi, radiance, pdf, place }) = self.lights.sample(at.point, choice, walk.pair(2)) else {
+            return Vec3::ZERO;
+        };
+        let (local, wo) = (frame.to_local(wi), -walk.ray.direction);
+        let through = local.z * frame.to_local(wo).z < 0.0;
+        if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
+            return Vec3::ZERO;
+        }
+        let value = bsdf.evaluate(local);
+        let weight = match (pdf, self.strategy) {
+            (Some(aimed), Strategy::Both) => power_heuristic(aimed, value.pdf),
+            _ => 1.0,
+        };
+        let light = value.f * radiance * (local.z.abs() * weight);
+        if light == Vec3::ZERO { light } else { light * self.visibility(at, wi, place) }
+    }
+
+    /// The share of light that comes through from a place, or from infinitely far away.
+    fn visibility(&mut self, at: &Interaction, wi: Vec3, place: Option<Vec3>) -> f64 {
+        self.counts.shadow += 1;
+        let mut ray = at.ray(wi);
+        if !self.has_veils {
+            let hidden = match place {
+                Some(place) => self.world.occluded(ray.origin, place),
+                None => self.world.any(&ray, f64::INFINITY),
+            };
+            return f64::from(u8::from(!hidden));
+        }
+        let mut share = 1.0;
+        for _ in 0..VEILS {
+            if let Some(place) = place
+                && !self.world.occluded(ray.origin, place)
+            {
+                return share;
+            }
+            let Some(hit) = self.world.nearest(&ray) else { return share };
+            let surface = &self.world.surfaces[hit.surface];
+            if self.world.scene.standards()[surface.material].alpha == Alpha::Opaque {
+                return 0.0;
+            }
+            let at = surface.shape.interaction(&ray, hit.t, hit.part);
+            let details = surface.shape.details(&ray, &at, hit.part);
+            share *= 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage();
+            if share == 0.0 {
+                return 0.0;
+            }
+            ray = at.ray(wi);
+        }
+        0.0
+    }
+}
+
+impl Walk {
+    /// A pair of numbers of this corner.
+    fn pair(&self, pair: u32) -> [f64; 2] {
+        self.sobol.pair(CORNERS + PAIRS * self.corners + pair)
+    }
+
+    /// Keeps one colour, which stands for all three.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "one of three")]
+    fn disperse(&mut self) {
+        let [u, _] = self.pair(3);
+        let channel = ((u * 3.0) as usize).min(2);
+        let mut kept = [0.0; 3];
+        kept[channel] = 3.0;
+        self.beta *= Vec3::from_array(kept);
+        self.channel = Some(channel);
+    }
+
+    /// Ends the path with a probability that grows as its factor falls.
+    fn survives(&mut self) -> bool {
+        let largest = self.beta.max_element();
+        if self.corners < SPARED || largest >= 1.0 {
+            return largest > 0.0;
+        }
+        let [_, u] = self.pair(3);
+        self.beta /= largest;
+        u < largest
+    }
+}
+
+/// Veach's power heuristic with exponent 2.
+fn power_heuristic(own: f64, other: f64) -> f64 {
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// A share of a turn in units of 2⁻⁶⁴ turns.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share; the cast saturates")]
+fn turns(share: f64) -> u64 {
+    (share * 18_446_744_073_709_551_616.0) as u64
+}

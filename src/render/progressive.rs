@@ -1,0 +1,207 @@
+//! A film that grows: in each pixel four strands of samples, independent of each other, two to each half of the pixel.
+//!
+//! The mean of the halves is the picture; how far the strands of a half are apart tells what that is worth. How many samples
+//! a half takes may hang on what the other half saw: neither is then biased by its own luck.
+
+use super::basic::Basic;
+use super::camera::{camera_ray, image_point, lens_at};
+use super::film::{Counts, Crop, Values};
+use super::geometry::Geometry;
+use super::plain::PlainShape;
+use super::sampler::Key;
+use super::sequence::Sequence;
+use super::shape::Shape;
+use super::whitted::Tracer;
+use super::world::World;
+use crate::image::Image;
+use crate::math::Vec3;
+use crate::plan::{Arithmetic, Plan, Shapes};
+use crate::valid::ValidScene;
+use rayon::prelude::*;
+
+/// The samples of a pixel so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Strands {
+    /// Per strand, the sum of its samples, each clamped to [0, 1]; strands 0 and 1 are the first half.
+    sums: [Vec3; 4],
+    /// Per half, the sum of the squared lengths of the same.
+    squares: [f64; 2],
+    /// Per half, the sum of its samples as they are.
+    linear: [Vec3; 2],
+    /// Per half, how many samples each of its strands has.
+    counts: [u32; 2],
+}
+
+/// A part of a picture that grows, 168 bytes a pixel.
+#[derive(Clone, Debug)]
+pub struct Growing {
+    crop: Crop,
+    seed: u64,
+    /// Row by row.
+    pub pixels: Vec<Strands>,
+    /// The rays so far.
+    pub counts: Counts,
+}
+
+/// A scene prepared for growing films.
+pub trait Grow {
+    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many each strand of the halves of
+    /// pixel i is to have at least. False if `proceed` said stop; the film is then of no use.
+    ///
+    /// `proceed` is called from all threads after each pixel with the number of rays it took.
+    fn grow(
+        &self,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool;
+}
+
+/// Prepares a scene as planned.
+#[must_use]
+pub fn growable(scene: &ValidScene, plan: &Plan) -> Box<dyn Grow> {
+    match (plan.arithmetic, plan.shapes) {
+        (Arithmetic::Robust, Shapes::Basic) => Box::new(World::<Basic>::prepare(scene, plan)),
+        (Arithmetic::Robust, Shapes::All) => Box::new(World::<Shape>::prepare(scene, plan)),
+        (Arithmetic::Plain, _) => Box::new(World::<PlainShape<f64>>::prepare(scene, plan)),
+        (Arithmetic::F32, _) => Box::new(World::<PlainShape<f32>>::prepare(scene, plan)),
+    }
+}
+
+impl Growing {
+    /// A film without samples, of a part that lies within the picture. Another seed gives independent samples.
+    #[must_use]
+    pub fn new(crop: Crop, seed: u64) -> Self {
+        let pixels = vec![Strands::default(); crop.width as usize * crop.height as usize];
+        Self { crop, seed, pixels, counts: Counts::default() }
+    }
+
+    /// The part of the picture that it holds.
+    #[must_use]
+    pub fn crop(&self) -> Crop {
+        self.crop
+    }
+
+    /// All samples.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.pixels.iter().map(Strands::samples).sum()
+    }
+
+    /// The picture so far; black where nothing was sampled.
+    #[must_use]
+    pub fn image(&self, values: Values) -> Image {
+        let pixels = self.pixels.iter().map(|pixel| pixel.mean(values).to_array()).collect();
+        Image { width: self.crop.width, height: self.crop.height, pixels }
+    }
+}
+
+impl Strands {
+    /// All samples.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
+    }
+
+    /// How many samples each strand of a half has.
+    #[must_use]
+    pub fn count(&self, half: usize) -> u32 {
+        self.counts[half]
+    }
+
+    /// The variance of the mean of a half, from how far its strands are apart: the mean over the channels.
+    #[must_use]
+    pub fn variance_of_half(&self, half: usize) -> f64 {
+        let apart = (self.sums[2 * half] - self.sums[2 * half + 1]) / f64::from(self.counts[half].max(1));
+        apart.length_squared() / 12.0
+    }
+
+    /// The variance of the samples of a half: the mean over the channels.
+    #[must_use]
+    pub fn variance_of_samples(&self, half: usize) -> f64 {
+        let n = 2.0 * f64::from(self.counts[half]);
+        let sum = self.sums[2 * half] + self.sums[2 * half + 1];
+        let square = self.squares[half] - sum.length_squared() / n.max(1.0);
+        square.max(0.0) / (3.0 * (n - 1.0).max(1.0))
+    }
+
+    /// The mean of the halves, whatever the samples of each.
+    fn mean(&self, values: Values) -> Vec3 {
+        let of = |half: usize| {
+            let sum = match values {
+                Values::Display => self.sums[2 * half] + self.sums[2 * half + 1],
+                Values::Linear => self.linear[half],
+            };
+            sum / (2.0 * f64::from(self.counts[half].max(1)))
+        };
+        (of(0) + of(1)) * 0.5
+    }
+}
+
+impl<S: Geometry> Grow for World<S> {
+    fn grow(
+        &self,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool {
+        super::kernel::dispatch!(self.grow_with(film, wanted, proceed))
+    }
+}
+
+impl<S: Geometry> World<S> {
+    /// Grows with the features `F`.
+    fn grow_with<const F: u32>(
+        &self,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool {
+        let Growing { crop, seed, pixels, counts } = film;
+        let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
+        let row = |(y, row): (usize, &mut [Strands])| {
+            let mut tracer: Tracer<'_, S, F> = Tracer::new(self);
+            tracer.spread = true;
+            for (i, (x, pixel)) in (crop.x..).zip(row).enumerate() {
+                let before = tracer.counts.rays();
+                #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
+                let at = [x, crop.y + y as u32];
+                tracer.lengthen(at, seed, pixel, wanted(y * width + i));
+                if !proceed(tracer.counts.rays() - before) {
+                    return None;
+                }
+            }
+            Some(tracer.counts)
+        };
+        let rows = pixels.par_chunks_mut(width).enumerate().map(row);
+        let more = rows.try_reduce(Counts::default, |a, b| Some(a.plus(b)));
+        *counts = counts.plus(more.unwrap_or_default());
+        more.is_some()
+    }
+}
+
+/// Keeps the numbers of strands apart from those of the paths through them.
+const STRAND: u64 = u64::MAX - 2;
+
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// Takes the samples that a pixel lacks.
+    fn lengthen(&mut self, pixel: [u32; 2], seed: u64, strands: &mut Strands, wanted: [u32; 2]) {
+        let camera = self.scene().camera();
+        for strand in 0..4_usize {
+            let half = strand / 2;
+            let number = (seed << 2 | strand as u64).wrapping_add(1);
+            let sequence = Sequence::new(Key::new(pixel, number).child(STRAND));
+            for index in strands.counts[half]..wanted[half] {
+                let [x, y, u, v] = sequence.point(index);
+                let origin = lens_at(camera, [u, v]);
+                let ray = camera_ray(origin, image_point(camera, pixel, [x, y]));
+                let radiance = self.radiance(ray, Key::new(pixel, u64::from(index)).seeded(number));
+                let shown = radiance.clamp(Vec3::ZERO, Vec3::ONE);
+                strands.sums[strand] += shown;
+                strands.squares[half] += shown.length_squared();
+                strands.linear[half] += radiance;
+            }
+        }
+        strands.counts = [0, 1].map(|half: usize| strands.counts[half].max(wanted[half]));
+    }
+}

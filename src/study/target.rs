@@ -1,0 +1,233 @@
+//! A render that knows how good it is: rounds of samples where they are needed, until an error or a time is reached.
+//!
+//! The truth is the picture that more and more sub-samples, points of the lens and points of soft lights lead to, at the
+//! scene's own depth and with its own lobes; a light asked at its centre alone stays one. What no sample of a pixel has met
+//! is in no estimate. Rounds are decided by the whole film: an error alone gives the same picture on any threads.
+
+use super::knob::{Knob, idle};
+use super::metrics::LEVELS;
+use super::noise::{Allotment, Noise};
+use super::subject::{Stopped, prove};
+use crate::image::Image;
+use crate::ir::{Pattern, Scene};
+use crate::plan::{Arithmetic, Plan, Rules};
+use crate::render::{Counts, Crop, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
+use std::time::Duration;
+
+/// When to stop; with both, whichever comes first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Goal {
+    /// The root mean square error in grey levels of 8 bits, of display values.
+    pub error: Option<f64>,
+    /// The time of day that the render may take. At least one round is made, and only whole rounds count.
+    pub time: Option<Duration>,
+}
+
+/// What is to be rendered.
+#[derive(Clone, Copy, Debug)]
+pub struct Order {
+    /// When to stop.
+    pub goal: Goal,
+    /// How rays meet shapes.
+    pub arithmetic: Arithmetic,
+    /// The part of the picture, within it.
+    pub crop: Crop,
+    /// What the picture holds; errors are those of display values in any case.
+    pub values: Values,
+    /// Whether soft lights keep their number of points, which is chosen otherwise.
+    pub keep_lights: bool,
+    /// Where sampling starts: another seed gives independent noise.
+    pub seed: u64,
+}
+
+/// Who looks on.
+pub struct Watch<'a> {
+    /// Called from all threads after each pixel with the rays it took; false means stop.
+    pub proceed: &'a (dyn Fn(u64) -> bool + Sync),
+    /// The time since the start.
+    pub elapsed: &'a (dyn Fn() -> Duration + Sync),
+    /// Told before each round.
+    pub round: &'a (dyn Fn(Progress) + Sync),
+}
+
+/// How far it is before a round.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    /// The pixels that the round looks at.
+    pub pixels: u64,
+    /// The bound on the error so far, in grey levels; none before the first round.
+    pub error: Option<f64>,
+}
+
+/// The samples of the pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Samples {
+    /// Of the pixel with the fewest.
+    pub least: u64,
+    /// In the mean.
+    pub mean: f64,
+    /// Of the pixel with the most.
+    pub most: u64,
+}
+
+/// A picture and how good it is.
+#[derive(Clone, Debug)]
+pub struct Reached {
+    /// The picture.
+    pub image: Image,
+    /// Its rays, those of rounds cut short and of the choice of the setting too.
+    pub counts: Counts,
+    /// The root mean square error in grey levels, which the picture keeps with 95 % confidence.
+    pub error: f64,
+    /// Its samples.
+    pub samples: Samples,
+    /// Points of each soft light at a hit.
+    pub light_samples: u32,
+}
+
+/// The share of pictures that may be worse than promised.
+const TAIL: f64 = 0.05;
+
+/// The samples that each of the four strands of all pixels have together in the first round, at least one each: so many that
+/// a handful of pixels is not judged by a handful of samples.
+const FIRST: usize = 1024;
+
+/// Renders a proven scene until the goal is reached, on the threads of the current pool.
+///
+/// # Errors
+/// If someone said stop.
+pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+    let samples = [Knob::Supersampling, Knob::Aperture, Knob::Lights, Knob::Glossy];
+    if samples.into_iter().all(|knob| idle(knob, scene).is_some()) {
+        return exactly(scene, order, watch);
+    }
+    let (light_samples, tried) = light_samples(scene, order, watch)?;
+    let world = prepare(scene, order, light_samples);
+    let mut film = Growing::new(order.crop, order.seed);
+    (watch.round)(Progress { pixels: film.pixels.len() as u64, error: None });
+    let first = FIRST.div_ceil(film.pixels.len().max(1)).next_power_of_two();
+    let first = u32::try_from(first).unwrap_or(1);
+    if !world.grow(&mut film, &|_| [first; 2], watch.proceed) {
+        return Err(Stopped);
+    }
+    for round in 1_u32.. {
+        let noise = Noise::of(&film);
+        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to the one allowed.
+        let tail = TAIL / (f64::from(round) * f64::from(round + 1));
+        let error = noise.bound(tail);
+        let reached = Reached {
+            image: film.image(order.values),
+            counts: film.counts.plus(tried),
+            error,
+            samples: samples_of(&film),
+            light_samples,
+        };
+        let Some(wanted) = next_round(&film, &noise, tail, &order.goal, (watch.elapsed)()) else { return Ok(reached) };
+        (watch.round)(Progress { pixels: film.pixels.len() as u64, error: Some(error) });
+        let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
+        if !world.grow(&mut film, &|index| wanted[index], &|rays| (watch.proceed)(rays) && !is_late()) {
+            // A round cut short has favoured pixels at the top: the picture before it stands.
+            return if (watch.proceed)(0) { Ok(reached) } else { Err(Stopped) };
+        }
+    }
+    unreachable!("rounds end when all strands are as long as can be")
+}
+
+/// The picture of a mode that samples nothing.
+fn exactly(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+    let proven = prove(scene);
+    let job = Job { crop: Some(order.crop), values: order.values, ..Job::default() };
+    let film = render(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL), &job, watch.proceed).ok_or(Stopped)?;
+    let samples = Samples { least: 1, mean: 1.0, most: 1 };
+    Ok(Reached { image: film.image, counts: film.counts, error: 0.0, samples, light_samples: 1 })
+}
+
+/// The scene, sampled anywhere in its pixels.
+fn prepare(scene: &Scene, order: &Order, light_samples: u32) -> Box<dyn Grow> {
+    let mut scene = scene.clone();
+    scene.settings.pattern = Pattern::Jitter;
+    scene.settings.light_samples = light_samples;
+    let proven = prove(&scene);
+    growable(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL))
+}
+
+/// How many points of each soft light are worth their rays, and the rays that took: of few more are tried on some tiles as long
+/// as noise times rays falls, which is what a picture of any error costs.
+fn light_samples(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<(u32, Counts), Stopped> {
+    /// Tiles, and samples of a strand in them.
+    const TILES: usize = 8;
+    const LENGTH: u32 = 4;
+    let own = scene.settings.light_samples;
+    let (mut best, mut tried) = ((own, f64::INFINITY), Counts::default());
+    if order.keep_lights || own == 1 || idle(Knob::Lights, scene).is_some() {
+        return Ok((own, tried));
+    }
+    let Crop { x, y, width, height } = order.crop;
+    let tiles = |from: u32, length: u32| from / Tiles::SIDE..(from + length).div_ceil(Tiles::SIDE);
+    let mut ranks: Vec<_> =
+        tiles(y, height).flat_map(|j| tiles(x, width).map(move |i| Tiles::rank(order.seed, [i, j]))).collect();
+    ranks.sort_unstable();
+    let last = ranks.get(TILES - 1).or(ranks.last()).copied().unwrap_or(u64::MAX);
+    let some = Tiles { seed: order.seed, last };
+    let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
+    let wanted: Vec<_> = pixels.map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2]).collect();
+    for count in [2, 4, 8, 16, 32] {
+        let mut film = Growing::new(order.crop, order.seed);
+        if !prepare(scene, order, count).grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(0)) {
+            return Err(Stopped);
+        }
+        tried = tried.plus(film.counts);
+        let price = Noise::of(&film).square * film.counts.rays() as f64;
+        if price >= best.1 {
+            break;
+        }
+        best = (count, price);
+    }
+    Ok((best.0, tried))
+}
+
+fn samples_of(film: &Growing) -> Samples {
+    let counts = || film.pixels.iter().map(Strands::samples);
+    Samples {
+        least: counts().min().unwrap_or(0),
+        mean: film.samples() as f64 / film.pixels.len().max(1) as f64,
+        most: counts().max().unwrap_or(0),
+    }
+}
+
+/// The length of all strands after the next round; none if the goal is reached, or no further round fits into the time.
+fn next_round(film: &Growing, noise: &Noise, tail: f64, goal: &Goal, elapsed: Duration) -> Option<Vec<[u32; 2]>> {
+    /// How much more or less noise to ask for when a round would do nothing, or not fit.
+    const LESS: f64 = 0.8;
+    const MORE: f64 = 1.5;
+    let is_met = |error: f64| noise.bound(tail) <= error;
+    let left = goal.time.map_or(Some(Duration::MAX), |time| time.checked_sub(elapsed))?;
+    if noise.square == 0.0 || goal.error.is_some_and(is_met) {
+        return None;
+    }
+    let allotment = Allotment::of(film, noise);
+    let samples = film.samples() as f64;
+    let most = samples * left.as_secs_f64() / elapsed.as_secs_f64().max(1e-9);
+    let round = |square: f64| {
+        let wanted: Vec<_> = (0..film.pixels.len()).map(|index| allotment.wanted(film, index, square)).collect();
+        let more = wanted.iter().map(|[a, b]| 2.0 * (f64::from(*a) + f64::from(*b))).sum::<f64>() - samples;
+        (wanted, more)
+    };
+    let mut square = match goal.error {
+        Some(error) => error * error / (LEVELS * LEVELS * noise.caution(tail)),
+        None => noise.square / 4.0,
+    };
+    let (mut wanted, mut more) = round(square);
+    while more == 0.0 {
+        if square < f64::MIN_POSITIVE {
+            return None;
+        }
+        square *= LESS;
+        (wanted, more) = round(square);
+    }
+    while more > most {
+        square *= MORE;
+        (wanted, more) = round(square);
+    }
+    (more > 0.0).then_some(wanted)
+}
