@@ -181,6 +181,22 @@ fn an_exr_says_where_it_came_from() {
 }
 
 #[test]
+fn a_target_is_met_said_and_the_same_on_any_threads() {
+    let folder = folder();
+    let render = |args: &[&str]| rtc(&folder, &[&["render", "ball.json", "-o", "-"], args].concat());
+    let one = render(&["--target-error", "2", "--threads", "1"]);
+    let talk = stderr(&one);
+    let said = talk.lines().nth(1).unwrap().strip_prefix("error ≤ ").unwrap();
+    assert!(said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0, "{talk}");
+    assert!(said.contains(" grey levels (95 %), ") && said.contains(" samples a pixel on the mean, "), "{talk}");
+    assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
+    assert_eq!(code(&render(&["--target-error", "2", "--time-budget", "1", "--crop", "3,4,5,6"])), 0);
+    for args in [&["--supersampling", "2"], &["--aperture-samples", "2"], &["--target-error", "0"]] {
+        assert_eq!(code(&render(&[&["--time-budget", "1"], &args[..]].concat())), 2, "{args:?}");
+    }
+}
+
+#[test]
 fn nothing_in_view_is_a_warning_after_the_render() {
     let folder = folder();
     let output = rtc(&folder, &["render", "away.json"]);

@@ -75,7 +75,7 @@ pub struct Samples {
 pub struct Reached {
     /// The picture.
     pub image: Image,
-    /// Its rays, those of rounds cut short and of the choice of the setting too.
+    /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
     /// The root mean square error in grey levels, which the picture keeps with 95 % confidence.
     pub error: f64,
@@ -155,8 +155,8 @@ fn prepare(scene: &Scene, order: &Order, light_samples: u32) -> Box<dyn Grow> {
 /// as noise times rays falls, which is what a picture of any error costs.
 fn light_samples(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<(u32, Counts), Stopped> {
     /// Tiles, and samples of a strand in them.
-    const TILES: usize = 8;
-    const LENGTH: u32 = 4;
+    const TILES: usize = 4;
+    const LENGTH: u32 = 2;
     let own = scene.settings.light_samples;
     let (mut best, mut tried) = ((own, f64::INFINITY), Counts::default());
     if order.keep_lights || own == 1 || idle(Knob::Lights, scene).is_some() {
