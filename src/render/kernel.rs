@@ -42,23 +42,31 @@ pub const KERNELS: [Kernel; 12] = [
     kernel("naive", Features::EVERYTHING.with(Features::NAIVE)),
 ];
 
+/// The few of them that are compiled for what is rarer: other arithmetics, and pictures that grow.
+const FEW: [usize; 4] = [1, 4, 10, 11];
+
 /// The index of the integrator with the fewest features among those that have all of `needed`; the first of equals.
 #[must_use]
 pub fn choose(needed: Features) -> usize {
-    let able = (0..KERNELS.len()).filter(|index| KERNELS[*index].features.contains(needed));
+    smallest(0..KERNELS.len(), needed)
+}
+
+/// As [`choose`], among the few.
+#[must_use]
+pub(super) fn choose_of_few(needed: Features) -> usize {
+    smallest(FEW, needed)
+}
+
+fn smallest(kernels: impl IntoIterator<Item = usize>, needed: Features) -> usize {
+    let able = kernels.into_iter().filter(|index| KERNELS[*index].features.contains(needed));
     able.min_by_key(|index| KERNELS[*index].features.count()).unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of the integrator that its plan chooses.
+/// Calls a method of a world with the features of the integrator chosen, by its index; of those not listed the last.
 macro_rules! dispatch {
-    ($world:ident.$method:ident $arguments:tt) => {
-        $crate::render::kernel::dispatch!(@ $world.$method $arguments; 0 1 2 3 4 5 6 7 8 9 10)
-    };
-    (@ $world:ident.$method:ident $arguments:tt; $($index:literal)*) => {
-        match $crate::render::kernel::choose($world.plan.features) {
-            $($index => {
-                $crate::render::kernel::dispatch!(@ $world.$method::<$index> $arguments)
-            })*
+    ($chosen:expr; $($index:literal)*; $world:ident.$method:ident $arguments:tt) => {
+        match $chosen {
+            $($index => $crate::render::kernel::dispatch!(@ $world.$method::<$index> $arguments),)*
             _ => $crate::render::kernel::dispatch!(@ $world.$method::<11> $arguments),
         }
     };
@@ -76,8 +84,8 @@ pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &(dyn Fn(u64)
     match (plan.arithmetic, plan.shapes) {
         (Arithmetic::Robust, Shapes::Basic) => World::<Basic>::prepare(scene, plan).render(job, proceed),
         (Arithmetic::Robust, Shapes::All) => World::<Shape>::prepare(scene, plan).render(job, proceed),
-        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, plan).render(job, proceed),
-        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, plan).render(job, proceed),
+        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, plan).render_by_few(job, proceed),
+        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, plan).render_by_few(job, proceed),
     }
 }
 
@@ -88,7 +96,16 @@ impl<S: Geometry> World<S> {
         if let Mode::Path(path) = self.scene.settings().mode {
             return self.render_paths(path, Strategy::Both, job, proceed);
         }
-        dispatch!(self.render_with(job, proceed))
+        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.render_with(job, proceed))
+    }
+
+    /// As [`Self::render`], by one of the [`FEW`] integrators.
+    #[must_use]
+    pub fn render_by_few(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+        if let Mode::Path(path) = self.scene.settings().mode {
+            return self.render_paths(path, Strategy::Both, job, proceed);
+        }
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.render_with(job, proceed))
     }
 }
 
@@ -104,6 +121,7 @@ mod tests {
             assert!(chosen.contains(needed), "{needed:?}: {chosen:?}");
             let smaller = KERNELS.iter().filter(|kernel| kernel.features.contains(needed));
             assert!(smaller.map(|kernel| kernel.features.count()).min() == Some(chosen.count()), "{needed:?}");
+            assert!(KERNELS[choose_of_few(needed)].features.contains(needed), "{needed:?}");
         }
     }
 }

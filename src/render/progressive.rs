@@ -7,6 +7,7 @@ use super::basic::Basic;
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Counts, Crop, Values};
 use super::geometry::Geometry;
+use super::kernel::{choose_of_few, dispatch};
 use super::plain::PlainShape;
 use super::sampler::Key;
 use super::sequence::Sequence;
@@ -145,7 +146,7 @@ impl<S: Geometry> Grow for World<S> {
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
         proceed: &(dyn Fn(u64) -> bool + Sync),
     ) -> bool {
-        super::kernel::dispatch!(self.grow_with(film, wanted, proceed))
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, proceed))
     }
 }
 
