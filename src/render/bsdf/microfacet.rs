@@ -68,8 +68,8 @@ impl Microfacet {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
         };
-        let film =
-            standard.iridescence.map(|film| (ThinFilm { ior: film.ior, thickness: film.thickness }, film.factor));
+        let film = standard.iridescence.filter(|film| film.thickness > 0.0);
+        let film = film.map(|film| (ThinFilm { ior: film.ior, thickness: film.thickness }, film.factor));
         let dielectric = Fresnel { f0: standard.dielectric_f0(), f90: Vec3::splat(standard.specular), film };
         let ior = if standard.ior > 0.0 { standard.ior } else { 1.0 };
         let crossing = match standard.thin_walled {
