@@ -15,10 +15,10 @@ fn main() {
     let (mut kept, mut under, mut sum) = (0, 0, 0.0);
     for number in 0..SCENES {
         let scene = scenes::scene(number, SIZE);
-        let reference = scenes::reference(&scene, target);
+        let references = scenes::references(&scene, target);
         for seed in 1..=SEEDS {
             let reached = scenes::render(&scene, target, seed);
-            let error = scenes::error(&reached, &reference);
+            let error = scenes::error(&reached, &references);
             println!("{number} {seed} {:.3} {error:.3} {:.1}", reached.error, reached.samples.mean);
             kept += u32::from(error <= reached.error);
             under += u32::from(error <= target);

@@ -1,5 +1,6 @@
 //! The arguments, exactly as typed; [`super`] resolves them.
 
+use super::parse::{crop, folder, levels, moment, rule, seconds, size};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use crate::{diag, ir, study};
@@ -372,65 +373,4 @@ pub(super) enum Color {
     Auto,
     Always,
     Never,
-}
-
-fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
-}
-
-fn moment(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-    number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
-}
-
-fn rule(text: &str) -> Result<Rule, String> {
-    Rule::find(text).ok_or_else(|| {
-        let names = Rule::ALL.map(Rule::name).join(", ");
-        format!("there is no such rule; there are {names}")
-    })
-}
-
-fn levels(text: &str) -> Result<f64, String> {
-    let levels = text.parse().ok().filter(|levels| (0.01..=255.0).contains(levels));
-    levels.ok_or_else(|| "expected 0.01 to 255 grey levels".to_owned())
-}
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
-}
-
-fn folder(text: &str) -> Result<PathBuf, String> {
-    Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
-}
-
-fn crop(text: &str) -> Result<Crop, String> {
-    let numbers: Option<Vec<u32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
-        _ => Err("expected left, top, width and height in pixels, as 10,20,64,48".to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use clap::CommandFactory;
-
-    #[test]
-    fn the_arguments_agree_with_each_other() {
-        Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes_and_crops() {
-        assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
-        assert!(["640", "0x4", "4x", "-1x2", "1x2x3"].into_iter().all(|text| size(text).is_err()));
-        assert!(["0", "-1", "nan", "inf", "256", "x"].into_iter().all(|text| levels(text).is_err()));
-        assert!(["0", "-1", "nan", "inf", "1e300", "x"].into_iter().all(|text| seconds(text).is_err()));
-        assert_eq!((levels("0.5"), seconds("2.5")), (Ok(0.5), Ok(Duration::from_millis(2500))));
-        assert_eq!(crop("1, 2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
-        assert!(["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"].into_iter().all(|text| crop(text).is_err()));
-    }
 }

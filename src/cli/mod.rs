@@ -10,6 +10,7 @@ mod explain;
 mod input;
 mod interrupt;
 mod output;
+mod parse;
 mod progress;
 mod render;
 mod report;

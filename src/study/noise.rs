@@ -23,10 +23,12 @@ impl Noise {
             sum += variance;
             squares += variance * variance;
         }
-        // A sum of v·χ² with one degree each is close to one χ² with (Σv)²/Σv² (Satterthwaite, "An approximate distribution
-        // of estimates of variance components", Biometrics Bulletin 2 (1946)). Each variance is estimated with two degrees,
-        // so that its square is 2v² in the mean; three channels count as one, as if grey.
-        let freedom = if squares > 0.0 { 2.0 * sum * sum / squares } else { f64::INFINITY };
+        // The mean square error and its estimate, of twice the degrees of freedom k, are as far apart as Fisher's F if their
+        // relative variances sum to 3/k (Satterthwaite, "An approximate distribution of estimates of variance components",
+        // Biometrics Bulletin 2 (1946)). Each pixel adds its squared error, of the square 3v² in the mean, and its estimate,
+        // of 2v², less 2v², if samples are normal; where what they meet is rare both have the same square, far above v².
+        // So twice the square of the estimate bounds what a pixel adds; three channels count as one, as if grey.
+        let freedom = if squares > 0.0 { 1.5 * sum * sum / squares } else { f64::INFINITY };
         Self { square: sum / film.pixels.len().max(1) as f64, freedom }
     }
 
@@ -72,13 +74,11 @@ impl Allotment {
     /// least work is samples in proportion to the deviation (Neyman, Journal of the Royal Statistical Society 97 (1934)). At
     /// most twice as many as there are; a power of two, of which strands are stratified.
     pub(super) fn wanted(&self, film: &Growing, index: usize, square: f64) -> [u32; 2] {
-        /// Half a power of two, up or down.
-        const ROUND: f64 = std::f64::consts::SQRT_2;
         let scale = self.gain * self.mean / (4.0 * square);
         [0, 1].map(|half: usize| {
             let count = film.pixels[index].count(half);
             let best = scale * self.deviations[index][half];
-            if best > ROUND * f64::from(count) && count < LONGEST { 2 * count } else { count }
+            if best >= 2.0 * f64::from(count) && count < LONGEST { 2 * count } else { count }
         })
     }
 }

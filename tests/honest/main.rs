@@ -7,7 +7,7 @@ mod scenes;
 use rtc::ir::Scene;
 use rtc::render::{Crop, Values};
 use rtc::study::{Goal, Order, Reached, Stopped, Watch, approach};
-use scenes::{error, order, reference, render, scene};
+use scenes::{error, order, references, render, scene};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
 
@@ -45,11 +45,11 @@ fn the_error_said_is_kept() {
     let mut kept = 0;
     for number in [5, 11, 16, 22, 26, 31] {
         let scene = scene(number, SIZE);
-        let reference = reference(&scene, 3.0);
+        let references = references(&scene, 3.0);
         for seed in 1..=4 {
             let reached = render(&scene, 3.0, seed);
             assert!(reached.error <= 3.0 && reached.error > 0.5, "scene {number}: {}", reached.error);
-            kept += u32::from(error(&reached, &reference) <= reached.error);
+            kept += u32::from(error(&reached, &references) <= reached.error);
         }
     }
     assert!(kept >= 20, "{kept} of 24");

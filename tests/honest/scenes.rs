@@ -7,7 +7,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::Arithmetic;
 use rtc::render::{Crop, Values};
 use rtc::source::SourceMap;
-use rtc::study::{Chance, Goal, Order, Reached, Watch, approach, rmse};
+use rtc::study::{Chance, Goal, LEVELS, Order, Reached, Watch, approach};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -80,12 +80,15 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     Order { goal, arithmetic: Arithmetic::Robust, crop, values: Values::Display, keep_lights: false, seed }
 }
 
-/// A reference of other samples with at most a fifth of the error.
-pub(crate) fn reference(scene: &Scene, error: f64) -> Image {
-    render(scene, error / 5.0, 0x5EED).image
+/// Two references of other samples, each with at most a quarter of the error.
+pub(crate) fn references(scene: &Scene, error: f64) -> [Image; 2] {
+    [0x5EED, 0xFEED].map(|seed| render(scene, error / 4.0, seed).image)
 }
 
-/// The error of a picture in grey levels.
-pub(crate) fn error(reached: &Reached, reference: &Image) -> f64 {
-    rmse(std::slice::from_ref(&reached.image), std::slice::from_ref(reference))
+/// The error of a picture in grey levels: the noise of two independent references cancels in the product.
+pub(crate) fn error(reached: &Reached, [a, b]: &[Image; 2]) -> f64 {
+    let pixels = reached.image.pixels.iter().zip(&a.pixels).zip(&b.pixels);
+    let products = pixels
+        .flat_map(|((x, a), b)| [0, 1, 2].map(|channel: usize| (x[channel] - a[channel]) * (x[channel] - b[channel])));
+    (products.sum::<f64>() / (3.0 * a.pixels.len() as f64)).max(0.0).sqrt() * LEVELS
 }
