@@ -101,7 +101,7 @@ pub(super) struct Render {
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(super) depth: Option<u32>,
-    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, 95 % sure), to what ever more samples at this
+    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100 pictures), to what ever more samples at this
     /// depth would show
     #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples"])]
     pub(super) target_error: Option<f64>,

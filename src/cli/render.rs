@@ -168,7 +168,7 @@ impl Plan {
         let reached = reached.map_err(no_threads)?.map_err(|Stopped| Failure::Interrupted)?;
         let Samples { least, mean, most } = reached.samples;
         let quality =
-            format!("{} (95 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
+            format!("{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
         Ok(Picture { image: reached.image, counts: reached.counts, elapsed, quality: Some(quality) })
     }
 

@@ -77,7 +77,8 @@ pub struct Reached {
     pub image: Image,
     /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
-    /// The root mean square error in grey levels, which the picture keeps with 95 % confidence.
+    /// The root mean square error in grey levels: computed to be kept with 95 % confidence, and said for 90 %, which is what
+    /// `benches/honest.sh` counts.
     pub error: f64,
     /// Its samples.
     pub samples: Samples,

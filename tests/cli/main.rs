@@ -190,7 +190,7 @@ fn a_target_is_met_said_and_the_same_on_any_threads() {
     let talk = stderr(&one);
     let said = talk.lines().nth(1).unwrap().strip_prefix("error ≤ ").unwrap();
     assert!(said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0, "{talk}");
-    assert!(said.contains(" grey levels (95 %), ") && said.contains(" samples a pixel on the mean, "), "{talk}");
+    assert!(said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "), "{talk}");
     assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
     assert_eq!(code(&render(&["--target-error", "2", "--time-budget", "1", "--crop", "3,4,5,6"])), 0);
     for args in [&["--supersampling", "2"], &["--aperture-samples", "2"], &["--target-error", "0"]] {
