@@ -107,6 +107,10 @@ impl Scan<'_> {
             }
             at = end;
         }
+        if declared == HEADER {
+            let message = "the header says that the file ends with it: there is no chunk of JSON".to_owned();
+            self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", 8..12, message);
+        }
         if size > declared && at == declared {
             let message = format!("{} bytes after the last chunk are ignored", size - declared);
             self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
@@ -202,6 +206,12 @@ mod tests {
         let (parts, faults) = open_bytes(&bytes);
         assert_eq!(parts, Some(Parts { json: 20..24, bin: Some(32..40), is_glb: true }));
         assert!(faults.is_empty(), "{faults:?}");
+    }
+
+    #[test]
+    fn a_file_that_ends_with_its_header_has_no_scene() {
+        let (parts, faults) = open_bytes(&glb(&[]));
+        assert_eq!((parts, faults), (None, vec!["GLB_UNEXPECTED_END_OF_CHUNK_HEADER"]));
     }
 
     #[test]
