@@ -1,0 +1,91 @@
+//! What every command with a scene is told: how to read it, and how to tell findings.
+
+use super::super::parse::{folder, moment};
+use crate::diag;
+use clap::{ArgAction, Args, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+/// How the input is read.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Reading {
+    /// What to call standard input in messages
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) stdin_name: Option<String>,
+    /// Refuse unknown keys
+    #[arg(long)]
+    pub(in crate::cli) strict: bool,
+    /// Repair mistakes that have one sensible repair, with a warning
+    #[arg(long)]
+    pub(in crate::cli) lenient: bool,
+    /// A folder, beside that of the scene, whose files the scene may name: textures and meshes
+    #[arg(long, value_name = "FOLDER", value_parser = folder, value_hint = ValueHint::DirPath)]
+    pub(in crate::cli) asset_root: Option<PathBuf>,
+    /// Show a glTF asset at this moment of its animation [default: at rest]
+    #[arg(long, value_name = "SECONDS", value_parser = moment)]
+    pub(in crate::cli) time: Option<f64>,
+    /// The animation of a glTF asset, by its name [default: the first, if there is a `--time`]
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) animation: Option<String>,
+    /// The variant of the materials of a glTF asset, by its name
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) variant: Option<String>,
+    /// Lift the limits on the size of the picture and the number of rays
+    #[arg(long)]
+    pub(in crate::cli) allow_huge: bool,
+}
+
+/// How findings are told.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Talk {
+    /// The form of diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(in crate::cli) message_format: MessageFormat,
+    /// Colours in diagnostics
+    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
+    pub(in crate::cli) color: Color,
+    /// Show at most this many diagnostics of a file
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(in crate::cli) max_errors: u32,
+    /// Only errors: no warnings, no progress, no summary
+    #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose")]
+    pub(in crate::cli) quiet: bool,
+    /// Notes too
+    #[arg(short, long, action = ArgAction::SetTrue)]
+    pub(in crate::cli) verbose: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum MessageFormat {
+    /// For people, with the source
+    #[default]
+    Human,
+    /// One line each, for editors
+    Short,
+    /// One JSON object a line
+    Json,
+    /// SARIF 2.1.0
+    Sarif,
+    /// GitHub workflow commands
+    Github,
+}
+
+impl From<MessageFormat> for diag::Format {
+    fn from(format: MessageFormat) -> Self {
+        match format {
+            MessageFormat::Human => Self::Human,
+            MessageFormat::Short => Self::Short,
+            MessageFormat::Json => Self::Json,
+            MessageFormat::Sarif => Self::Sarif,
+            MessageFormat::Github => Self::Github,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Color {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    Always,
+    Never,
+}

@@ -1,0 +1,67 @@
+//! What `rtc cost` is told.
+
+use super::{Reading, Talk};
+use crate::study;
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Cost {
+    /// The scene, as YAML or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) file: PathBuf,
+    /// Where to write; `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) output: PathBuf,
+    /// The form of the report
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub(in crate::cli) format: Report,
+    /// Also write a page for a browser, with plots and pictures
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) html: Option<PathBuf>,
+    /// How much work the study may be
+    #[arg(long, value_enum, default_value_t)]
+    pub(in crate::cli) effort: Effort,
+    /// Which tiles of the picture are looked at, and in which order settings are timed
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(in crate::cli) seed: u64,
+    /// Threads for what is not timed [default: one a core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(in crate::cli) threads: Option<u16>,
+    #[command(flatten)]
+    pub(in crate::cli) reading: Reading,
+    #[command(flatten)]
+    pub(in crate::cli) talk: Talk,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Report {
+    /// A table of 80 columns
+    #[default]
+    Table,
+    /// The rows, as comma-separated values
+    Csv,
+    /// All there is, as JSON
+    Json,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Effort {
+    /// Seconds
+    Quick,
+    /// About a minute for a simple scene
+    #[default]
+    Default,
+    /// Ten times that
+    Thorough,
+}
+
+impl From<Effort> for study::Effort {
+    fn from(effort: Effort) -> Self {
+        match effort {
+            Effort::Quick => Self::QUICK,
+            Effort::Default => Self::DEFAULT,
+            Effort::Thorough => Self::THOROUGH,
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! The arguments, exactly as typed; [`super`] resolves them.
+
+mod common;
+mod cost;
+mod render;
+
+pub(super) use common::{Color, MessageFormat, Reading, Talk};
+pub(super) use cost::{Cost, Report};
+pub(super) use render::{Bits, Pruning, Render};
+
+use crate::ir;
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
+    let version = env!("CARGO_PKG_VERSION");
+    format!("{version}\nwrites IR version {0}, reads IR versions up to {0}", ir::VERSION)
+});
+
+/// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes every time.
+#[derive(Debug, Parser)]
+#[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted.")]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Check scenes and say what is wrong with them
+    Check(Check),
+    /// Compile a scene to the intermediate representation
+    Compile(Compile),
+    /// Render a scene to a picture
+    Render(Render),
+    /// Show what accuracy costs in a scene, and which settings are worth it
+    Cost(Cost),
+    /// Explain a code of a diagnostic
+    Explain(Explain),
+    /// Print the JSON Schema of a format
+    Schema(Schema),
+    /// Print a completion script for a shell
+    Completions(Completions),
+    /// Print a manual page
+    Man(Man),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    /// Scenes, as YAML or IR; `-` is standard input
+    #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Compile {
+    /// The scene, as YAML or IR; `-` is standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) file: PathBuf,
+    /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(super) output: Option<PathBuf>,
+    /// Say which effects the picture needs, and why it does without the others
+    #[arg(long, value_enum, value_name = "FORM", num_args = 0..=1, require_equals = true, default_missing_value = "human")]
+    pub(super) explain: Option<Explanation>,
+    /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
+    #[arg(long, value_enum)]
+    pub(super) emit: Option<Emit>,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+    #[command(flatten)]
+    pub(super) talk: Talk,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Explanation {
+    /// A table to read
+    Human,
+    /// One JSON object
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Explain {
+    /// The code of a diagnostic, as VA001, or the name of a rule, as E-SPEC
+    #[arg(required_unless_present = "all")]
+    pub(super) code: Option<String>,
+    /// Explain every code there is, as Markdown
+    #[arg(long, conflicts_with = "code")]
+    pub(super) all: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Schema {
+    /// The format
+    #[arg(value_enum, default_value_t)]
+    pub(super) of: Format,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Completions {
+    /// The shell
+    pub(super) shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Man {
+    /// The command the page is about [default: all of rtc]
+    pub(super) command: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Emit {
+    /// The IR as text (JSON)
+    Ir,
+    /// The IR in its binary container
+    IrBin,
+    /// The scene, in canonical spelling
+    Yaml,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// Scenes
+    #[default]
+    Scene,
+    /// The text form of the IR
+    Ir,
+    /// Scenes, as a page to read in Markdown
+    Page,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_agree_with_each_other() {
+        Cli::command().debug_assert();
+    }
+}
