@@ -73,6 +73,7 @@ impl Plan {
                 light_samples: args.light_samples,
                 glossy_samples: args.glossy_samples,
                 depth: args.depth,
+                spp: args.spp,
             },
             arithmetic: args.arithmetic.into(),
             crop: args.crop,

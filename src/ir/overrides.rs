@@ -1,6 +1,6 @@
 //! Settings for one occasion: values that replace those of a scene before it is proven.
 
-use super::{Material, Scene};
+use super::{Material, Mode, Scene};
 
 /// Values that replace those of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,12 +17,14 @@ pub struct Overrides {
     pub glossy_samples: Option<u32>,
     /// Bounces after the first hit.
     pub depth: Option<u32>,
+    /// Paths a pixel, where paths are traced.
+    pub spp: Option<u32>,
 }
 
 impl Overrides {
     /// Writes the values given into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { size, supersampling, aperture_samples, light_samples, glossy_samples, depth } = *self;
+        let Self { size, supersampling, aperture_samples, light_samples, glossy_samples, depth, spp } = *self;
         if let Some(size) = size {
             let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
@@ -33,6 +35,9 @@ impl Overrides {
             let lobes =
                 scene.materials.iter_mut().filter_map(Material::phong_mut).map(|phong| &mut phong.glossy_samples);
             lobes.filter(|count| **count > 1).for_each(|count| *count = samples);
+        }
+        if let (Some(spp), Mode::Path(path)) = (spp, &mut scene.settings.mode) {
+            path.samples = spp;
         }
         scene.camera.lens.samples = aperture_samples.unwrap_or(scene.camera.lens.samples);
         scene.settings.light_samples = light_samples.unwrap_or(scene.settings.light_samples);

@@ -161,6 +161,7 @@ impl Setting {
             light_samples: Some(lights),
             glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
             depth: Some(depth),
+            spp: None,
         };
         overrides.apply(scene);
     }

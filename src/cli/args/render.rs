@@ -31,6 +31,9 @@ pub(in crate::cli) struct Render {
     /// Rays of each glossy lobe; what is a mirror stays one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(in crate::cli) glossy_samples: Option<u32>,
+    /// Paths a pixel, of scenes whose paths are traced
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(in crate::cli) spp: Option<u32>,
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(in crate::cli) depth: Option<u32>,
