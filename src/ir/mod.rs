@@ -6,6 +6,7 @@
 //! [`Origins`], and is not part of it.
 
 mod camera;
+mod column;
 mod environment;
 mod image;
 mod light;
@@ -19,6 +20,7 @@ mod standard;
 mod texture;
 
 pub use camera::{Camera, Lens, Projection};
+pub use column::{Column, Shared};
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, PointLight, Punctual};

@@ -84,7 +84,7 @@ pub(super) fn looking_at(center: [f64; 3], radius: f64) -> Camera {
 /// The middle of all that is placed, and how far it reaches from there.
 fn bounds(scene: &ir::Scene) -> ([f64; 3], f64) {
     let corners = scene.meshes.iter().map(|mesh| {
-        let positions = || mesh.positions.iter().map(|position| Vec3::from_array(*position));
+        let positions = || mesh.positions.iter().map(Vec3::from_array);
         [positions().fold(Vec3::INFINITY, Vec3::min), positions().fold(Vec3::NEG_INFINITY, Vec3::max)]
     });
     let corners: Vec<[Vec3; 2]> = corners.collect();
