@@ -21,35 +21,38 @@ impl<S: Geometry> World<S> {
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         match self.scene.settings().mode {
             Mode::Zbuffer => {
-                let (mut depths, counts) =
+                let (mut depths, coverage, counts) =
                     self.tiles(whole, job.stride, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
-                Some(Film { image, counts })
+                let coverage = part(&coverage, whole, crop).copied().collect();
+                Some(Film { image, coverage, counts })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
-                let (pixels, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
-                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+                let (pixels, coverage, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
+                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
             }
         }
     }
 
-    /// The values of all pixels of a rectangle, row by row, and the rays they took.
+    /// The values and the coverage of all pixels of a rectangle, row by row, and the rays they took.
     fn tiles<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
         stride: Stride,
         proceed: &(dyn Fn(u64) -> bool + Sync),
         value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
-    ) -> Option<(Vec<T>, Counts)> {
-        let mut pixels = vec![T::default(); crop.width as usize * crop.height as usize];
-        let row = |(y, row): (u32, &mut [T])| {
+    ) -> Option<(Vec<T>, Vec<f32>, Counts)> {
+        let count = crop.width as usize * crop.height as usize;
+        let (mut pixels, mut coverage) = (vec![T::default(); count], vec![0.0; count]);
+        let row = |((y, row), shares): ((u32, &mut [T]), &mut [f32])| {
             let mut tracer = Tracer::new(self);
-            for (x, pixel) in (crop.x..).zip(row).step_by(stride.get() as usize) {
-                let before = tracer.counts.rays();
+            for ((x, pixel), share) in (crop.x..).zip(row).zip(shares).step_by(stride.get() as usize) {
+                let before = tracer.counts;
                 *pixel = value(&mut tracer, [x, y]);
-                if !proceed(tracer.counts.rays() - before) {
+                *share = tracer.counts.coverage_since(&before);
+                if !proceed(tracer.counts.rays() - before.rays()) {
                     return None;
                 }
             }
@@ -57,9 +60,9 @@ impl<S: Geometry> World<S> {
         };
         let width = (crop.width as usize).max(1);
         let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
-        let rows = rows.step_by(stride.get() as usize);
+        let rows = rows.zip(coverage.par_chunks_mut(width)).step_by(stride.get() as usize);
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
-        Some((pixels, counts))
+        Some((pixels, coverage, counts))
     }
 }
 
@@ -157,8 +160,12 @@ fn normalize_depths(depths: &mut [Option<f64>]) {
 
 /// The pixels of `crop` out of those of `whole`, in grey; black where nothing was hit.
 fn cut(values: &[Option<f64>], whole: Crop, crop: Crop) -> Image {
-    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
-    let inside = rows.flat_map(|row| row.iter().skip(crop.x as usize).take(crop.width as usize));
-    let pixels = inside.map(|value| [value.unwrap_or(0.0); 3]).collect();
+    let pixels = part(values, whole, crop).map(|value| [value.unwrap_or(0.0); 3]).collect();
     Image { width: crop.width, height: crop.height, pixels }
+}
+
+/// The values of the pixels of `crop` out of those of `whole`.
+fn part<T>(values: &[T], whole: Crop, crop: Crop) -> impl Iterator<Item = &T> {
+    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
+    rows.flat_map(move |row| row.iter().skip(crop.x as usize).take(crop.width as usize))
 }

@@ -42,7 +42,7 @@ pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
-pub use film::{Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use geometry::Geometry;
 pub use instance::{Details, Instance, PreparedMesh};
 pub use kernel::{KERNELS, Kernel, choose, render};

@@ -2,11 +2,13 @@
 
 mod common;
 mod cost;
+mod look;
 mod render;
 
 pub(super) use common::{Color, MessageFormat, Reading, Talk};
 pub(super) use cost::{Cost, Report};
-pub(super) use render::{Bits, Pruning, Render};
+pub(super) use look::{Bits, Look};
+pub(super) use render::{Pruning, Render};
 
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};

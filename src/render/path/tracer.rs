@@ -2,7 +2,7 @@
 
 use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
-use super::super::film::{Counts, Seeds};
+use super::super::film::{Behind, Counts, Job};
 use super::super::geometry::Geometry;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
@@ -74,14 +74,15 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
-    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for index in 0..self.path.samples.get() {
-            let sobol = Sobol::new(pixel, index, seeds);
-            let ray = self.camera_ray(pixel, &sobol);
+            let sobol = Sobol::new(pixel, index, job.seeds);
+            let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
             let radiance = self.radiance(ray, sobol);
+            let counts = job.behind == Behind::Surroundings || self.counts.hits > hits;
             // A number that overflowed says nothing.
-            sum += if radiance.is_finite() { radiance } else { Vec3::ZERO };
+            sum += if counts && radiance.is_finite() { radiance } else { Vec3::ZERO };
         }
         sum / f64::from(self.path.samples.get())
     }
