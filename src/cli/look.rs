@@ -4,7 +4,7 @@ use super::Failure;
 use super::args::{self, Bits};
 use crate::color::Tone;
 use crate::image::{self, Association, Backdrop, Image, Origin, Picture};
-use crate::render::{Behind, Values};
+use crate::render::{Aov, Behind, Values};
 use crate::valid::Mode;
 use std::path::Path;
 
@@ -14,6 +14,8 @@ pub(super) struct Look {
     tone: Option<Tone>,
     stops: f64,
     backdrop: Backdrop,
+    /// The layers wanted, each once.
+    pub(super) aovs: Vec<Aov>,
 }
 
 /// A kind of pixel file.
@@ -31,7 +33,16 @@ impl Look {
         if kind == Kind::Exr && tone.is_some_and(|tone| tone != Tone::None) {
             return Err(Failure::Trouble("`--tonemap` is for PNG; an EXR holds linear values".to_owned()));
         }
-        Ok(Self { kind, tone, stops: args.exposure, backdrop: args.background })
+        let mut aovs: Vec<Aov> = Vec::new();
+        for aov in args.aov.iter().map(|layer| Aov::from(*layer)) {
+            if !aovs.contains(&aov) {
+                aovs.push(aov);
+            }
+        }
+        if kind != Kind::Exr && !aovs.is_empty() {
+            return Err(Failure::Trouble("`--aov` is for EXR; a PNG holds colours alone".to_owned()));
+        }
+        Ok(Self { kind, tone, stops: args.exposure, backdrop: args.background, aovs })
     }
 
     /// Which values a film of this mode must hold.

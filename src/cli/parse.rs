@@ -33,6 +33,11 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
 }
 
+pub(super) fn setting(text: &str) -> Result<(String, String), String> {
+    let pair = text.split_once('=').map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
+    pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
+}
+
 pub(super) fn stops(text: &str) -> Result<f64, String> {
     let stops = text.parse().ok().filter(|stops| (-64.0..=64.0).contains(stops));
     stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())

@@ -9,7 +9,7 @@ use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
 use crate::diag::{Diagnostic, codes};
-use crate::image::{Image, Origin};
+use crate::image::{Image, Layers, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline;
 use crate::plan::{self, Rule, Rules, Symptom};
@@ -23,6 +23,7 @@ struct Plan {
     output: PathBuf,
     look: Look,
     overrides: Overrides,
+    set: Vec<(String, String)>,
     arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
     goal: Goal,
@@ -69,6 +70,7 @@ impl Plan {
                 depth: args.depth,
                 spp: args.spp,
             },
+            set: args.set.clone(),
             arithmetic: args.arithmetic.into(),
             crop: args.crop,
             goal: Goal { error: args.target_error, time: args.time_budget },
@@ -79,7 +81,12 @@ impl Plan {
     }
 
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
+        let mut set = Ok(());
+        let proven = input::require(input, talk, |lowered| {
+            self.overrides.apply(&mut lowered.scene);
+            set = self.set.iter().try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
+        })?;
+        set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         let window = self.window(&proven.lowered.scene)?;
         if let Some(warning) = imprecise(&proven, self.arithmetic) {
             input.push(warning);
@@ -97,7 +104,8 @@ impl Plan {
             input.tell(talk)?;
         }
         let summary = self.summary(&shot);
-        let picture = self.look.develop(shot.image, shot.coverage, &proven.scene.settings().mode);
+        let mut picture = self.look.develop(shot.image, shot.coverage, &proven.scene.settings().mode);
+        picture.layers = self.layers(&proven, window, &interrupt)?;
         let bytes = self.look.encode(&picture, || self.origin(&proven.lowered.scene))?;
         output.commit(&bytes, &interrupt)?;
         if !quiet {
@@ -163,6 +171,17 @@ impl Plan {
         let quality =
             format!("{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
         Ok(Shot { image, coverage, counts, elapsed, quality: Some(quality) })
+    }
+
+    /// The layers beside the colours.
+    fn layers(&self, proven: &Proven, window: Crop, interrupt: &Interrupt) -> Result<Layers, Failure> {
+        if self.look.aovs.is_empty() {
+            return Ok(Layers::default());
+        }
+        let wanted = (self.look.aovs.as_slice(), window);
+        let proceed = || !interrupt.is_raised();
+        let layers = pipeline::layers(&proven.scene, self.arithmetic, wanted, self.threads, &proceed);
+        layers.map_err(no_threads)?.ok_or(Failure::Interrupted)
     }
 
     fn summary(&self, shot: &Shot) -> String {

@@ -3,13 +3,14 @@
 use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Stride, Values};
 use super::geometry::Geometry;
+use super::ray::Ray;
 use super::sampler::Key;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Sight};
-use crate::valid::{Mode, Pattern};
+use crate::valid::{Mode, Pattern, ValidScene};
 use rayon::prelude::*;
 
 impl<S: Geometry> World<S> {
@@ -130,6 +131,24 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let ray = ray_through(camera, camera.eye, image_point(camera, pixel, [0.5; 2]));
         self.distance(&ray)
     }
+}
+
+/// The camera rays of a pixel, in the order of its sub-samples and of the points of the lens.
+pub(super) fn camera_rays(scene: &ValidScene, pixel: [u32; 2]) -> impl Iterator<Item = Ray> {
+    let (camera, settings) = (scene.camera(), scene.settings());
+    // The z-buffer asks the middle of each pixel, through the eye.
+    let (factor, points, pattern) = match settings.mode {
+        Mode::Zbuffer => (1, 1, Pattern::Grid),
+        Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
+            (settings.supersampling.get(), lens_samples(&camera.lens), settings.pattern)
+        }
+    };
+    let cells = (0..factor).flat_map(move |j| (0..factor).map(move |i| [i, j]));
+    cells.flat_map(move |[i, j]| {
+        let key = Key::new(pixel, u64::from(j) * u64::from(factor) + u64::from(i));
+        let target = image_point(camera, pixel, place_in_pixel(pattern, [i, j], factor, key));
+        (0..points).map(move |k| ray_through(camera, lens_point(camera, k, Twist::new(0, key)), target))
+    })
 }
 
 /// Where in its pixel a sub-sample lies, each coordinate in [0, 1].

@@ -1,6 +1,7 @@
 //! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on the threads:
 //! a pixel is a function of the scene and its coordinates alone.
 
+mod aov;
 mod basic;
 mod bounds;
 mod bsdf;
@@ -35,6 +36,7 @@ mod verify;
 mod whitted;
 mod world;
 
+pub use aov::{Aov, layers};
 pub use basic::Basic;
 pub use bounds::Bounds;
 pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};

@@ -107,3 +107,38 @@ fn an_exr_takes_exposure_and_opacity_but_no_tone_map() {
     let refused = rtc(&folder, &["render", "sign.json", "-o", "sign.exr", "--tonemap", "agx"]);
     assert!(code(&refused) == 2 && stderr(&refused).contains("an EXR holds linear values"), "{}", stderr(&refused));
 }
+
+#[test]
+fn layers_go_into_an_exr_by_their_names() {
+    let folder = folder();
+    let args = ["render", "ball.json", "-o", "ball.exr", "--aov", "depth,normal,depth", "--crop", "10,5,20,10"];
+    assert_eq!(code(&rtc(&folder, &args)), 0);
+    let read = exr::prelude::read_all_data_from_file(folder.path().join("ball.exr")).unwrap();
+    let channels = &read.layer_data[0].channel_data.list;
+    let names: Vec<_> = channels.iter().map(|channel| channel.name.to_string()).collect();
+    assert_eq!(names, ["B", "G", "R", "depth.Z", "normal.X", "normal.Y", "normal.Z"]);
+    let refused = rtc(&folder, &["render", "ball.json", "-o", "ball.png", "--aov", "depth"]);
+    assert!(code(&refused) == 2 && stderr(&refused).contains("a PNG holds colours alone"), "{}", stderr(&refused));
+}
+
+#[test]
+fn settings_of_the_ir_are_replaced_by_their_names() {
+    let folder = folder();
+    let picture = |args: &[&str]| render(&folder, "ball.json", args);
+    assert!(
+        picture(&["--set", "supersampling=3", "--set", "maxDepth=0"])
+            == picture(&["--supersampling", "3", "--depth", "0"])
+    );
+    let refused = |setting| {
+        let output = rtc(&folder, &["render", "ball.json", "--set", setting]);
+        assert_eq!(code(&output), 2);
+        stderr(&output)
+    };
+    assert!(refused("spp=3").contains("there is no setting `spp`; there are mode, shadows, maxDepth"));
+    assert!(refused("shadows=perhaps").contains("`shadows` can't be `perhaps`"));
+    assert_eq!(
+        code(&rtc(&folder, &["render", "ball.json", "--set", "supersampling=0"])),
+        1,
+        "that is for the proof to say"
+    );
+}

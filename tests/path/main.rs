@@ -5,12 +5,13 @@
 mod agreement;
 mod closed;
 mod coverage;
+mod layers;
 mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Alpha, Camera, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Projection, Punctual,
-    Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
+    Alpha, Camera, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Phong, Projection,
+    Punctual, Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};

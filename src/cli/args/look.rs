@@ -1,8 +1,9 @@
-//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what.
+//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what, with which layers.
 
 use super::super::parse::{backdrop, stops};
 use crate::color::Tone;
 use crate::image::Backdrop;
+use crate::render::Aov;
 use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
@@ -17,6 +18,9 @@ pub(in crate::cli) struct Look {
     /// the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = backdrop)]
     pub(in crate::cli) background: Backdrop,
+    /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
+    #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
+    pub(in crate::cli) aov: Vec<Layer>,
     /// Bits a channel of a PNG [default: 8]
     #[arg(long)]
     pub(in crate::cli) bits: Option<Bits>,
@@ -28,6 +32,35 @@ pub(in crate::cli) enum Bits {
     Eight,
     #[value(name = "16")]
     Sixteen,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Layer {
+    /// Channels albedo.R, .G, .B: base colours, linear
+    Albedo,
+    /// Channels normal.X, .Y, .Z: shading normals in the world, towards the viewer
+    Normal,
+    /// Channel depth.Z: the distance along the axis of view; 1e10 where there is nothing
+    Depth,
+    /// Channels uv.U, .V: the first texture coordinates
+    Uv,
+    /// Channel instance.X: the number of the surface, from 1, that the first ray meets; 0 of none
+    Instance,
+    /// Channels position.X, .Y, .Z: places in the world
+    Position,
+}
+
+impl From<Layer> for Aov {
+    fn from(layer: Layer) -> Self {
+        match layer {
+            Layer::Albedo => Self::Albedo,
+            Layer::Normal => Self::Normal,
+            Layer::Depth => Self::Depth,
+            Layer::Uv => Self::Uv,
+            Layer::Instance => Self::Instance,
+            Layer::Position => Self::Position,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -37,7 +37,7 @@ pub(super) enum Command {
     /// Compile a scene to the intermediate representation
     Compile(Compile),
     /// Render a scene to a picture
-    Render(Render),
+    Render(Box<Render>),
     /// Show what accuracy costs in a scene, and which settings are worth it
     Cost(Cost),
     /// Explain a code of a diagnostic

@@ -1,6 +1,6 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{crop, levels, rule, seconds, size};
+use super::super::parse::{crop, levels, rule, seconds, setting, size};
 use super::{Look, Reading, Talk};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
@@ -53,6 +53,9 @@ pub(in crate::cli) struct Render {
     /// How rays meet shapes
     #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
     pub(in crate::cli) arithmetic: Arithmetic,
+    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false; `rtc schema ir` lists them
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    pub(in crate::cli) set: Vec<(String, String)>,
     #[command(flatten)]
     pub(in crate::cli) look: Look,
     #[command(flatten)]

@@ -2,6 +2,7 @@
 //!
 //! A pixel is a function of the scene and its coordinates alone, whatever the number of threads.
 
+mod aov;
 mod environment;
 mod lights;
 mod material;
