@@ -66,7 +66,7 @@ fn empty() -> Scene {
     Scene {
         camera: camera::looking_at([0.0; 3], 1.0),
         settings: ir::Settings {
-            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: false }),
+            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: true }),
             shadows: true,
             max_depth: DEPTH,
             supersampling: 1,
