@@ -1,11 +1,13 @@
 //! Pixels and pixel files, in memory: a picture written as PNG (8 or 16 bit) or EXR, the same bytes every time; PNG,
-//! JPEG and WebP read.
+//! JPEG and WebP read, and pictures of light from HDR and EXR.
 
 mod decode;
 mod exr;
 mod png;
+mod radiance;
 
 pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha};
+pub use radiance::{Radiance, decode_radiance};
 
 use std::fmt;
 
