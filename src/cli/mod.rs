@@ -16,6 +16,7 @@ mod render;
 mod report;
 mod talk;
 mod tell;
+mod turntable;
 
 use args::{Cli, Command};
 use clap::Parser;

@@ -7,6 +7,7 @@ use super::interrupt::Interrupt;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
+use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
 use crate::image;
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
@@ -28,6 +29,9 @@ struct Plan {
     threads: usize,
     rules: Rules,
     verify: bool,
+    /// Views around the scene, if more than its own.
+    turntable: Option<u32>,
+    up: Option<[f64; 3]>,
 }
 
 /// A picture, and what is said of it.
@@ -51,7 +55,7 @@ enum Kind {
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.carry_out(&mut Input::read(&args.file, &args.reading), &mut talk);
+    let outcome = plan.carry_out(&mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -62,6 +66,9 @@ impl Plan {
             Some(output) => output.clone(),
             None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
         };
+        if args.turntable.is_some() && output.as_os_str() == "-" {
+            return Err(Failure::Trouble("a turntable is many pictures; give `-o NAME-%04d.png`".to_owned()));
+        }
         output::refuse_terminal(&output)?;
         Ok(Self {
             kind: kind(&output, args.bits)?,
@@ -81,32 +88,53 @@ impl Plan {
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning),
             verify: args.pruning.verify_effects,
+            turntable: args.turntable,
+            up: args.stage.up,
         })
     }
 
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
-        let window = self.window(&proven.lowered.scene)?;
+        let mut proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
+        self.window(&proven.lowered.scene)?;
         if let Some(warning) = imprecise(&proven, self.arithmetic) {
             input.push(warning);
             input.tell(talk)?;
         }
         let interrupt = Interrupt::listen()?;
-        let output = Output::open(&self.output, &interrupt)?;
+        let Some(count) = self.turntable else { return self.shoot(&proven, &self.output, input, talk, &interrupt) };
+        let table = Turntable::new(&proven.lowered.scene, self.up, count);
+        for frame in 0..count {
+            table.turn(&mut proven, frame)?;
+            self.shoot(&proven, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
+        }
+        Ok(())
+    }
+
+    /// Renders one picture and writes it.
+    fn shoot(
+        &self,
+        proven: &Proven,
+        path: &Path,
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let window = self.window(&proven.lowered.scene)?;
+        let output = Output::open(path, interrupt)?;
         let quiet = talk.is_quiet();
         let picture = match self.goal {
-            Goal { error: None, time: None } => self.trace(&proven, window, &interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(&proven, window, &interrupt, quiet)?,
+            Goal { error: None, time: None } => self.trace(proven, window, interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(proven, window, interrupt, quiet)?,
         };
         if self.crop.is_none() && picture.counts.hits == 0 {
-            input.push(nothing_in_view(&proven));
+            input.push(nothing_in_view(proven));
             input.tell(talk)?;
         }
         let form = self.form(&proven.lowered.scene);
         let bytes = picture.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
-        output.commit(&bytes, &interrupt)?;
+        output.commit(&bytes, interrupt)?;
         if !quiet {
-            talk::say(&self.summary(&picture));
+            talk::say(&self.summary(path, &picture));
         }
         Ok(())
     }
@@ -173,10 +201,10 @@ impl Plan {
         Ok(Picture { image: reached.image, counts: reached.counts, elapsed, quality: Some(quality) })
     }
 
-    fn summary(&self, picture: &Picture) -> String {
+    fn summary(&self, path: &Path, picture: &Picture) -> String {
         let Picture { image, counts, elapsed, quality } = picture;
         let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height);
+        let line = format!("{}: {}×{}, {work}", path.display(), image.width, image.height);
         match quality {
             Some(quality) => format!("{line}\n{quality}"),
             None => line,

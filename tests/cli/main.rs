@@ -8,6 +8,7 @@
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
 mod reports;
+mod stage;
 
 use std::fs;
 use std::io::{Read, Write};
