@@ -120,6 +120,18 @@ impl ValidScene {
     }
 }
 
+impl ValidScene {
+    /// The same scene with another camera, of a picture of the same size; `None` if that is no sound one.
+    #[must_use]
+    pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
+        let (origins, mut sink) = (Origins::default(), Sink::default());
+        let mut check = Check::new(&origins, &mut sink);
+        let camera = camera::camera(camera, &mut check)?;
+        let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
+        (check.is_clean() && is_as_large).then(|| Self { camera, ..self.clone() })
+    }
+}
+
 /// Proves the scene, or says in the sink why it can't be; all faults are reported, not the first alone.
 ///
 /// `None` exactly if this call reported an error.

@@ -5,6 +5,7 @@ use rtc::codec::{self, Form};
 use rtc::diag::{Severity, Sink};
 use rtc::front;
 use rtc::ir::{Mesh, Scene, Shape};
+use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
 use rtc::source::SourceMap;
 
@@ -114,4 +115,16 @@ fn every_asset_at_hand_is_lowered_and_proven() {
         let sink = super::findings(&asset);
         assert!(!sink.has_errors(), "{}: {:?}", asset.display(), super::errors(&sink));
     }
+}
+
+/// Without a camera the ball around all of it just fits into 35° from bottom to top.
+#[test]
+fn a_camera_that_is_not_there_sees_all_of_it() {
+    let scene = lower(make::texture(), front::Options::default());
+    let [eye, up] = [scene.camera.eye, scene.camera.up].map(Vec3::from_array);
+    let ball = scene.ball().unwrap();
+    let half = (up.length() * f64::from(scene.camera.size[1]) / 2.0).atan();
+    assert!((half.to_degrees() - 17.5).abs() < 1e-9, "{half}");
+    assert!(((ball.radius / eye.distance(ball.center)).asin() - half).abs() < 1e-9);
+    assert!(eye.x > ball.center.x && eye.y > ball.center.y && eye.z > ball.center.z, "a three-quarter view");
 }
