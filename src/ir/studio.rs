@@ -76,13 +76,7 @@ fn picture() -> Image {
     #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float")]
     let bytes: Vec<u8> =
         pixels.flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat()).collect();
-    Image {
-        name: "studio".to_owned(),
-        width: SIZE[0],
-        height: SIZE[1],
-        kind: Pixels::Rgb32f,
-        pixels: STANDARD.encode(bytes),
-    }
+    Image { name: String::new(), width: SIZE[0], height: SIZE[1], kind: Pixels::Rgb32f, pixels: STANDARD.encode(bytes) }
 }
 
 impl Scene {
