@@ -4,10 +4,11 @@ pub mod trial;
 
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::{assets, course, gltf};
+use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
-use crate::plan::Plan;
-use crate::render::{Fault, Film, Job, render as render_planned, verify as verify_planned};
+use crate::plan::{Arithmetic, Plan};
+use crate::render::{self, Aov, Crop, Fault, Film, Job};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
@@ -90,7 +91,22 @@ pub fn render(
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| render_planned(scene, plan, job, proceed)))
+    Ok(pool.install(|| render::render(scene, plan, job, proceed)))
+}
+
+/// Renders layers of a part of a picture on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
+///
+/// # Errors
+/// If the system gives no threads.
+pub fn layers(
+    scene: &ValidScene,
+    arithmetic: Arithmetic,
+    (wanted, crop): (&[Aov], Crop),
+    threads: usize,
+    proceed: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Layers>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| render::layers(scene, arithmetic, wanted, crop, proceed)))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
@@ -105,5 +121,5 @@ pub fn verify(
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| verify_planned(scene, plan, job, proceed)))
+    Ok(pool.install(|| render::verify(scene, plan, job, proceed)))
 }

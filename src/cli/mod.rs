@@ -9,6 +9,7 @@ mod cost;
 mod explain;
 mod input;
 mod interrupt;
+mod look;
 mod output;
 mod parse;
 mod progress;

@@ -1,5 +1,6 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
+use crate::image::Backdrop;
 use crate::ir::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
@@ -73,6 +74,28 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
 }
 
+pub(super) fn setting(text: &str) -> Result<(String, String), String> {
+    let pair = text.split_once('=').map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
+    pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
+}
+
+pub(super) fn stops(text: &str) -> Result<f64, String> {
+    let stops = text.parse().ok().filter(|stops| (-64.0..=64.0).contains(stops));
+    stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
+}
+
+pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
+    let numbers = || text.split(',').map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0));
+    match text {
+        "env" => Ok(Backdrop::Film),
+        "transparent" => Ok(Backdrop::Transparent),
+        _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
+            Some(&[r, g, b]) => Ok(Backdrop::Color([r, g, b])),
+            _ => Err("expected `env`, `transparent`, or red, green and blue, as 1,1,1".to_owned()),
+        },
+    }
+}
+
 pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
     Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
 }
@@ -96,6 +119,9 @@ mod tests {
         assert!(["0", "-1", "nan", "inf", "256", "x"].into_iter().all(|text| levels(text).is_err()));
         assert!(["0", "-1", "nan", "inf", "1e300", "x"].into_iter().all(|text| seconds(text).is_err()));
         assert_eq!((levels("0.5"), seconds("2.5")), (Ok(0.5), Ok(Duration::from_millis(2500))));
+        assert!(["65", "-65", "nan", "x"].into_iter().all(|text| stops(text).is_err()));
+        assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
+        assert!(["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"].into_iter().all(|text| backdrop(text).is_err()));
         assert_eq!((vector("1,-2, 3"), color("0.5")), (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3])));
         assert!(["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""].into_iter().all(|text| vector(text).is_err()));
         assert!(["-1", "1,2", "1,2,nan"].into_iter().all(|text| color(text).is_err()));

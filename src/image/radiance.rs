@@ -93,7 +93,7 @@ fn within(width: u32, height: u32) -> Result<(), DecodeError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Form, Image, Origin};
+    use super::super::{Form, Image, Origin, Picture};
     use super::*;
 
     /// Two by one pixels: (1, 0.5, 0.25) and black, in exponents of 129 and 0.
@@ -106,13 +106,16 @@ mod tests {
         let named = [b"#?RGBE".as_slice(), &HDR[10..]].concat();
         assert_eq!(decode_radiance(&named).unwrap(), expected);
         let image = Image { width: 2, height: 1, pixels: vec![[1.0, 0.5, 0.25], [-1.0, 0.0, 0.0]] };
-        assert_eq!(decode_radiance(&image.encode(&Form::Exr(Origin::default())).unwrap()).unwrap(), expected);
+        assert_eq!(
+            decode_radiance(&Picture::opaque(image).encode(&Form::Exr(Origin::default())).unwrap()).unwrap(),
+            expected
+        );
     }
 
     #[test]
     fn what_is_no_light_is_refused() {
         let infinite = Image { width: 1, height: 1, pixels: vec![[f64::INFINITY; 3]] };
-        let infinite = infinite.encode(&Form::Exr(Origin::default())).unwrap();
+        let infinite = Picture::opaque(infinite).encode(&Form::Exr(Origin::default())).unwrap();
         let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n";
         let cases: [(&[u8], &str); 6] = [
             (b"hello", "is not a picture"),

@@ -1,6 +1,6 @@
 //! Where a scene is: a ball around all of it that has an end. Its middle is what cameras without a target look at.
 
-use super::{Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle};
+use super::{Column, Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle};
 use crate::math::Vec3;
 use glam::DAffine3;
 
@@ -33,8 +33,8 @@ impl Scene {
 }
 
 /// The box around some points, empty if there are none.
-fn around(points: &[[f64; 3]]) -> [Vec3; 2] {
-    let points = || points.iter().map(|point| Vec3::from_array(*point));
+fn around(points: &Column<3>) -> [Vec3; 2] {
+    let points = || points.iter().map(Vec3::from_array);
     [points().fold(Vec3::INFINITY, Vec3::min), points().fold(Vec3::NEG_INFINITY, Vec3::max)]
 }
 

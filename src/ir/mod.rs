@@ -7,6 +7,7 @@
 
 mod bounds;
 mod camera;
+mod column;
 mod environment;
 mod image;
 mod light;
@@ -23,6 +24,7 @@ mod texture;
 
 pub use bounds::Ball;
 pub use camera::{Camera, Lens, Projection};
+pub use column::{Column, Shared};
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, PointLight, Punctual};

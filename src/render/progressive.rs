@@ -5,7 +5,7 @@
 
 use super::basic::Basic;
 use super::camera::{camera_ray, image_point, lens_at};
-use super::film::{Counts, Crop, Values};
+use super::film::{Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
 use super::kernel::{choose_of_few, dispatch};
 use super::plain::PlainShape;
@@ -31,9 +31,11 @@ pub struct Strands {
     linear: [Vec3; 2],
     /// Per half, how many samples each of its strands has.
     counts: [u32; 2],
+    /// Per half, how many of its samples met a surface.
+    hits: [u64; 2],
 }
 
-/// A part of a picture that grows, 168 bytes a pixel.
+/// A part of a picture that grows, 184 bytes a pixel.
 #[derive(Clone, Debug)]
 pub struct Growing {
     crop: Crop,
@@ -95,6 +97,12 @@ impl Growing {
         let pixels = self.pixels.iter().map(|pixel| pixel.mean(values).to_array()).collect();
         Image { width: self.crop.width, height: self.crop.height, pixels }
     }
+
+    /// Of each pixel the share of the samples that met a surface.
+    #[must_use]
+    pub fn coverage(&self) -> Vec<f32> {
+        self.pixels.iter().map(Strands::coverage).collect()
+    }
 }
 
 impl Strands {
@@ -124,6 +132,12 @@ impl Strands {
         let sum = self.sums[2 * half] + self.sums[2 * half + 1];
         let square = self.squares[half] - sum.length_squared() / n.max(1.0);
         square.max(0.0) / (3.0 * (n - 1.0).max(1.0))
+    }
+
+    /// The share of the samples that met a surface: the mean of the halves.
+    fn coverage(&self) -> f32 {
+        let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
+        (of(0) + of(1)) * 0.5
     }
 
     /// The mean of the halves, whatever the samples of each.
@@ -191,6 +205,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         for strand in 0..4_usize {
             let half = strand / 2;
             let number = (seed << 2 | strand as u64).wrapping_add(1);
+            let before = self.counts.hits;
             let sequence = Sequence::new(Key::new(pixel, number).child(STRAND));
             for index in strands.counts[half]..wanted[half] {
                 let [x, y, u, v] = sequence.point(index);
@@ -202,6 +217,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 strands.squares[half] += shown.length_squared();
                 strands.linear[half] += radiance;
             }
+            strands.hits[half] += self.counts.hits - before;
         }
         strands.counts = [0, 1].map(|half: usize| strands.counts[half].max(wanted[half]));
     }

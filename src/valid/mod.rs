@@ -14,7 +14,7 @@ mod shape;
 mod standard;
 mod surrounding;
 
-pub use crate::ir::{Alpha, Filter, Map, Projection, Sampled, Standard, Wrap};
+pub use crate::ir::{Alpha, Column, Filter, Map, Projection, Sampled, Shared, Standard, Wrap};
 pub use camera::{Camera, Lens};
 pub use image::{Image, Texels, Texture};
 pub use light::{Emitter, Falloff, Light, Punctual};

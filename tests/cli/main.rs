@@ -7,6 +7,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
+mod looks;
 mod reports;
 mod stage;
 

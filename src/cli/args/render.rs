@@ -1,7 +1,7 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{crop, levels, rule, seconds, size};
-use super::{Reading, Stage, Talk};
+use super::super::parse::{crop, levels, rule, seconds, setting, size};
+use super::{Look, Reading, Stage, Talk};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use clap::{Args, ValueEnum, ValueHint};
@@ -56,9 +56,11 @@ pub(in crate::cli) struct Render {
     /// How rays meet shapes
     #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
     pub(in crate::cli) arithmetic: Arithmetic,
-    /// Bits a channel of a PNG [default: 8]
-    #[arg(long)]
-    pub(in crate::cli) bits: Option<Bits>,
+    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false; `rtc schema ir` lists them
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    pub(in crate::cli) set: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(in crate::cli) look: Look,
     #[command(flatten)]
     pub(in crate::cli) pruning: Pruning,
     #[command(flatten)]
@@ -81,14 +83,6 @@ pub(in crate::cli) struct Pruning {
     /// Simulate also what is left out, and stop at a pixel where it would show
     #[arg(long, conflicts_with_all = ["no_prune", "arithmetic"])]
     pub(in crate::cli) verify_effects: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Bits {
-    #[value(name = "8")]
-    Eight,
-    #[value(name = "16")]
-    Sixteen,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -2,7 +2,7 @@
 
 use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
-use super::super::film::{Counts, Seeds};
+use super::super::film::{Behind, Counts, Job};
 use super::super::geometry::Geometry;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
@@ -24,9 +24,9 @@ const PAIRS: u32 = 4;
 
 /// Follows paths through a world.
 pub(super) struct Tracer<'world, S> {
-    world: &'world World<S>,
+    pub(super) world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: Path,
+    pub(super) path: Path,
     strategy: Strategy,
     /// Whether any surface may be absent in part.
     has_veils: bool,
@@ -35,8 +35,8 @@ pub(super) struct Tracer<'world, S> {
 }
 
 /// A path under way.
-struct Walk {
-    ray: Ray,
+pub(super) struct Walk {
+    pub(super) ray: Ray,
     /// The factor by which what the ray sees counts.
     beta: Vec3,
     /// The light found so far.
@@ -54,12 +54,12 @@ struct Walk {
 }
 
 /// What a ray met.
-struct Corner<'world> {
-    at: Interaction,
-    point: Point<'world>,
-    frame: Frame,
+pub(super) struct Corner<'world> {
+    pub(super) at: Interaction,
+    pub(super) point: Point<'world>,
+    pub(super) frame: Frame,
     coat: Vec3,
-    hit: Hit,
+    pub(super) hit: Hit,
 }
 
 impl<'world, S: Geometry> Tracer<'world, S> {
@@ -74,19 +74,21 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
-    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for index in 0..self.path.samples.get() {
-            let sobol = Sobol::new(pixel, index, seeds);
-            let ray = self.camera_ray(pixel, &sobol);
+            let sobol = Sobol::new(pixel, index, job.seeds);
+            let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
             let radiance = self.radiance(ray, sobol);
+            let counts = job.behind == Behind::Surroundings || self.counts.hits > hits;
             // A number that overflowed says nothing.
-            sum += if radiance.is_finite() { radiance } else { Vec3::ZERO };
+            sum += if counts && radiance.is_finite() { radiance } else { Vec3::ZERO };
         }
         sum / f64::from(self.path.samples.get())
     }
 
-    fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
+    /// The ray from the camera that a path of a pixel begins with.
+    pub(super) fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
         let camera = self.world.scene.camera();
         let target = image_point(camera, pixel, sobol.pair(FILM));
         let radius = camera.lens.radius.get();
@@ -102,17 +104,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The radiance along one path.
     fn radiance(&mut self, ray: Ray, sobol: Sobol) -> Vec3 {
         self.counts.camera += 1;
-        let mut walk = Walk {
-            ray,
-            beta: Vec3::ONE,
-            found: Vec3::ZERO,
-            sobol,
-            corners: 0,
-            pdf: None,
-            absorption: Vec3::ZERO,
-            channel: None,
-            travelled: 0.0,
-        };
+        let mut walk = Walk::new(ray, sobol);
         loop {
             let Some(corner) = self.meet(&mut walk) else {
                 self.find_environment(&mut walk);
@@ -127,7 +119,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The next surface that is there; veils let the ray on by chance.
-    fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
+    pub(super) fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
         walk.travelled = 0.0;
         for veil in 0..VEILS {
             let hit = self.world.nearest(&walk.ray)?;
@@ -266,6 +258,21 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 }
 
 impl Walk {
+    /// A path that begins with a ray.
+    pub(super) fn new(ray: Ray, sobol: Sobol) -> Self {
+        Self {
+            ray,
+            beta: Vec3::ONE,
+            found: Vec3::ZERO,
+            sobol,
+            corners: 0,
+            pdf: None,
+            absorption: Vec3::ZERO,
+            channel: None,
+            travelled: 0.0,
+        }
+    }
+
     /// A pair of numbers of this corner.
     fn pair(&self, pair: u32) -> [f64; 2] {
         self.sobol.pair(CORNERS + PAIRS * self.corners + pair)

@@ -67,7 +67,7 @@ fn empty() -> Scene {
     Scene {
         camera: camera::looking_at(ir::Ball { center: Vec3::ZERO, radius: 1.0 }),
         settings: ir::Settings {
-            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: false }),
+            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: true }),
             shadows: true,
             max_depth: DEPTH,
             supersampling: 1,
