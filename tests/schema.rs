@@ -143,11 +143,11 @@ fn material() -> (Vec<&'static str>, Vec<Value>) {
                 SuperSampling AntiAlias GoochParameters alpha factor Lights Objects $schema other p3 p4 a d angle axis \
                 rotation side depth min max dimension direction height h ends p1 center1 center2 uv0 uv1 uv2 uv3 typ file \
                 path scale size normalMap specularMap pattern AA Reflections LightSamples CameraEye CameraLookPoint \
-                CameraUpVector";
+                CameraUpVector Environment irradiance fov";
     let values = json!([
         null, true, 0, 1, -1, 3, 0.5, -0.5, 2.0, 4.0, 70_000, 5e9, 1e-3, "text", "phong", "Z-Buffer", "gooch", "sphere",
         "plane", "triangle", "torus", "quad", "circle", "disk", "cylinder", "cone", "box", "mesh", "model", "bplane",
-        "tetrahedron", "prism", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
+        "tetrahedron", "prism", "gltf", "sun", "point", "path", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
         [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }
     ]);
     (keys.split_whitespace().collect(), values.as_array().unwrap().clone())

@@ -28,7 +28,7 @@ pub struct Options {
 }
 
 /// A file that a scene names, for a place in the IR that waits for it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Wanted {
     /// What the file is for.
     pub asset: Asset,
@@ -39,10 +39,14 @@ pub struct Wanted {
 }
 
 /// The place in the IR that a file is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Asset {
     /// An image, of one pixel until its file is there.
     Image(ImageId),
     /// A mesh, empty until its file is there.
     Mesh(MeshId),
+    /// The image of the environment, of one dark pixel until its file is there.
+    Environment(ImageId),
+    /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
+    Gltf([[f64; 3]; 4]),
 }

@@ -235,7 +235,7 @@ impl Origins {
         self.lists[noun as usize] = List::default();
     }
 
-    /// Brings the places into order; call it once, after the last `record`.
+    /// Brings the places into order; call it after the last `record`.
     pub fn finish(&mut self) {
         for list in self.lists.iter_mut().filter(|list| list.unsorted) {
             list.spans.sort_by_key(|(index, field, _)| (*index, *field));

@@ -111,6 +111,11 @@ pub struct Path {
     pub multiple_scattering: bool,
 }
 
+impl Path {
+    /// Bounces of a path, where nobody says how many.
+    pub const DEPTH: u32 = 16;
+}
+
 impl Default for Path {
     /// What is good for a look.
     fn default() -> Self {

@@ -61,9 +61,6 @@ pub struct Sun {
     pub irradiance: [f64; 3],
 }
 
-/// Bounces of paths, where the scene was not made for them.
-const DEPTH: u32 = 16;
-
 /// So many times as far as the scene is large stands a sun for those to whom it must stand somewhere.
 const FAR: f64 = 1e4;
 
@@ -87,10 +84,16 @@ impl Stage {
             scene.environment = Some(surroundings.environment(scene));
             origins.forget(Noun::Environment);
         }
+        let adds_light = !self.suns.is_empty() || self.surroundings.is_some();
         match self.integrator {
             Some(Integrator::Path) => trace_paths(scene),
             Some(Integrator::Whitted) => leave_paths(scene),
+            // As of a scene text: what has a sun or a sky is shown by its paths.
+            None if adds_light && scene.settings.mode == Mode::Phong => trace_paths(scene),
             None => {}
+        }
+        if !matches!(scene.settings.mode, Mode::Path(_)) {
+            stand_lights(scene);
         }
         let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !scene.is_lit();
         if is_dark {
@@ -121,8 +124,8 @@ impl View {
             Projection::Perspective => eye.distance(center) / camera.distance(),
             Projection::Orthographic => 1.0,
         };
-        let [width, height] = [camera.right, camera.up].map(|step| Vec3::from_array(step).length());
-        let pixel = height * scale;
+        // A lens that is asked for makes the picture of its own size.
+        let pixel = if self.yfov.is_some() { 1.0 } else { Vec3::from_array(camera.up).length() * scale };
         let up = self.up.map_or_else(|| camera.upright(), |up| Vec3::from_array(up).normalize_or_zero());
         let basis = match (camera_basis(eye, center, up * pixel), self.up) {
             (Err(BasisFault::Parallel), None) => camera_basis(eye, center, fallback_up(center - eye, up * pixel)),
@@ -130,7 +133,7 @@ impl View {
         };
         let (right, up) = basis?;
         (camera.eye, camera.center) = (eye.to_array(), center.to_array());
-        (camera.right, camera.up) = ((right * (width / height)).to_array(), up.to_array());
+        (camera.right, camera.up) = (right.to_array(), up.to_array());
         Ok(())
     }
 }
@@ -169,8 +172,8 @@ impl Camera {
         (center - eye).dot(right.cross(up).normalize_or_zero()).abs()
     }
 
-    /// Opens to an angle from bottom to top, in radians.
-    fn open(&mut self, yfov: f64) {
+    /// Opens to an angle from bottom to top, in radians, in its place.
+    pub fn open(&mut self, yfov: f64) {
         let [_, height] = self.size;
         let scale = Self::pixel(yfov, self.distance(), height) / Vec3::from_array(self.up).length();
         let scaled = |step: [f64; 3]| step.map(|component| component * scale);
@@ -208,23 +211,29 @@ impl Scene {
 fn trace_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         scene.settings.mode = Mode::Path(Path::default());
-        scene.settings.max_depth = DEPTH;
+        scene.settings.max_depth = Path::DEPTH;
         scene.settings.supersampling = 1;
     }
 }
 
-/// Has Whitted's integrator draw what was made for paths: with lights of the course in place of physical ones, which it
-/// does not see, and one from the left and above if there is none.
+/// Has Whitted's integrator draw what was made for paths; with a light from the left and above if there is none.
 fn leave_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         return;
     }
     scene.settings.mode = Mode::Phong;
-    let ball = scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
     if scene.lights.is_empty() {
         let key = Sun { direction: super::studio::key().to_array(), irradiance: [PI; 3] };
         scene.lights.push(key.light());
     }
+}
+
+/// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
+fn stand_lights(scene: &mut Scene) {
+    if scene.lights.iter().all(|light| light.point().is_some()) {
+        return;
+    }
+    let ball = scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
     for light in &mut scene.lights {
         if let Light::Punctual(punctual) = light {
             *light = Light::Point(as_point(punctual, ball));

@@ -131,6 +131,33 @@ pub struct Standard {
     pub iridescence_thickness_map: Option<Map>,
 }
 
+impl Standard {
+    /// Every map it has.
+    pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
+        [
+            &mut self.base_color_map,
+            &mut self.metallic_roughness_map,
+            &mut self.specular_glossiness_map,
+            &mut self.emissive_map,
+            &mut self.normal_map,
+            &mut self.specular_map,
+            &mut self.specular_color_map,
+            &mut self.transmission_map,
+            &mut self.thickness_map,
+            &mut self.clearcoat_map,
+            &mut self.clearcoat_roughness_map,
+            &mut self.clearcoat_normal_map,
+            &mut self.sheen_color_map,
+            &mut self.sheen_roughness_map,
+            &mut self.anisotropy_map,
+            &mut self.iridescence_map,
+            &mut self.iridescence_thickness_map,
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
+
 impl Default for Standard {
     /// The default material of glTF: white, metallic and rough.
     fn default() -> Self {

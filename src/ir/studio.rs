@@ -76,13 +76,7 @@ fn picture() -> Image {
     #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float")]
     let bytes: Vec<u8> =
         pixels.flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat()).collect();
-    Image {
-        name: "studio".to_owned(),
-        width: SIZE[0],
-        height: SIZE[1],
-        kind: Pixels::Rgb32f,
-        pixels: STANDARD.encode(bytes),
-    }
+    Image { name: String::new(), width: SIZE[0], height: SIZE[1], kind: Pixels::Rgb32f, pixels: STANDARD.encode(bytes) }
 }
 
 impl Scene {
@@ -145,13 +139,11 @@ impl Scene {
             Shape::Instance(instance) => {
                 let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
                 let Some(mesh) = self.meshes.get(instance.mesh.0 as usize) else { return 0.0 };
-                let corner = |index: u32| {
-                    let index = index as usize;
-                    (index < mesh.positions.len()).then(|| Vec3::from_array(mesh.positions.at(index)))
-                };
-                let corners = |[a, b, c]: [u32; 3]| Some([corner(a)?, corner(b)?, corner(c)?]);
-                let placed = mesh.triangles.iter().filter_map(|indices| corners(*indices));
-                placed.map(|corners| triangle(corners.map(|corner| world.transform_point3(corner)))).sum()
+                let known = |index: &u32| (*index as usize) < mesh.positions.len();
+                let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
+                let sound = mesh.triangles.iter().filter(|indices| indices.iter().all(known));
+                let placed = sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
+                placed.map(triangle).sum()
             }
             Shape::Sphere(_)
             | Shape::Plane(_)

@@ -58,6 +58,11 @@ fn course(eye: &str) -> String {
 /// Two by two pixels of 0.5.
 const GREY_SKY: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80";
 
+/// A scene of the course that holds an asset, seen as the square is from `eye`, 16 pixels high.
+fn holding(eye: &str, center: &str, rest: &str) -> String {
+    format!("Camera: {{eye: {eye}, center: {center}, up: [0, 1, 0], viewSize: [24, 16], fov: 30}}\n{rest}")
+}
+
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
@@ -205,6 +210,9 @@ fn either_integrator_shows_either_kind_of_scene() {
     assert_eq!(show("ball.yaml --integrator whitted"), show("ball.yaml"));
     let paths = values(folder.path(), "ball.yaml --integrator path --spp 16");
     assert!(paths.iter().any(|value| *value > 100) && show("ball.yaml --integrator path") != show("ball.yaml"));
+    let sun = "ball.yaml --sun 1,1,1,3";
+    assert_eq!(show(sun), show(&format!("{sun} --integrator path")), "a sun is seen by paths");
+    assert_ne!(show(&format!("{sun} --integrator whitted")), show("ball.yaml"), "and by Whitted, if he is to");
     for asset in ["square.gltf", "sunny.gltf"] {
         let middle = values(folder.path(), &format!("{asset} --integrator whitted"))[3 * (4 * 8 + 4)];
         assert!(middle > 100, "{asset}: {middle}");
@@ -224,4 +232,41 @@ fn a_turntable_is_so_many_pictures_all_around() {
     let pictures: Vec<_> =
         names(folder.path()).into_iter().filter(|name| !name.contains("gltf") && name.ends_with(".png")).collect();
     assert_eq!(pictures, made);
+}
+
+#[test]
+fn an_asset_that_a_scene_holds_looks_as_it_does_alone() {
+    let folder = folder();
+    let hold = |eye: &str, center: &str, rest: &str| {
+        fs::write(folder.path().join("held.yaml"), holding(eye, center, rest)).unwrap();
+        picture(folder.path(), "held.yaml --spp 4")
+    };
+    let view = "--eye 0,0,3 --center 0,0,0 --yfov 30 --size 24x16 --spp 4";
+    let alone = |words: &str| picture(folder.path(), &format!("{words} {view}"));
+    let square = "Objects:\n- {type: gltf, file: square.gltf}\n";
+    let sun = "Lights:\n- {type: sun, direction: [0, 0, 1], irradiance: 2}\n";
+    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sun}{square}")), alone("square.gltf --sun 0,0,1,2"));
+    let sky = "Environment: {file: sky.hdr}\n";
+    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sky}{square}")), alone("square.gltf --env sky.hdr"));
+    let sunny = "Objects:\n- {type: gltf, file: sunny.gltf}\n";
+    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", sunny), alone("sunny.gltf"), "its lights count");
+    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", square), alone("square.gltf"), "without light it stands in the studio");
+    let moved = "Objects:\n- {type: gltf, file: sunny.gltf, position: [4, 0, 0], scale: 2, rotation: [0, 1.5707963267948966, 0]}\n";
+    let moved = rtc::image::decode(&hold("[10, 0, 0]", "[4, 0, 0]", moved)).unwrap().bytes;
+    let first = rtc::image::decode(&alone("sunny.gltf")).unwrap().bytes;
+    assert!(
+        moved.iter().zip(&first).filter(|(a, b)| a.abs_diff(**b) > 1).count() < 30,
+        "moved, turned and scaled alike"
+    );
+}
+
+#[test]
+fn an_angle_in_a_scene_is_that_of_the_command_line() {
+    let folder = folder();
+    let ball = course("[1, 2, 10]");
+    let wide = ball.replace("up: [0, 0.5, 0]", "up: [0, 1, 0], fov: 50").replace("[1, 2, 10]", "[7, 4, 8]");
+    fs::write(folder.path().join("wide.yaml"), wide).unwrap();
+    let expected = picture(folder.path(), "ball.yaml --eye 7,4,8 --center 1,2,0 --up 0,2,0 --yfov 50");
+    assert_eq!(picture(folder.path(), "wide.yaml"), expected);
+    assert_eq!(picture(folder.path(), "ball.yaml --eye 7,4,8 --yfov 50"), expected);
 }

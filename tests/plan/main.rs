@@ -73,7 +73,8 @@ fn course(name: &str) -> Option<Scene> {
 fn small(mut scene: Scene) -> Scene {
     let (sampling, depth) = (scene.settings.supersampling.min(2), scene.settings.max_depth.min(4));
     let size = Some([22, 18]);
-    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), spp: Some(2), ..Overrides::default() }
+        .apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(3);
     scene.settings.light_samples = scene.settings.light_samples.min(4);
     scene

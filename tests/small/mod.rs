@@ -31,7 +31,7 @@ pub(crate) fn small(path: &Path) -> Scene {
     reduced(file, &mut map, &Options::default())
 }
 
-/// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples, 4 points of the lens and 8 bounces.
+/// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples or paths, 4 points of the lens and 8 bounces.
 pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> Scene {
     let mut sink = Sink::default();
     let scene = pipeline::load(file, map, options, &mut sink);
@@ -40,7 +40,8 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
     let size = Some([48, 40]);
-    Overrides { size, supersampling: Some(sampling), depth: Some(depth), ..Overrides::default() }.apply(&mut scene);
+    Overrides { size, supersampling: Some(sampling), depth: Some(depth), spp: Some(4), ..Overrides::default() }
+        .apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(4);
     scene
 }

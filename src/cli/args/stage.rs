@@ -33,7 +33,7 @@ pub(in crate::cli) struct Stage {
     /// Leave out the lights of the scene
     #[arg(long)]
     pub(in crate::cli) no_scene_lights: bool,
-    /// How light is followed [default: by the scene: paths for glTF, Whitted's way for the course]
+    /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else Whitted's way]
     #[arg(long, value_enum)]
     pub(in crate::cli) integrator: Option<Integrator>,
 }

@@ -15,11 +15,12 @@ super::codes! { RE:
         "The path leads to another machine or folder, or has another case or white space at its end, but a file of that \
          name is beside the scene or in the folder above. The note says which was taken.";
     BAD_PICTURE = "RE004", Error, "a texture can't be read as a picture",
-        "Pictures are PNG, JPEG or WebP, recognised by their content and not by their name. A damaged file shows itself \
+        "Pictures are PNG, JPEG or WebP, those of an environment Radiance HDR or OpenEXR with finite values; they are \
+         recognised by their content and not by their name. A damaged file shows itself \
          by the words of its decoder. With `--lenient` the texture falls back to the colour, with a warning.";
     HUGE_PICTURE = "RE005", Error, "a texture has too many pixels",
         "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
-         16384 pixels, and 1 GiB while it is decoded. Scale the picture down.";
+         16384 pixels, and 1 GiB while it is decoded; an environment has at most 8192 × 4096. Scale the picture down.";
     BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
         "Meshes are Wavefront OBJ or OFF. The label is at the first place that can't be: a number that is missing or not \
          finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \

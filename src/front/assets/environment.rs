@@ -1,10 +1,36 @@
 //! The environments: pictures of light as the IR holds them.
 
+use super::{Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
 use crate::image::{DecodeError, Radiance, decode_radiance};
-use crate::ir::{Image, Pixels};
+use crate::ir::{Image, ImageId, Lowered, Pixels};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+
+/// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
+const MAX_BYTES: u64 = 1 << 29;
+
+/// Brings the image of the environment; without its file there is none.
+pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
+    let found = porter.find(wish, Without::Environment);
+    let image = found.and_then(|found| match porter.loader.bytes(&found.path, MAX_BYTES) {
+        Ok(bytes) => {
+            let refuse = |fault| {
+                let finding = refusal(&fault, &found.shown.display().to_string()).at(wish.span, "named here");
+                porter.refuse(finding, Without::Environment);
+            };
+            environment(&wish.path, &bytes).map_err(refuse).ok()
+        }
+        Err(error) => {
+            porter.unreadable(&found, &error.to_string(), wish.span, Without::Environment);
+            None
+        }
+    });
+    match (image, lowered.scene.images.get_mut(id.0 as usize)) {
+        (Some(image), Some(place)) => *place = image,
+        (_, _) => lowered.scene.environment = None,
+    }
+}
 
 /// The image of a Radiance HDR or OpenEXR file.
 ///

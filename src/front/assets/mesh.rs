@@ -55,7 +55,7 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
         }
         // Lenient, the object is left out once.
         Err(faults) => {
-            let told = if porter.lenient { 1 } else { MAX_FAULTS };
+            let told = if porter.options.lenient { 1 } else { MAX_FAULTS };
             for fault in faults.into_iter().take(told) {
                 let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
                 let finding = finding.at(fault.span(file), fault.label).also(wish.span, "the file is named here");

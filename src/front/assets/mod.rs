@@ -4,6 +4,7 @@
 //! lenient run goes on without the file and says what is missing.
 
 mod environment;
+mod gltf;
 mod image;
 mod mesh;
 mod obj;
@@ -33,20 +34,24 @@ pub fn bring(
         return;
     }
     let search = Search::new(map.folder(scene), options.asset_root.as_deref());
-    let mut porter = Porter { search, lenient: options.lenient, loader: Loader, map, sink };
+    let mut porter = Porter { search, options, loader: Loader, map, sink };
+    let mut assets = gltf::Assets::default();
     for wish in wanted {
         match wish.asset {
             Asset::Image(id) => image::bring(id, &wish, lowered, &mut porter),
             Asset::Mesh(id) => mesh::bring(id, &wish, lowered, &mut porter),
+            Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
+            Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
         }
     }
     image::find_normal_maps(lowered, porter.sink);
+    lowered.origins.finish();
 }
 
 /// Finds files, reads them, and reports on them.
 struct Porter<'run> {
     search: Search,
-    lenient: bool,
+    options: &'run Options,
     loader: Loader,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
@@ -56,6 +61,7 @@ struct Porter<'run> {
 #[derive(Clone, Copy)]
 enum Without {
     Color,
+    Environment,
     Object,
 }
 
@@ -63,6 +69,7 @@ impl Without {
     fn consequence(self) -> &'static str {
         match self {
             Self::Color => "the texture is left out",
+            Self::Environment => "the environment is left out",
             Self::Object => "the object is left out",
         }
     }
@@ -73,7 +80,7 @@ impl Porter<'_> {
     fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
         let extensions: &[&str] = match without {
             Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
-            Without::Object | Without::Color => &[""],
+            Without::Object | Without::Color | Without::Environment => &[""],
         };
         let mut first_fault = None;
         for extension in extensions {
@@ -100,7 +107,7 @@ impl Porter<'_> {
 
     /// Reports a file that can't be used; lenient, as a warning with what is done instead.
     fn refuse(&mut self, mut finding: Diagnostic, without: Without) {
-        if self.lenient {
+        if self.options.lenient {
             finding.message = format!("{}; {}", finding.message, without.consequence());
             finding.severity = Severity::Warning;
         }

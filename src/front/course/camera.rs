@@ -2,8 +2,8 @@
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
-use super::number::{Count, NonNegative};
-use super::record::{keys, record};
+use super::number::{Count, NonNegative, Opening};
+use super::record::{Found, keys, record};
 use super::value::{Point, Size, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
@@ -21,6 +21,9 @@ record! {
         up: Spanned<Vector>, required, keys!["up"];
         /// Width and height of the image in pixels.
         view_size: Spanned<Size>, required, keys!["viewSize"];
+        /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
+        /// not count.
+        fov: Spanned<Opening>, optional, keys!["fov"];
         /// The radius of the lens in scene units; 0 keeps everything in focus.
         aperture_radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["apertureRadius"];
         /// How many points of the lens each sub-sample looks through.
@@ -47,7 +50,8 @@ pub(super) fn placeholder() -> ir::Camera {
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
-        let Camera { eye, center, up, view_size, aperture_radius, aperture_samples } = &camera.value;
+        let Camera { eye, center, up, view_size, fov, aperture_radius, aperture_samples } = &camera.value;
+        let opening = opening(fov, up, context);
         let basis = basis(&camera.value, context);
         for (field, span) in [
             (Field::Whole, camera.span),
@@ -71,6 +75,9 @@ impl Lowering {
             lens: ir::Lens { radius: aperture_radius.value.0, samples: aperture_samples.value.0 },
             projection: ir::Projection::Perspective,
         };
+        if let Some(opening) = opening {
+            self.scene.camera.open(opening);
+        }
     }
 
     /// Lowers a camera of three top-level keys: eye, the point looked at, and the upward direction.
@@ -80,6 +87,7 @@ impl Lowering {
             center: *center,
             up: up.map(|point| Vector(point.0)),
             view_size: Spanned::unwritten(Size([OLD_SIDE, OLD_SIDE])),
+            fov: Found::Absent,
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
         };
@@ -96,10 +104,28 @@ impl Lowering {
     }
 }
 
+/// The angle that the image spans, in radians, if that is given.
+fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
+    let Found::Read(Spanned { value: Opening(degrees), span: Some(span) }) = *fov else { return None };
+    let length = Vec3::from_array(up.value.0).length();
+    if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
+        let message = || "the length of `up` has no effect beside `fov`".to_owned();
+        context.report(&codes::NO_EFFECT, place, message, |d| {
+            d.at(place, "only the direction counts")
+                .also(span, "this gives the size of a pixel")
+                .severity(Severity::Warning)
+        });
+    }
+    Some(degrees.to_radians())
+}
+
 /// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
 fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
-    let Camera { eye, center, up, .. } = camera;
-    let [from, to, upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
+    let Camera { eye, center, up, fov, .. } = camera;
+    let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
+    if !fov.is_absent() {
+        upward = upward.normalize_or_zero();
+    }
     match camera_basis(from, to, upward) {
         Ok(basis) => Some(basis),
         Err(BasisFault::ZeroGaze) => {

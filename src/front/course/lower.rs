@@ -117,7 +117,10 @@ impl Lowering {
         let Some(scene) = Scene::decode(root, context) else { return };
         self.view(&scene, context);
         self.settings(&scene, context);
-        scene.lights.value.decode_each(context, "Lights", |_, light| self.light(&light));
+        if let Found::Read(environment) = &scene.environment {
+            self.environment(environment);
+        }
+        scene.lights.value.decode_each(context, "Lights", |context, light| self.light(&light, context));
         self.soften(&scene);
         let count = scene.objects.value.len(context);
         scene.objects.value.decode_each(context, "Objects", |context, object| {
@@ -127,6 +130,7 @@ impl Lowering {
             }
             self.object(&object.value, context);
         });
+        self.follow_paths(&scene);
     }
 
     /// Chooses between the two cameras.
@@ -153,8 +157,9 @@ impl Lowering {
         let Self { scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
         for Wanted { asset, path: _, span } in &wanted {
             let (noun, index) = match asset {
-                Asset::Image(ImageId(index)) => (Noun::Image, *index),
+                Asset::Image(ImageId(index)) | Asset::Environment(ImageId(index)) => (Noun::Image, *index),
                 Asset::Mesh(MeshId(index)) => (Noun::Mesh, *index),
+                Asset::Gltf(_) => continue,
             };
             origins.record(Place { noun, index, field: Field::Whole }, *span);
         }

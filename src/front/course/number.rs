@@ -194,6 +194,18 @@ number! {
 }
 
 number! {
+    /// The angle of a view in degrees.
+    Opening(f64), |node, context| {
+        let degrees = number(node, "a number", context)?;
+        if degrees <= 0.0 || degrees >= 180.0 {
+            out_of_range("above 0 and below 180", node, context);
+            return Some(90.0);
+        }
+        Some(degrees)
+    }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 }
+}
+
+number! {
     /// A number of at least 0.
     NonNegative(f64), |node, context| number(node, "a number", context), { "type": "number", "minimum": 0 }
 }

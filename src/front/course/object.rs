@@ -4,6 +4,7 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::decode::{Context, Key, Shared, Spanned, Value};
 use super::disc::Disc;
+use super::gltf::Gltf;
 use super::lower::Lowering;
 use super::material::Material;
 use super::mesh::Mesh;
@@ -63,6 +64,7 @@ kinds! {
     Prism "prism";
     Mesh "mesh" "model" "OBJModel" "triangleMesh" "triangleAggregate";
     BoundedPlane "bplane";
+    Gltf "gltf";
 }
 
 impl Value for Object {
@@ -146,6 +148,7 @@ impl Lowering {
             Object::Prism(prism) => self.prism(prism, context),
             Object::Mesh(mesh) => self.mesh(mesh, context),
             Object::BoundedPlane(plane) => self.bounded_plane(plane, context),
+            Object::Gltf(gltf) => self.gltf(gltf),
         }
     }
 

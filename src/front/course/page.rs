@@ -2,6 +2,7 @@
 //! default and its meaning.
 
 use super::camera::Camera;
+use super::environment::Environment;
 use super::light::Light;
 use super::material::Material;
 use super::object::{KINDS, Kind};
@@ -32,6 +33,7 @@ pub fn page() -> String {
         ("`Camera`", &Camera::RECORD),
         ("`SuperSampling`", &Grid::RECORD),
         ("`GoochParameters`", &Gooch::RECORD),
+        ("`Environment`", &Environment::RECORD),
         ("`Lights`", &Light::RECORD),
         ("`material`", &Material::RECORD),
     ] {

@@ -100,6 +100,7 @@ impl Lowering {
                 ];
                 self.put(&clothes, ir::Shape::Disc(shape), &places);
             }
+            Outline::Square if radius.value.0 <= 0.0 => pointlike(radius, context),
             Outline::Square => {
                 let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
                 let places = fields.map(|field| (field, center.span));
@@ -123,6 +124,14 @@ fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]
     };
     let corner = |a: f64, b: f64| (center + u * (a * half) + v * (b * half)).to_array();
     Some([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
+}
+
+/// Reports a square without sides; of a circle the proof says so.
+fn pointlike(radius: &Spanned<Positive>, context: &mut Context<'_>) {
+    if let Some(span) = radius.span {
+        let message = || format!("the radius `{}` is not above 0", radius.value.0);
+        context.report(&codes::RADIUS, span, message, |d| d.at(span, "must be above 0"));
+    }
 }
 
 fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {

@@ -2,6 +2,7 @@
 
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
+use super::environment::Environment;
 use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, Real, plain_number};
@@ -11,6 +12,7 @@ use super::schema::Definitions;
 use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
+use crate::front::Asset;
 use crate::ir::{self, Field, Noun};
 use serde_json::{Value as Json, json};
 
@@ -26,7 +28,8 @@ record! {
         /// The camera as three keys: where it stands, what it looks at, and the upward direction, whose length is the size of
         /// a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
         look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
-        /// What a pixel shows: `phong` the lit surface, `zbuffer` its distance, `normal` its direction, `gooch` a drawing.
+        /// What a pixel shows: `phong` the lit surface, `path` the light along all paths (the default with a sun, an
+        /// `Environment` or a glTF asset), `zbuffer` its distance, `normal` its direction, `gooch` a drawing.
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
         shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"];
@@ -41,6 +44,8 @@ record! {
         light_samples: Spanned<Count>, optional, keys!["LightSamples"];
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
+        /// What surrounds the scene.
+        environment: Spanned<Environment>, optional, keys!["Environment"];
         /// The lights.
         lights: Spanned<Each<Light>>, default(Each::<Light>::none()), keys!["Lights"];
         /// What there is to see.
@@ -72,6 +77,7 @@ pub(super) enum Mode {
     Zbuffer,
     Normal,
     Gooch,
+    Path,
 }
 
 /// The words for the modes.
@@ -81,6 +87,7 @@ const MODES: &[(&str, Mode)] = &[
     ("z-buffer", Mode::Zbuffer),
     ("normal", Mode::Normal),
     ("gooch", Mode::Gooch),
+    ("path", Mode::Path),
 ];
 
 /// The modes as some files number them.
@@ -206,6 +213,26 @@ impl Lowering {
         }
     }
 
+    /// Has paths traced if the file says so, or holds what only paths show; after the lights and the objects.
+    pub(super) fn follow_paths(&mut self, scene: &Scene) {
+        let Scene { mode, sampling, depth, reflections, .. } = scene;
+        let is_physical = self.scene.environment.is_some()
+            || self.scene.lights.iter().any(|light| light.point().is_none())
+            || self.files.wanted.iter().any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+        if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
+            return;
+        }
+        let rays = sampling.value.factor.0.saturating_mul(sampling.value.factor.0);
+        let usual = ir::Path::default();
+        let samples = if sampling.span.is_some() { rays } else { usual.samples };
+        let settings = &mut self.scene.settings;
+        settings.mode = ir::Mode::Path(ir::Path { samples, ..usual });
+        settings.supersampling = 1;
+        if depth.span.is_none() && reflections.is_absent() {
+            settings.max_depth = ir::Path::DEPTH;
+        }
+    }
+
     fn mode(&mut self, mode: Mode, gooch: &Found<Spanned<Gooch>>, context: &mut Context<'_>) -> ir::Mode {
         let given = if let Found::Read(gooch) = gooch { Some(gooch) } else { None };
         if let (true, Some(span)) = (mode != Mode::Gooch, given.and_then(|gooch| gooch.span)) {
@@ -216,6 +243,7 @@ impl Lowering {
             Mode::Phong => ir::Mode::Phong,
             Mode::Zbuffer => ir::Mode::Zbuffer,
             Mode::Normal => ir::Mode::Normal,
+            Mode::Path => ir::Mode::Path(ir::Path::default()),
             Mode::Gooch => ir::Mode::Gooch(given.map_or(GOOCH, |gooch| self.gooch(&gooch.value))),
         }
     }

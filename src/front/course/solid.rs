@@ -183,7 +183,7 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
 }
 
 /// Where the axes come to, turned by angles in radians about x, then y, then z.
-fn turned(angles: [f64; 3]) -> [Vec3; 3] {
+pub(super) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
     let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
     Vec3::AXES.map(|Vec3 { x, y, z }| {
         let (y, z) = (y * cx - z * sx, y * sx + z * cx);

@@ -12,6 +12,9 @@ pub(super) const UV: &str = "UV";
 /// One white pixel, in Base64.
 const PLACEHOLDER: &str = "////";
 
+/// One black pixel of floats, in Base64.
+const DARK: &str = "AAAAAAAAAAAAAAAA";
+
 /// What a scene has named so far.
 #[derive(Default)]
 pub(super) struct Files {
@@ -51,6 +54,20 @@ impl Files {
         self.want(Asset::Mesh(id), file);
         self.meshes.insert(name, id);
         id
+    }
+
+    /// The image of an environment, of one dark pixel until its file is there.
+    pub(super) fn environment(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> ImageId {
+        let (name, pixels) = (file.value.0.replace('\\', "/"), DARK.to_owned());
+        let image = Image { name, width: 1, height: 1, kind: Pixels::Rgb32f, pixels };
+        let image = add(&mut scene.images, image, ImageId);
+        self.want(Asset::Environment(image), file);
+        image
+    }
+
+    /// A glTF asset in its place.
+    pub(super) fn gltf(&mut self, place: [[f64; 3]; 4], file: &Spanned<FileName>) {
+        self.want(Asset::Gltf(place), file);
     }
 
     fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {

@@ -75,6 +75,46 @@ triple! {
     Color, |node, context| number(node, "a list of three numbers", context), { "type": "number", "minimum": 0 }
 }
 
+/// Declares three numbers, or one that stands for all three, as a type of the format.
+macro_rules! spread {
+    ($(#[doc = $doc:literal])+ $name:ident, $item:tt) => {
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug)]
+        pub(super) struct $name(pub(super) [f64; 3]);
+
+        impl Value for $name {
+            fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+                const WHAT: &str = "a number or a list of three numbers";
+                match context.tree.shape(node) {
+                    Shape::List => tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self),
+                    Shape::Word(_) | Shape::Text(_) | Shape::Map => {
+                        number(node, WHAT, context).map(|number| Self([number; 3]))
+                    }
+                }
+            }
+
+            fn schema(_: &mut Definitions) -> Json {
+                let number = json!($item);
+                json!({ "anyOf": [number, { "type": "array", "items": number, "minItems": 3, "maxItems": 3 }] })
+            }
+
+            fn json(&self) -> Json {
+                json_number(self.0[0])
+            }
+        }
+    };
+}
+
+spread! {
+    /// Red, green and blue, or grey, each at least 0.
+    Channels, { "type": "number", "minimum": 0, "maximum": 1e60 }
+}
+
+spread! {
+    /// How many times larger along x, y and z, or in all directions.
+    Scale, { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+}
+
 /// The largest side of an image.
 pub(super) const MAX_SIDE: u32 = 65_535;
 

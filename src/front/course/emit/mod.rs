@@ -1,11 +1,12 @@
 //! The IR back to text: the canonical spelling, with a `Camera`, and every number the shortest that reads back.
 
 mod camera;
+mod light;
 mod material;
 mod shape;
 
 use super::settings::PATTERNS;
-use crate::ir::{Gooch, Light, MaterialId, Mode, Pattern, PointLight, Projection, Scene, Settings, Surface};
+use crate::ir::{Gooch, Light, MaterialId, Mode, Path, Pattern, Projection, Scene, Settings, Surface};
 use camera::camera_up;
 use std::fmt::Write as _;
 
@@ -18,33 +19,20 @@ use std::fmt::Write as _;
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.
 pub fn emit(scene: &Scene) -> Result<String, String> {
-    let Scene {
-        camera,
-        settings,
-        lights,
-        images: _,
-        textures: _,
-        meshes: _,
-        materials,
-        surfaces,
-        names: _,
-        environment,
-    } = scene;
-    if environment.is_some() || camera.projection == Projection::Orthographic {
-        return Err("the scene has an environment or an orthographic camera, which this format has not".to_owned());
+    let Scene { camera, settings, lights, images, textures: _, meshes: _, materials, surfaces, names: _, environment } =
+        scene;
+    if camera.projection == Projection::Orthographic {
+        return Err("the scene has an orthographic camera, which this format has not".to_owned());
     }
     let mut text = Text::default();
     text.camera(camera, camera_up(camera)?);
     text.settings(settings, lights)?;
+    if let Some(environment) = environment {
+        text.environment(environment, images)?;
+    }
     text.line(0, if lights.is_empty() { "Lights: []" } else { "Lights:" });
     for light in lights {
-        let PointLight { position, color, radius } =
-            light.point().ok_or("a light in physical units has no spelling")?;
-        text.numbers("- position", position, 2);
-        text.numbers("color", color, 4);
-        if *radius != 0.0 {
-            text.number("radius", *radius, 4);
-        }
+        text.light(light)?;
     }
     text.line(0, if surfaces.is_empty() { "Objects: []" } else { "Objects:" });
     let mut uses = vec![0_usize; materials.len()];
@@ -98,7 +86,7 @@ impl Text {
             Mode::Phong => self.line(0, "RenderMode: phong"),
             Mode::Zbuffer => self.line(0, "RenderMode: zbuffer"),
             Mode::Normal => self.line(0, "RenderMode: normal"),
-            Mode::Path(_) => return Err("path tracing has no spelling".to_owned()),
+            Mode::Path(_) => self.line(0, "RenderMode: path"),
             Mode::Gooch(Gooch { b, y, alpha, beta }) => {
                 self.line(0, "RenderMode: gooch");
                 self.line(0, "GoochParameters:");
@@ -110,7 +98,7 @@ impl Text {
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
         self.line(0, "SuperSampling:");
-        self.line(2, &format!("factor: {supersampling}"));
+        self.line(2, &format!("factor: {}", factor(mode, *supersampling)?));
         if let Some((word, _)) = PATTERNS.iter().find(|(_, known)| known == pattern && *pattern != Pattern::Grid) {
             self.line(2, &format!("pattern: {word}"));
         }
@@ -119,6 +107,16 @@ impl Text {
         }
         Ok(())
     }
+}
+
+/// The rays along the side of a pixel, that of paths too.
+fn factor(mode: &Mode, supersampling: u32) -> Result<u32, String> {
+    let Mode::Path(Path { samples, multiple_scattering }) = mode else { return Ok(supersampling) };
+    let side = samples.isqrt();
+    if !multiple_scattering || supersampling != 1 || side * side != *samples {
+        return Err("paths are so many a pixel, or so followed, as this format can't say".to_owned());
+    }
+    Ok(side)
 }
 
 /// Three numbers as a flow list.

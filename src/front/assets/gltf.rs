@@ -1,0 +1,130 @@
+//! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
+
+use super::{Porter, Wanted, Without};
+use crate::front::{Options, gltf};
+use crate::ir::{
+    Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual, Scene, Shape,
+    Surface, Texture, TextureId,
+};
+use crate::math::Vec3;
+use glam::DAffine3;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// The assets brought so far, each once: what is to be placed of them, or nothing if they have errors.
+#[derive(Default)]
+pub(super) struct Assets {
+    known: BTreeMap<PathBuf, Option<Placeable>>,
+}
+
+/// What is placed of an asset; it refers to what was added to the scene.
+struct Placeable {
+    surfaces: Vec<Surface>,
+    names: Vec<String>,
+    lights: Vec<Light>,
+}
+
+impl Assets {
+    /// Brings an asset and places it; without its file, nothing shows of it.
+    pub(super) fn bring(
+        &mut self,
+        place: [[f64; 3]; 4],
+        wish: &Wanted,
+        lowered: &mut Lowered,
+        porter: &mut Porter<'_>,
+    ) {
+        let Some(found) = porter.find(wish, Without::Object) else { return };
+        let asset = self.known.entry(found.path.clone()).or_insert_with(|| {
+            let file = porter.loader.file(&found.shown, porter.map);
+            let file = file.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+            let options = Options { camera: None, ..porter.options.clone() };
+            let asset = gltf::lower(file.ok()?, porter.map, &options, porter.sink)?;
+            Some(add(asset, lowered))
+        });
+        if let Some(asset) = asset {
+            asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
+        }
+    }
+}
+
+/// Adds what an asset is made of to a scene.
+fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
+    let Lowered { scene: own, origins } = asset;
+    let Lowered { scene, origins: all } = lowered;
+    let offset = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+    let [images, textures] = [scene.images.len(), scene.textures.len()].map(offset);
+    let [meshes, materials] = [scene.meshes.len(), scene.materials.len()].map(offset);
+    for (noun, before, count) in [
+        (Noun::Image, images, own.images.len()),
+        (Noun::Texture, textures, own.textures.len()),
+        (Noun::Mesh, meshes, own.meshes.len()),
+        (Noun::Material, materials, own.materials.len()),
+    ] {
+        for index in 0..count {
+            let place = Place::new(noun, before as usize + index, Field::Whole);
+            all.record(place, origins.span(Place::new(noun, index, Field::Whole)));
+        }
+    }
+    let Scene { images: own_images, textures: own_textures, meshes: own_meshes, materials: own_materials, .. } = own;
+    scene.images.extend(own_images);
+    scene.textures.extend(own_textures.into_iter().map(|texture| match texture {
+        Texture::Uv => Texture::Uv,
+        Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + images)),
+        Texture::Sampled(mut sampled) => {
+            sampled.image.0 += images;
+            Texture::Sampled(sampled)
+        }
+    }));
+    scene.meshes.extend(own_meshes);
+    scene.materials.extend(own_materials.into_iter().map(|mut material| {
+        if let Material::Standard(standard) = &mut material {
+            standard.maps_mut().for_each(|map| map.texture = TextureId(map.texture.0 + textures));
+        }
+        material
+    }));
+    let surfaces = own.surfaces.into_iter().map(|Surface { mut shape, material }| {
+        if let Shape::Instance(instance) = &mut shape {
+            instance.mesh = MeshId(instance.mesh.0 + meshes);
+        }
+        Surface { shape, material: MaterialId(material.0 + materials) }
+    });
+    Placeable { surfaces: surfaces.collect(), names: own.names, lights: own.lights }
+}
+
+impl Placeable {
+    /// Puts the asset into its place.
+    fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
+        let Lowered { scene, origins } = lowered;
+        if !self.names.is_empty() || !scene.names.is_empty() {
+            scene.names.resize(scene.surfaces.len(), String::new());
+            scene.names.extend(self.names.iter().cloned());
+            scene.names.resize(scene.surfaces.len() + self.surfaces.len(), String::new());
+        }
+        for surface in &self.surfaces {
+            let mut surface = surface.clone();
+            if let Shape::Instance(instance) = &mut surface.shape {
+                let own = DAffine3::from_cols_array_2d(&instance.world_from_object);
+                instance.world_from_object = (world * own).to_cols_array_2d();
+            }
+            origins.record(Place::new(Noun::Surface, scene.surfaces.len(), Field::Whole), wish.span);
+            scene.surfaces.push(surface);
+        }
+        for light in &self.lights {
+            origins.record(Place::new(Noun::Light, scene.lights.len(), Field::Whole), wish.span);
+            scene.lights.push(placed(light, world));
+        }
+    }
+}
+
+/// A light moved and turned; its strength and its reach know no scale, as in the asset.
+fn placed(light: &Light, world: DAffine3) -> Light {
+    let Light::Punctual(Punctual { emitter, intensity }) = light else { return light.clone() };
+    let mut emitter = emitter.clone();
+    if let Emitter::Point { position, .. } | Emitter::Spot { position, .. } = &mut emitter {
+        *position = world.transform_point3(Vec3::from_array(*position)).to_array();
+    }
+    if let Emitter::Sun { direction } | Emitter::Spot { direction, .. } = &mut emitter {
+        *direction = world.transform_vector3(Vec3::from_array(*direction)).to_array();
+    }
+    Light::Punctual(Punctual { emitter, intensity: *intensity })
+}

@@ -1,0 +1,34 @@
+//! The glTF assets: a file, and its place in the scene.
+
+use super::decode::Spanned;
+use super::lower::Lowering;
+use super::record::{keys, record};
+use super::solid::turned;
+use super::value::{FileName, Point, Scale, Text, Vector};
+
+record! {
+    /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.
+    struct Gltf, "glTF asset" {
+        /// What kind of object this is.
+        _kind: Spanned<Text>, required, keys!["type"];
+        /// The file, .gltf or .glb, beside the scene file or in a folder below it.
+        file: Spanned<FileName>, required, keys!["file"];
+        /// Where the origin of the asset comes to.
+        position: Spanned<Point>, default(Point([0.0; 3])), keys!["position"];
+        /// How many times larger it is than in its file, in all directions or along its x, y and z.
+        scale: Spanned<Scale>, default(Scale([1.0; 3])), keys!["scale"];
+        /// The angles in radians by which it is turned about its origin: first about x, then y, then z.
+        rotation: Spanned<Vector>, default(Vector([0.0; 3])), keys!["rotation"];
+    }
+}
+
+impl Lowering {
+    /// Lowers an asset: its file is wanted.
+    pub(super) fn gltf(&mut self, gltf: &Gltf) {
+        let Gltf { _kind: _, file, position, scale, rotation } = gltf;
+        let [x, y, z] = turned(rotation.value.0);
+        let [sx, sy, sz] = scale.value.0;
+        let columns = [x * sx, y * sy, z * sz].map(|axis| axis.to_array());
+        self.files.gltf([columns[0], columns[1], columns[2], position.value.0], file);
+    }
+}
