@@ -2,10 +2,11 @@
 
 pub mod trial;
 
-use crate::diag::Sink;
+use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::{assets, course, gltf};
 use crate::image::Layers;
-use crate::ir::{Lowered, Origins, Scene};
+use crate::ir::{Lowered, Origins, Scene, Stage};
+use crate::math::BasisFault;
 use crate::plan::{Arithmetic, Plan};
 use crate::render::{self, Aov, Crop, Fault, Film, Job};
 use crate::source::{FileId, SourceMap};
@@ -38,6 +39,22 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
             Some(draft.finish())
         }
     }
+}
+
+/// Puts view and light into a scene that was read, and what has no light into the studio.
+pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
+    let fault = match stage.apply(lowered) {
+        Ok(false) => return,
+        Ok(true) => {
+            let note = Diagnostic::new(&codes::STUDIO, "the scene has no light, so it stands in the studio");
+            return sink
+                .push(note.hint("light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness"));
+        }
+        Err(BasisFault::ZeroGaze) => (&codes::EYE_IS_CENTER, "the view asked for is from the point that it looks at"),
+        Err(BasisFault::ZeroUp) => (&codes::ZERO_UP, "the upward direction asked for has no length"),
+        Err(BasisFault::Parallel) => (&codes::UP_PARALLEL, "the upward direction asked for is along the view"),
+    };
+    sink.push(Diagnostic::new(fault.0, fault.1));
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.

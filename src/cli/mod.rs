@@ -17,6 +17,7 @@ mod render;
 mod report;
 mod talk;
 mod tell;
+mod turntable;
 
 use args::{Cli, Command};
 use clap::Parser;

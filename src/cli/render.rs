@@ -8,6 +8,7 @@ use super::look::Look;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
+use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
 use crate::image::{Image, Layers, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
@@ -30,6 +31,9 @@ struct Plan {
     threads: usize,
     rules: Rules,
     verify: bool,
+    /// Views around the scene, if more than its own.
+    turntable: Option<u32>,
+    up: Option<[f64; 3]>,
 }
 
 /// What was rendered, and what is said of it.
@@ -46,7 +50,7 @@ struct Shot {
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.carry_out(&mut Input::read(&args.file, &args.reading), &mut talk);
+    let outcome = plan.carry_out(&mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -57,6 +61,9 @@ impl Plan {
             Some(output) => output.clone(),
             None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
         };
+        if args.turntable.is_some() && output.as_os_str() == "-" {
+            return Err(Failure::Trouble("a turntable is many pictures; give `-o NAME-%04d.png`".to_owned()));
+        }
         output::refuse_terminal(&output)?;
         Ok(Self {
             look: Look::new(&args.look, &output)?,
@@ -77,37 +84,58 @@ impl Plan {
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning),
             verify: args.pruning.verify_effects,
+            turntable: args.turntable,
+            up: args.stage.up,
         })
     }
 
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let mut set = Ok(());
-        let proven = input::require(input, talk, |lowered| {
+        let mut proven = input::require(input, talk, |lowered| {
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
-        let window = self.window(&proven.lowered.scene)?;
+        self.window(&proven.lowered.scene)?;
         if let Some(warning) = imprecise(&proven, self.arithmetic) {
             input.push(warning);
             input.tell(talk)?;
         }
         let interrupt = Interrupt::listen()?;
-        let output = Output::open(&self.output, &interrupt)?;
+        let Some(count) = self.turntable else { return self.shoot(&proven, &self.output, input, talk, &interrupt) };
+        let table = Turntable::new(&proven.lowered.scene, self.up, count);
+        for frame in 0..count {
+            table.turn(&mut proven, frame)?;
+            self.shoot(&proven, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
+        }
+        Ok(())
+    }
+
+    /// Renders one picture and writes it.
+    fn shoot(
+        &self,
+        proven: &Proven,
+        path: &Path,
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let window = self.window(&proven.lowered.scene)?;
+        let output = Output::open(path, interrupt)?;
         let quiet = talk.is_quiet();
         let shot = match self.goal {
-            Goal { error: None, time: None } => self.trace(&proven, window, &interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(&proven, window, &interrupt, quiet)?,
+            Goal { error: None, time: None } => self.trace(proven, window, interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(proven, window, interrupt, quiet)?,
         };
         if self.crop.is_none() && shot.counts.hits == 0 {
-            input.push(nothing_in_view(&proven));
+            input.push(nothing_in_view(proven));
             input.tell(talk)?;
         }
-        let summary = self.summary(&shot);
+        let summary = self.summary(path, &shot);
         let mut picture = self.look.develop(shot.image, shot.coverage, &proven.scene.settings().mode);
-        picture.layers = self.layers(&proven, window, &interrupt)?;
+        picture.layers = self.layers(proven, window, interrupt)?;
         let bytes = self.look.encode(&picture, || self.origin(&proven.lowered.scene))?;
-        output.commit(&bytes, &interrupt)?;
+        output.commit(&bytes, interrupt)?;
         if !quiet {
             talk::say(&summary);
         }
@@ -184,10 +212,10 @@ impl Plan {
         layers.map_err(no_threads)?.ok_or(Failure::Interrupted)
     }
 
-    fn summary(&self, shot: &Shot) -> String {
+    fn summary(&self, path: &Path, shot: &Shot) -> String {
         let Shot { image, counts, elapsed, quality, coverage: _ } = shot;
         let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height);
+        let line = format!("{}: {}×{}, {work}", path.display(), image.width, image.height);
         match quality {
             Some(quality) => format!("{line}\n{quality}"),
             None => line,

@@ -1,13 +1,15 @@
 //! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8 or 16 bit) or EXR, the
-//! same bytes every time; PNG, JPEG and WebP read.
+//! same bytes every time; PNG, JPEG and WebP read, and pictures of light from HDR and EXR.
 
 mod decode;
 mod exr;
 mod look;
 mod png;
+mod radiance;
 
 pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha};
 pub use look::{Association, Backdrop, Look};
+pub use radiance::{Radiance, decode_radiance};
 
 use std::fmt;
 

@@ -111,6 +111,13 @@ pub struct Path {
     pub multiple_scattering: bool,
 }
 
+impl Default for Path {
+    /// What is good for a look.
+    fn default() -> Self {
+        Self { samples: 64, multiple_scattering: true }
+    }
+}
+
 /// The parameters of Gooch shading.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]

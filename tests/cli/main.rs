@@ -9,6 +9,7 @@
 )]
 mod looks;
 mod reports;
+mod stage;
 
 use std::fs;
 use std::io::{Read, Write};

@@ -4,11 +4,13 @@ mod common;
 mod cost;
 mod look;
 mod render;
+mod stage;
 
 pub(super) use common::{Color, MessageFormat, Reading, Talk};
 pub(super) use cost::{Cost, Report};
 pub(super) use look::{Bits, Look};
 pub(super) use render::{Pruning, Render};
+pub(super) use stage::Stage;
 
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -75,6 +77,8 @@ pub(super) struct Compile {
     /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
+    #[command(flatten)]
+    pub(super) stage: Stage,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! What `rtc render` is told.
 
 use super::super::parse::{crop, levels, rule, seconds, setting, size};
-use super::{Look, Reading, Talk};
+use super::{Look, Reading, Stage, Talk};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use clap::{Args, ValueEnum, ValueHint};
@@ -44,6 +44,9 @@ pub(in crate::cli) struct Render {
     /// Sample for this long, in seconds of the clock, where it helps most; the picture then depends on the machine
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples"])]
     pub(in crate::cli) time_budget: Option<Duration>,
+    /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with `-%04d`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
+    pub(in crate::cli) turntable: Option<u32>,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
@@ -60,6 +63,8 @@ pub(in crate::cli) struct Render {
     pub(in crate::cli) look: Look,
     #[command(flatten)]
     pub(in crate::cli) pruning: Pruning,
+    #[command(flatten)]
+    pub(in crate::cli) stage: Stage,
     #[command(flatten)]
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]
