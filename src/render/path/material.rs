@@ -156,7 +156,8 @@ impl<'world> Point<'world> {
 
     /// The frame with the normal map applied, and the normal of the clearcoat.
     pub(super) fn frame(&self, at: &Interaction, details: &Details, wo: Vec3) -> (Frame, Vec3) {
-        let normal = details.normal.unwrap_or(at.normal);
+        // The winding says which side is outside, and the normals of some meshes were made against it.
+        let normal = details.normal.map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
         let tangent = details.tangent.map(|t| t - normal * normal.dot(t)).and_then(Vec3::try_normalize);
         let basis = tangent.map_or_else(
             || Basis::around(normal),
@@ -165,7 +166,7 @@ impl<'world> Point<'world> {
         let m = self.material;
         let shading = self.mapped(m.normal_map.as_ref(), m.normal_scale, &basis);
         let coat = self.mapped(m.clearcoat_normal_map.as_ref(), m.clearcoat_normal_scale, &basis);
-        let (shading, coat) = (facing(shading, at.normal, wo), facing(coat, at.normal, wo));
+        let (shading, coat) = (bent(shading, at.normal, wo), bent(coat, at.normal, wo));
         // The tangent at a right angle to the normal found.
         let tangent = tangent.map(|t| t - shading * shading.dot(t)).and_then(Vec3::try_normalize);
         let basis = tangent.map_or_else(
@@ -194,9 +195,21 @@ impl Frame {
     }
 }
 
-/// A shading normal that the viewer sees from the same side as the geometric one: else it is leant back as far as it
-/// leant away.
-fn facing(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
-    let (seen, side) = (wo.dot(shading), wo.dot(geometric));
-    if seen * side > 0.0 { shading } else { (shading - wo * (2.0 * seen)).normalize_or(geometric) }
+/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent until it does, so that
+/// what is shiny turns no blacker than its horizon (Keller et al., "The Iray light transport simulation and rendering
+/// system", 2017, has a like rule).
+fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
+    /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
+    const LEAST: f64 = 0.01;
+    const SHARE: f64 = 0.9;
+    let side = 1.0_f64.copysign(wo.dot(geometric));
+    let (n, above) = (shading * side, geometric * side);
+    let mirrored = n * (2.0 * n.dot(wo)) - wo;
+    let (height, least) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
+    if height >= least {
+        return shading;
+    }
+    // The normal halfway between the viewer and the direction raised.
+    let raised = (mirrored + above * (least - height)).normalize_or_zero();
+    (wo + raised).normalize_or(above) * side
 }
