@@ -93,7 +93,8 @@ fn form(line: &str) -> String {
             form.push('#');
         }
     }
-    let is_unit = |word: &&str| matches!(word.trim_end_matches([',', '.', ';']), "ms" | "s" | "min" | "k" | "M" | "G" | "*");
+    let is_unit =
+        |word: &&str| matches!(word.trim_end_matches([',', '.', ';']), "ms" | "s" | "min" | "k" | "M" | "G" | "*");
     let words = form.split_whitespace().filter(|word| !is_unit(word)).collect::<Vec<_>>();
     words.join(" ").replace("#e-#", "#")
 }
