@@ -12,6 +12,7 @@ mod tracer;
 
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
+use super::progressive::Growing;
 use super::world::World;
 use crate::color::srgb_encoded;
 use crate::image::Image;
@@ -66,6 +67,18 @@ impl<S: Geometry> World<S> {
         let rows = rows.zip(pixels.par_chunks_mut((crop.width as usize).max(1)));
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+    }
+
+    /// Grows a film by tracing paths; see [`super::progressive::Grow`].
+    pub(super) fn grow_paths(
+        &self,
+        path: Path,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool {
+        let lights = Lights::new(self, Strategy::Both);
+        film.lengthen(|| Tracer::new(self, &lights, path, Strategy::Both), wanted, proceed)
     }
 }
 

@@ -4,6 +4,7 @@ use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
 use super::super::film::{Counts, Seeds};
 use super::super::geometry::Geometry;
+use super::super::progressive::{Sampling, Tone};
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
@@ -75,15 +76,18 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
-        let mut sum = Vec3::ZERO;
-        for index in 0..self.path.samples.get() {
-            let sobol = Sobol::new(pixel, index, seeds);
-            let ray = self.camera_ray(pixel, &sobol);
-            let radiance = self.radiance(ray, sobol);
-            // A number that overflowed says nothing.
-            sum += if radiance.is_finite() { radiance } else { Vec3::ZERO };
-        }
-        sum / f64::from(self.path.samples.get())
+        let count = self.path.samples.get();
+        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
+        sum / f64::from(count)
+    }
+
+    /// The radiance along path `index` of a pixel.
+    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds) -> Vec3 {
+        let sobol = Sobol::new(pixel, index, seeds);
+        let ray = self.camera_ray(pixel, &sobol);
+        let radiance = self.radiance(ray, sobol);
+        // A number that overflowed says nothing.
+        if radiance.is_finite() { radiance } else { Vec3::ZERO }
     }
 
     fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
@@ -262,6 +266,18 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             ray = at.ray(wi);
         }
         0.0
+    }
+}
+
+impl<S: Geometry> Sampling for Tracer<'_, S> {
+    const TONE: Tone = Tone::Encoded;
+
+    fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
+        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
     }
 }
 
