@@ -1,17 +1,21 @@
-//! Checks a made-up scene of as many spheres as asked for and prints the size of its text and the peak of memory above
-//! it. `benches/check-cost.sh` runs it under callgrind.
+//! Checks a made-up scene of as many spheres as asked for and plans its picture; prints the size of its text, the peak of
+//! memory above it, and the time of the plan. `benches/check-cost.sh` runs it under callgrind.
 
 #![expect(
     clippy::unwrap_used,
     unsafe_code,
-    reason = "a measurement stops at the first surprise; an allocator is unsafe"
+    clippy::disallowed_methods,
+    reason = "a measurement stops at the first surprise and has a clock; an allocator is unsafe"
 )]
 use rtc::diag::Sink;
 use rtc::pipeline;
+use rtc::plan::{Plan, Rules};
 use rtc::source::SourceMap;
+use rtc::valid::ValidScene;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::time::Instant;
 
 struct Watching;
 
@@ -65,13 +69,18 @@ fn text(spheres: u32) -> String {
 }
 
 #[inline(never)]
-fn text_to_proof(bytes: Vec<u8>) -> bool {
+fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
     let mut map = SourceMap::default();
     let file = map.add("spheres", bytes);
     let mut sink = Sink::default();
     let options = pipeline::Options::default();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink)).is_some()
+    lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink))
+}
+
+#[inline(never)]
+fn proof_to_plan(scene: &ValidScene) -> Plan {
+    Plan::new(scene, Rules::ALL)
 }
 
 #[expect(clippy::print_stdout, reason = "it prints what it measured")]
@@ -82,6 +91,9 @@ fn main() {
     let size = bytes.len();
     PEAK.store(LIVE.load(Relaxed), Relaxed);
     let before = LIVE.load(Relaxed);
-    assert!(text_to_proof(bytes), "the scene is sound");
+    let scene = text_to_proof(bytes).expect("the scene is sound");
     println!("{spheres} spheres, {size} bytes of text: {} bytes above it at the peak", PEAK.load(Relaxed) - before);
+    let start = Instant::now();
+    let kept = proof_to_plan(&scene).surfaces.iter().filter(|kept| **kept).count();
+    println!("planned in {:.1} ms, {kept} spheres kept", 1e3 * start.elapsed().as_secs_f64());
 }

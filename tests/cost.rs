@@ -195,13 +195,15 @@ fn what_is_left_out_of_the_depth_ends_where_paths_do() {
 #[test]
 fn knobs_that_change_nothing_say_why() {
     let reason = |changes: &[(&str, &str)], knob| study::idle(knob, &scene(changes));
-    assert_eq!(reason(&[], Knob::Aperture), Some("the lens has no radius"));
-    assert_eq!(reason(&[], Knob::Lights), Some("no light has a radius"));
-    assert_eq!(reason(&[], Knob::Glossy), Some("no material is glossy"));
+    assert_eq!(reason(&[], Knob::Aperture).unwrap(), "the lens has no radius");
+    assert_eq!(reason(&[], Knob::Lights).unwrap(), "no light has a radius");
+    assert_eq!(reason(&[], Knob::Glossy).unwrap(), "no material is glossy");
     assert_eq!(reason(&[], Knob::Depth), None);
     assert!(reason(&[("\"ks\": 0.5", "\"ks\": 0")], Knob::Depth).is_some());
     assert!(reason(&[("\"phong\",", "\"zbuffer\",")], Knob::Supersampling).is_some());
     assert!(reason(&[("\"phong\",", "\"normal\",")], Knob::Depth).is_some());
+    let soft_and_black = [("[1, 1, 1]}}]", "[0, 0, 0], \"radius\": 3}}]")];
+    assert_eq!(reason(&soft_and_black, Knob::Lights).unwrap(), "soft light: its colour is 0 (E-LIGHT-BLACK)");
     let table = study::table(&WHOLE);
     assert!(table.contains("aperture samples: not used by this scene: the lens has no radius"), "{table}");
 }
@@ -209,7 +211,11 @@ fn knobs_that_change_nothing_say_why() {
 /// If a knob is idle the picture is the same for all its values.
 #[test]
 fn idle_knobs_change_no_bit() {
-    let scenes = [scene(&[]), scene(&[("\"ks\": 0.5", "\"ks\": 0")]), scene(&[("\"phong\",", "\"normal\",")])];
+    let mut one_ball = scene(&[]);
+    one_ball.surfaces.truncate(1);
+    assert!(study::idle(Knob::Depth, &one_ball).is_some_and(|reason| reason.contains("E-REFL-CONVEX")));
+    let changed = [scene(&[("\"ks\": 0.5", "\"ks\": 0")]), scene(&[("\"phong\",", "\"normal\",")])];
+    let scenes = [scene(&[]), one_ball].into_iter().chain(changed);
     for scene in scenes {
         let picture_with = |overrides: Overrides| {
             let mut scene = scene.clone();
@@ -313,4 +319,22 @@ fn a_study_can_be_stopped() {
     let clock = || Duration::ZERO;
     let bench = Bench::new(1, Clock { cpu: &clock, wall: &clock }, &|_| false).unwrap();
     assert_eq!(study::study(&scene(&[]), About::default(), Effort::QUICK, 1, &bench).unwrap_err(), Stopped);
+}
+
+/// Two balls under a disc that shines and a sky, by paths.
+#[test]
+fn paths_have_a_ladder_and_a_law_of_their_own() {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("paths.json", include_bytes!("honest/paths.json").to_vec());
+    let scene = codec::decode(codec::Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    let study = study_of(&scene, 3_000_000, 0);
+    let table = study::table(&study);
+    assert_eq!(study.used(), [Knob::Paths, Knob::Depth], "{table}");
+    let law = study.knobs.iter().find(|report| report.knob == Knob::Paths).and_then(|report| report.law).unwrap();
+    assert!((0.4..1.0).contains(&law.p.value), "noise falls as 1/√n or faster: {table}");
+    assert!(study.own().unwrap().setting.paths == 16 && study.rows.iter().any(|row| row.setting.paths > 16), "{table}");
+    for row in study.rows.iter().filter(|row| row.judged) {
+        assert!((row.model / row.errors.rmse - 1.0).abs() < 0.3, "{table}");
+    }
+    assert!(study::html(&study).contains(">spp<"), "the page has the column");
 }

@@ -179,6 +179,7 @@ impl Plan {
             goal: self.goal,
             arithmetic: self.arithmetic,
             crop: window,
+            behind: self.look.behind(),
             values: self.look.values(&proven.scene.settings().mode),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,

@@ -31,8 +31,16 @@ pub(super) struct Window {
     camera: Camera,
     /// A direction at a right angle to the image plane, in which that plane is 1 from the eye.
     depth: Vec3,
+    /// The length of that direction.
+    steepness: f64,
     /// The points of the lens are among these, and in their hull.
     lens: Vec<Vec3>,
+    /// The box of all points of the lens.
+    lens_box: Space,
+    /// How far the lens and the middle of the picture are from the origin at most.
+    far: f64,
+    /// How far apart pixels are, across and upward.
+    steps: [f64; 2],
     /// The pixels, in pixels.
     size: [f64; 2],
     /// Whether rounding leaves the map in doubt everywhere.
@@ -52,12 +60,16 @@ impl Window {
         let size = [camera.width.get(), camera.height.get()].map(f64::from);
         let reach = camera.eye.abs().max(camera.center.abs()).max_element() + right * size[0] + up * size[1];
         let blurred = 64.0 * U * reach > DOUBT * right.min(up) || U * reach > ROOM * distance.abs();
-        Self { camera: camera.clone(), depth: normal / distance, lens, size, blurred }
+        let depth = normal / distance;
+        let far = lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
+        let lens_box = Space::of(lens.iter().copied());
+        let (steepness, steps) = (depth.length(), [right, up]);
+        Self { camera: camera.clone(), depth, steepness, lens, lens_box, far, steps, size, blurred }
     }
 
     /// The box of all points of the lens.
     pub(super) fn lens(&self) -> Space {
-        Space::of(self.lens.iter().copied())
+        self.lens_box
     }
 
     /// Where a surface may show.
@@ -70,19 +82,19 @@ impl Window {
 
     /// Where a point shows from the middle of the lens, in pixels; `None` where that is in doubt.
     pub(super) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
-        let size = point.abs().max_element() + self.lens().size();
+        let size = point.abs().max_element() + self.lens_box.size();
         let depth = (point - self.camera.eye).dot(self.depth);
-        let doubt = 64.0 * U * size * self.depth.length();
+        let doubt = 64.0 * U * size * self.steepness;
         let (at, error) = self.place(self.camera.eye, point, depth, doubt);
         (!self.blurred && depth > 16.0 * doubt && error <= DOUBT).then_some(at)
     }
 
     /// The rectangle of a box: the hull of its corners, seen from the corners of the lens.
     fn project(&self, space: &Space) -> Shown {
-        let size = space.size() + self.lens().size();
+        let size = space.size() + self.lens_box.size();
         let space = space.grown(ROOM * size);
         let depths = space.corners().map(|corner| (corner - self.camera.eye).dot(self.depth));
-        let doubt = 64.0 * U * size * self.depth.length();
+        let doubt = 64.0 * U * size * self.steepness;
         if depths.iter().all(|depth| *depth < -doubt) {
             return Shown::Nowhere;
         }
@@ -111,12 +123,13 @@ impl Window {
         let Camera { center, right, up, .. } = &self.camera;
         let away = (point - from) / depth;
         let on_plane = (from - *center) + away;
-        let across = on_plane.dot(*right) / right.dot(*right);
-        let upward = on_plane.dot(*up) / up.dot(*up);
-        let error = (doubt / depth + 16.0 * U) * away.length() + 16.0 * U * (from.length() + center.length());
-        let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (right.length() + up.length());
+        let [across_step, upward_step] = self.steps;
+        let across = on_plane.dot(*right) / (across_step * across_step);
+        let upward = on_plane.dot(*up) / (upward_step * upward_step);
+        let error = (doubt / depth + 16.0 * U) * away.length() + 16.0 * U * self.far;
+        let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (across_step + upward_step);
         let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
-        (at, (error + skew) / right.length().min(up.length()))
+        (at, (error + skew) / across_step.min(upward_step))
     }
 
     /// The pixels within one of a stretch of the picture.

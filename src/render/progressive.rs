@@ -5,7 +5,7 @@
 
 use super::basic::Basic;
 use super::camera::{camera_ray, image_point, lens_at};
-use super::film::{Counts, Crop, Values, coverage};
+use super::film::{Behind, Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
 use super::kernel::{choose_of_few, dispatch};
 use super::plain::PlainShape;
@@ -14,16 +14,28 @@ use super::sequence::Sequence;
 use super::shape::Shape;
 use super::whitted::Tracer;
 use super::world::World;
+use crate::color::srgb_encoded;
 use crate::image::Image;
 use crate::math::Vec3;
 use crate::plan::{Arithmetic, Plan, Shapes};
-use crate::valid::ValidScene;
+use crate::valid::{Mode, ValidScene};
 use rayon::prelude::*;
+
+/// What a picture shows of the samples of a pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Tone {
+    /// The mean of samples that are each clamped to [0, 1].
+    #[default]
+    Clamped,
+    /// The code of sRGB of the mean.
+    Encoded,
+}
 
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Strands {
-    /// Per strand, the sum of its samples, each clamped to [0, 1]; strands 0 and 1 are the first half.
+    tone: Tone,
+    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],
@@ -35,11 +47,13 @@ pub struct Strands {
     hits: [u64; 2],
 }
 
-/// A part of a picture that grows, 184 bytes a pixel.
+/// A part of a picture that grows, 192 bytes a pixel.
 #[derive(Clone, Debug)]
 pub struct Growing {
     crop: Crop,
     seed: u64,
+    /// What it shows behind all surfaces, where paths are traced.
+    pub behind: Behind,
     /// Row by row.
     pub pixels: Vec<Strands>,
     /// The rays so far.
@@ -76,13 +90,42 @@ impl Growing {
     #[must_use]
     pub fn new(crop: Crop, seed: u64) -> Self {
         let pixels = vec![Strands::default(); crop.width as usize * crop.height as usize];
-        Self { crop, seed, pixels, counts: Counts::default() }
+        Self { crop, seed, behind: Behind::default(), pixels, counts: Counts::default() }
     }
 
     /// The part of the picture that it holds.
     #[must_use]
     pub fn crop(&self) -> Crop {
         self.crop
+    }
+
+    /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`Grow::grow`].
+    pub(super) fn lengthen<T: Sampling>(
+        &mut self,
+        tracer: impl Fn() -> T + Sync,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool {
+        let Self { crop, seed, behind: _, pixels, counts } = self;
+        let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
+        let row = |(y, row): (usize, &mut [Strands])| {
+            let mut tracer = tracer();
+            for (i, (x, strands)) in (crop.x..).zip(row).enumerate() {
+                let before = tracer.counts().rays();
+                #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
+                let pixel = [x, crop.y + y as u32];
+                strands.tone = T::TONE;
+                strands.lengthen(wanted(y * width + i), &mut tracer, pixel, seed);
+                if !proceed(tracer.counts().rays() - before) {
+                    return None;
+                }
+            }
+            Some(tracer.counts())
+        };
+        let rows = pixels.par_chunks_mut(width).enumerate().map(row);
+        let more = rows.try_reduce(Counts::default, |a, b| Some(a.plus(b)));
+        *counts = counts.plus(more.unwrap_or_default());
+        more.is_some()
     }
 
     /// All samples.
@@ -121,7 +164,11 @@ impl Strands {
     /// The variance of the mean of a half, from how far its strands are apart: the mean over the channels.
     #[must_use]
     pub fn variance_of_half(&self, half: usize) -> f64 {
-        let apart = (self.sums[2 * half] - self.sums[2 * half + 1]) / f64::from(self.counts[half].max(1));
+        let (n, [a, b]) = (f64::from(self.counts[half].max(1)), [self.sums[2 * half], self.sums[2 * half + 1]]);
+        let apart = match self.tone {
+            Tone::Clamped => (a - b) / n,
+            Tone::Encoded => encoded(a / n) - encoded(b / n),
+        };
         apart.length_squared() / 12.0
     }
 
@@ -131,7 +178,11 @@ impl Strands {
         let n = 2.0 * f64::from(self.counts[half]);
         let sum = self.sums[2 * half] + self.sums[2 * half + 1];
         let square = self.squares[half] - sum.length_squared() / n.max(1.0);
-        square.max(0.0) / (3.0 * (n - 1.0).max(1.0))
+        let variance = square.max(0.0) / (3.0 * (n - 1.0).max(1.0));
+        match self.tone {
+            Tone::Clamped => variance,
+            Tone::Encoded => variance * slope(sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt()),
+        }
     }
 
     /// The share of the samples that met a surface: the mean of the halves.
@@ -149,8 +200,55 @@ impl Strands {
             };
             sum / (2.0 * f64::from(self.counts[half].max(1)))
         };
-        (of(0) + of(1)) * 0.5
+        let mean = (of(0) + of(1)) * 0.5;
+        if self.tone == Tone::Encoded && values == Values::Display { encoded(mean) } else { mean }
     }
+
+    /// Takes the samples of a pixel that the strands lack of those wanted.
+    fn lengthen(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling, pixel: [u32; 2], seed: u64) {
+        for strand in 0..4_usize {
+            let (half, before) = (strand / 2, tracer.counts().hits);
+            let number = (seed << 2 | strand as u64).wrapping_add(1);
+            for index in self.counts[half]..wanted[half] {
+                let radiance = tracer.sample(pixel, number, index);
+                let shown = match self.tone {
+                    Tone::Clamped => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+                    Tone::Encoded => radiance,
+                };
+                self.sums[strand] += shown;
+                self.squares[half] += shown.length_squared();
+                self.linear[half] += radiance;
+            }
+            self.hits[half] += tracer.counts().hits - before;
+        }
+        self.counts = [0, 1].map(|half: usize| self.counts[half].max(wanted[half]));
+    }
+}
+
+fn encoded(mean: Vec3) -> Vec3 {
+    mean.map(srgb_encoded)
+}
+
+/// The square of how much faster the code of sRGB grows than what it stands for, about a mean of the deviation given.
+fn slope(mean: f64, deviation: f64) -> f64 {
+    if deviation == 0.0 {
+        return 0.0;
+    }
+    let rise = srgb_encoded(mean + deviation) - srgb_encoded(mean - deviation);
+    let slope = rise / (2.0 * deviation);
+    slope * slope
+}
+
+/// What takes samples of pixels.
+pub(super) trait Sampling {
+    /// What its samples are to the picture.
+    const TONE: Tone;
+
+    /// Sample `index` of strand `number` of a pixel, strands of other numbers being independent.
+    fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3;
+
+    /// The rays traced so far.
+    fn counts(&self) -> Counts;
 }
 
 impl<S: Geometry> Grow for World<S> {
@@ -160,6 +258,9 @@ impl<S: Geometry> Grow for World<S> {
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
         proceed: &(dyn Fn(u64) -> bool + Sync),
     ) -> bool {
+        if let Mode::Path(path) = self.scene.settings().mode {
+            return self.grow_paths(path, film, wanted, proceed);
+        }
         dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, proceed))
     }
 }
@@ -172,53 +273,30 @@ impl<S: Geometry> World<S> {
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
         proceed: &(dyn Fn(u64) -> bool + Sync),
     ) -> bool {
-        let Growing { crop, seed, pixels, counts } = film;
-        let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
-        let row = |(y, row): (usize, &mut [Strands])| {
+        let tracer = || {
             let mut tracer: Tracer<'_, S, F> = Tracer::new(self);
             tracer.spread = true;
-            for (i, (x, pixel)) in (crop.x..).zip(row).enumerate() {
-                let before = tracer.counts.rays();
-                #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
-                let at = [x, crop.y + y as u32];
-                tracer.lengthen(at, seed, pixel, wanted(y * width + i));
-                if !proceed(tracer.counts.rays() - before) {
-                    return None;
-                }
-            }
-            Some(tracer.counts)
+            tracer
         };
-        let rows = pixels.par_chunks_mut(width).enumerate().map(row);
-        let more = rows.try_reduce(Counts::default, |a, b| Some(a.plus(b)));
-        *counts = counts.plus(more.unwrap_or_default());
-        more.is_some()
+        film.lengthen(tracer, wanted, proceed)
     }
 }
 
 /// Keeps the numbers of strands apart from those of the paths through them.
 const STRAND: u64 = u64::MAX - 2;
 
-impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
-    /// Takes the samples that a pixel lacks.
-    fn lengthen(&mut self, pixel: [u32; 2], seed: u64, strands: &mut Strands, wanted: [u32; 2]) {
+impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
+    const TONE: Tone = Tone::Clamped;
+
+    fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
         let camera = self.scene().camera();
-        for strand in 0..4_usize {
-            let half = strand / 2;
-            let number = (seed << 2 | strand as u64).wrapping_add(1);
-            let before = self.counts.hits;
-            let sequence = Sequence::new(Key::new(pixel, number).child(STRAND));
-            for index in strands.counts[half]..wanted[half] {
-                let [x, y, u, v] = sequence.point(index);
-                let origin = lens_at(camera, [u, v]);
-                let ray = camera_ray(origin, image_point(camera, pixel, [x, y]));
-                let radiance = self.radiance(ray, Key::new(pixel, u64::from(index)).seeded(number));
-                let shown = radiance.clamp(Vec3::ZERO, Vec3::ONE);
-                strands.sums[strand] += shown;
-                strands.squares[half] += shown.length_squared();
-                strands.linear[half] += radiance;
-            }
-            strands.hits[half] += self.counts.hits - before;
-        }
-        strands.counts = [0, 1].map(|half: usize| strands.counts[half].max(wanted[half]));
+        let [x, y, u, v] = Sequence::new(Key::new(pixel, number).child(STRAND)).point(index);
+        let origin = lens_at(camera, [u, v]);
+        let ray = camera_ray(origin, image_point(camera, pixel, [x, y]));
+        self.radiance(ray, Key::new(pixel, u64::from(index)).seeded(number))
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
     }
 }

@@ -1,6 +1,8 @@
 //! The knobs of accuracy: what can be turned for more work and less error, and which of them a scene has.
 
-use crate::ir::{Light, Material, Mode, Overrides, Scene};
+use super::subject::prove;
+use crate::ir::{Light, Material, Mode, Overrides, Phong, Scene};
+use crate::plan::{Effect, Plan, Rules, State, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// Something that trades work for accuracy.
@@ -15,13 +17,16 @@ pub enum Knob {
     Lights,
     /// Rays of each glossy lobe.
     Glossy,
+    /// Paths of a pixel, where paths are traced.
+    Paths,
     /// Bounces after the first hit.
     Depth,
 }
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Depth];
+    pub const ALL: [Self; 6] =
+        [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Paths, Self::Depth];
 
     /// What it is called in tables.
     #[must_use]
@@ -31,6 +36,7 @@ impl Knob {
             Self::Aperture => "aperture samples",
             Self::Lights => "light samples",
             Self::Glossy => "glossy samples",
+            Self::Paths => "paths",
             Self::Depth => "depth",
         }
     }
@@ -43,6 +49,7 @@ impl Knob {
             Self::Aperture => "lens",
             Self::Lights => "light",
             Self::Glossy => "gloss",
+            Self::Paths => "spp",
             Self::Depth => "depth",
         }
     }
@@ -52,7 +59,7 @@ impl Knob {
     pub fn words(self, value: u32) -> String {
         match self {
             Self::Supersampling => format!("{value}×{value}"),
-            Self::Aperture | Self::Lights | Self::Glossy => {
+            Self::Aperture | Self::Lights | Self::Glossy | Self::Paths => {
                 let name = self.name();
                 format!("{value} {}", if value == 1 { name.trim_end_matches('s') } else { name })
             }
@@ -66,6 +73,7 @@ impl Knob {
         let (count, step): (u32, fn(u32) -> u32) = match self {
             Self::Supersampling => (10, |i| [1, 2, 3, 4, 6, 8, 12, 16, 24, 32][i as usize]),
             Self::Aperture | Self::Lights | Self::Glossy => (11, |i| 1 << i),
+            Self::Paths => (15, |i| 1 << i),
             Self::Depth => (DEPTHS, |i| i),
         };
         (0..count).map(step)
@@ -82,7 +90,7 @@ impl Knob {
     pub fn samples(self, value: u32) -> f64 {
         match self {
             Self::Supersampling => f64::from(value) * f64::from(value),
-            Self::Aperture | Self::Lights | Self::Glossy | Self::Depth => f64::from(value),
+            Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => f64::from(value),
         }
     }
 }
@@ -102,6 +110,8 @@ pub struct Setting {
     pub lights: u32,
     /// Rays of each glossy lobe.
     pub glossy: u32,
+    /// Paths of a pixel, 1 where none are traced.
+    pub paths: u32,
     /// Bounces after the first hit.
     pub depth: u32,
 }
@@ -110,11 +120,17 @@ impl Setting {
     /// That of a scene; where its lobes have different numbers of rays the largest stands for all.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
+        let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
+            (1, 1, path.samples)
+        } else {
+            (scene.settings.supersampling, scene.camera.lens.samples, 1)
+        };
         Self {
-            supersampling: scene.settings.supersampling,
-            aperture: scene.camera.lens.samples,
+            supersampling,
+            aperture,
             lights: scene.settings.light_samples,
             glossy: lobes(scene).max().unwrap_or(1),
+            paths,
             depth: scene.settings.max_depth,
         }
     }
@@ -127,6 +143,7 @@ impl Setting {
             Knob::Aperture => self.aperture,
             Knob::Lights => self.lights,
             Knob::Glossy => self.glossy,
+            Knob::Paths => self.paths,
             Knob::Depth => self.depth,
         }
     }
@@ -139,6 +156,7 @@ impl Setting {
             Knob::Aperture => &mut self.aperture,
             Knob::Lights => &mut self.lights,
             Knob::Glossy => &mut self.glossy,
+            Knob::Paths => &mut self.paths,
             Knob::Depth => &mut self.depth,
         };
         *place = value;
@@ -148,12 +166,12 @@ impl Setting {
     /// Camera rays of a pixel.
     #[must_use]
     pub fn camera_rays(&self) -> f64 {
-        Knob::Supersampling.samples(self.supersampling) * f64::from(self.aperture)
+        Knob::Supersampling.samples(self.supersampling) * f64::from(self.aperture) * f64::from(self.paths)
     }
 
     /// Writes the values into a scene; lobes keep theirs where the largest of them is meant.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { supersampling, aperture, lights, glossy, depth } = *self;
+        let Self { supersampling, aperture, lights, glossy, paths, depth } = *self;
         let overrides = Overrides {
             size: None,
             supersampling: Some(supersampling),
@@ -161,7 +179,7 @@ impl Setting {
             light_samples: Some(lights),
             glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
             depth: Some(depth),
-            spp: None,
+            spp: Some(paths),
         };
         overrides.apply(scene);
     }
@@ -186,28 +204,60 @@ fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
     scene.materials.iter().filter_map(Material::phong).map(|phong| phong.glossy_samples).filter(|count| *count > 1)
 }
 
-/// Why a knob changes nothing in a scene, or `None` if it may change something.
+/// Why a knob changes nothing in a scene, or `None` if it may change something: the scene does not ask for its effect, or
+/// the plan leaves that out however far the knobs are turned.
 #[must_use]
-pub fn idle(knob: Knob, scene: &Scene) -> Option<&'static str> {
-    let phong = scene.settings.mode == Mode::Phong;
+pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
+    not_asked_for(knob, scene).map(str::to_owned).or_else(|| left_out(knob, scene))
+}
+
+/// What the plan says of the effect of a knob if it needs none.
+fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
+    let effect = match knob {
+        Knob::Supersampling => Effect::Supersampling,
+        Knob::Aperture => Effect::Lens,
+        Knob::Lights => Effect::SoftLight,
+        Knob::Glossy => Effect::GlossyReflection,
+        Knob::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
+        Knob::Depth | Knob::Paths => return None,
+    };
+    let own = Setting::of(scene);
+    let mut turned = scene.clone();
+    Knob::ALL.into_iter().fold(own, |all, knob| all.with(knob, own.get(knob).max(2))).apply(&mut turned);
+    let plan = Plan::new(&prove(&turned), Rules::ALL);
+    let verdict = plan.verdicts.iter().find(|verdict| verdict.effect == effect && verdict.of.is_none())?;
+    let Verdict { because, rule, .. } = verdict;
+    let reason = rule.map_or_else(|| because.clone(), |rule| format!("{because} ({})", rule.name()));
+    (verdict.state != State::Needed).then_some(reason)
+}
+
+fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
+    let mode = &scene.settings.mode;
+    let (phong, paths) = (*mode == Mode::Phong, matches!(mode, Mode::Path(_)));
+    let counted = (paths, "each path takes a sample of its own");
     let weights = || scene.materials.iter().filter_map(Material::phong);
+    let is_dull = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
     let cases: &[(bool, &'static str)] = match knob {
-        Knob::Supersampling => &[(scene.settings.mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
+        Knob::Supersampling => &[counted, (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
         Knob::Aperture => &[
-            (scene.settings.mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
+            counted,
+            (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
             (scene.camera.lens.radius == 0.0, "the lens has no radius"),
         ],
         Knob::Lights => &[
+            counted,
             (!phong, "the mode asks only the middle of a light"),
             (scene.lights.iter().filter_map(Light::point).all(|light| light.radius == 0.0), "no light has a radius"),
         ],
         Knob::Glossy => &[
+            counted,
             (!phong, "the mode follows no mirror"),
             (weights().all(|phong| phong.glossy_samples == 1), "no material is glossy"),
         ],
+        Knob::Paths => &[(!paths, "the mode follows rays from the eye alone")],
         Knob::Depth => &[
-            (!phong, "the mode follows no mirror and no refraction"),
-            (weights().all(|phong| phong.ks == 0.0 && phong.kt == 0.0), "no material mirrors or lets light through"),
+            (!phong && !paths, "the mode follows no mirror and no refraction"),
+            (phong && weights().all(is_dull), "no material mirrors or lets light through"),
         ],
     };
     cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
@@ -219,11 +269,12 @@ mod tests {
 
     #[test]
     fn settings_in_words() {
-        let setting = Setting { supersampling: 4, aperture: 16, lights: 1, glossy: 1, depth: 3 };
+        let setting = Setting { supersampling: 4, aperture: 16, lights: 1, glossy: 1, paths: 32, depth: 3 };
         let words = |knobs: &[Knob]| setting.words(knobs);
         assert_eq!(words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]), "4×4 with 16 aperture samples, depth 3");
         assert_eq!(words(&[Knob::Supersampling, Knob::Lights]), "4×4 with 1 light sample");
         assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
+        assert_eq!(words(&[Knob::Paths, Knob::Depth]), "32 paths, depth 3");
         assert_eq!(words(&[]), "the scene as it is");
     }
 
@@ -232,7 +283,7 @@ mod tests {
         for knob in Knob::ALL {
             let values: Vec<_> = knob.ladder().collect();
             assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
-            let setting = Setting { supersampling: 9, aperture: 9, lights: 9, glossy: 9, depth: 9 };
+            let setting = Setting { supersampling: 9, aperture: 9, lights: 9, glossy: 9, paths: 9, depth: 9 };
             assert_eq!(setting.with(knob, 5).get(knob), 5);
         }
     }

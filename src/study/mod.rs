@@ -158,16 +158,23 @@ impl Scope {
         Ok(if enough * 4 > subject.count() * 3 { subject.clone() } else { subject.keep(enough.max(FEWEST)) })
     }
 
+    /// The sampling by which depths are compared: twice where what a bounce adds is itself found by chance.
+    fn seeds_of_depths(&self) -> Vec<Seeds> {
+        let count = if self.used.contains(&Knob::Paths) { 2 } else { 1 };
+        (1..=count).map(reference::independent).collect()
+    }
+
     fn grounds(&self, subject: &Subject<'_>) -> Result<Grounds, Stopped> {
         let depths = match self.used.contains(&Knob::Depth) {
-            true => Some(reference::depths(subject, self.at(2), self.hundredths(FOR_DEPTH))?),
+            true => Some(reference::depths(subject, self.at(2), &self.seeds_of_depths(), self.hundredths(FOR_DEPTH))?),
             false => None,
         };
         let enough = depths.as_ref().map_or(self.own.depth, |depths| depths.enough);
         let start = self.at(4).with(Knob::Depth, enough);
         let budget = self.hundredths(FOR_REFERENCE);
         let reference = reference::reference(subject, start, &self.sampling, budget)?;
-        let base = if self.sampling.is_empty() { start } else { start.with(Knob::Supersampling, 2) };
+        let has_grid = self.used.contains(&Knob::Supersampling);
+        let base = if has_grid { start.with(Knob::Supersampling, 2) } else { start };
         let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
         let ladders = self.sampling.iter().map(|knob| sweep(subject, &reference, (*knob, base), fair));
         let ladders = ladders.collect::<Result<Vec<_>, _>>()?;

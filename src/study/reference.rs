@@ -3,7 +3,7 @@
 //! how far it may be off.
 
 use super::knob::{Knob, MAX_DEPTH, Setting};
-use super::metrics::{mean, rmse};
+use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::subject::{Shot, Stopped, Subject};
 use crate::image::Image;
 use crate::render::Seeds;
@@ -63,35 +63,57 @@ pub(super) fn independent(number: u64) -> Seeds {
     Seeds { pixel: number, lens: number, path: number }
 }
 
-/// Finds out how deep paths go. All depths are sampled alike, so that what differs is the depth alone.
-pub(super) fn depths(subject: &Subject<'_>, start: Setting, budget: u64) -> Result<Depths, Stopped> {
-    let shoot = |depth| subject.shoot(start.with(Knob::Depth, depth), independent(1));
+/// A depth, sampled once or more.
+struct Sounding(Vec<Shot>);
+
+impl Sounding {
+    fn rays(&self) -> u64 {
+        self.0.iter().map(|shot| shot.counts.rays()).sum()
+    }
+
+    fn secondary(&self) -> u64 {
+        self.0.iter().map(|shot| shot.counts.secondary()).sum()
+    }
+
+    /// How far it is from another in what all their samplings have in common.
+    fn error(&self, other: &Self) -> f64 {
+        let [a, b] = [&self.0, &other.0].map(|shots| [&shots[0].tiles, &shots[shots.len() - 1].tiles]);
+        mean_product([a[0], b[0]], [a[1], b[1]]).max(0.0).sqrt() * LEVELS
+    }
+}
+
+/// Finds out how deep paths go. All depths are sampled alike, by each of the seeds, so that what differs is the depth alone.
+pub(super) fn depths(subject: &Subject<'_>, start: Setting, seeds: &[Seeds], budget: u64) -> Result<Depths, Stopped> {
+    let shoot = |depth| {
+        let shots = seeds.iter().map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
+        shots.collect::<Result<_, _>>().map(Sounding)
+    };
     let mut shots = vec![shoot(0)?];
-    let mut spent = shots[0].counts.rays();
+    let mut spent = shots[0].rays();
     let end = loop {
         let depth = u32::try_from(shots.len()).unwrap_or(MAX_DEPTH);
         if let [.., before, last] = shots.as_slice() {
-            let grows = last.counts.rays() as f64 / before.counts.rays() as f64;
-            if last.counts.secondary() == before.counts.secondary() {
+            let grows = last.rays() as f64 / before.rays() as f64;
+            if last.secondary() == before.secondary() {
                 shots.pop();
                 break DepthEnd::Exact;
             }
-            if depth > MAX_DEPTH || spent as f64 + last.counts.rays() as f64 * grows > budget as f64 {
+            if depth > MAX_DEPTH || spent as f64 + last.rays() as f64 * grows > budget as f64 {
                 break DepthEnd::Open;
             }
         }
         if let [.., first, second, third] = shots.as_slice()
-            && rmse(&first.tiles, &second.tiles).max(rmse(&second.tiles, &third.tiles)) < STILL
+            && first.error(second).max(second.error(third)) < STILL
         {
             break DepthEnd::Still;
         }
         shots.push(shoot(depth)?);
-        spent += shots[shots.len() - 1].counts.rays();
+        spent += shots[shots.len() - 1].rays();
     };
     let last = &shots[shots.len() - 1];
-    let rung = |(value, shot): (u32, &Shot)| {
-        let error = rmse(&shot.tiles, &last.tiles);
-        Rung { value, error, resolved: error > 0.0, rays: shot.counts.rays() }
+    let rung = |(value, shot): (u32, &Sounding)| {
+        let error = shot.error(last);
+        Rung { value, error, resolved: error > 0.0, rays: shot.rays() }
     };
     let rungs: Vec<_> = (0..).zip(&shots).map(rung).collect();
     Ok(Depths { enough: rungs.last().map_or(0, |rung| rung.value), rungs, end })

@@ -56,6 +56,7 @@ fn others(knob: Knob, number: u64) -> Seeds {
         Knob::Supersampling => Seeds { pixel: 0, ..seeds },
         Knob::Aperture => Seeds { lens: 0, ..seeds },
         Knob::Lights | Knob::Glossy => Seeds { path: 0, ..seeds },
+        Knob::Paths => Seeds::NONE,
         Knob::Depth => seeds,
     }
 }
@@ -105,11 +106,11 @@ impl Model {
     }
 
     /// What is known of a knob, `idle` being why it changes nothing if so.
-    pub(super) fn report(&self, knob: Knob, idle: Option<&str>) -> KnobReport {
+    pub(super) fn report(&self, knob: Knob, idle: Option<String>) -> KnobReport {
         let ladder = self.ladders.iter().find(|ladder| ladder.knob == knob);
         KnobReport {
             knob,
-            idle: idle.map(str::to_owned),
+            idle,
             rungs: ladder.map(|ladder| ladder.rungs.clone()).unwrap_or_default(),
             law: ladder.and_then(|ladder| ladder.law),
         }

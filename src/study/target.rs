@@ -1,7 +1,7 @@
 //! A render that knows how good it is: rounds of samples where they are needed, until an error or a time is reached.
 //!
-//! The truth is the picture that more and more sub-samples, points of the lens and points of soft lights lead to, at the
-//! scene's own depth and with its own lobes; a light asked at its centre alone stays one. What no sample of a pixel has met
+//! The truth is the picture that more and more sub-samples, points of the lens and points of soft lights, or more and more
+//! paths lead to, at the scene's own depth and with its own lobes; a light asked at its centre alone stays one. What no sample of a pixel has met
 //! is in no estimate. Rounds are decided by the whole film: an error alone gives the same picture on any threads.
 
 use super::knob::{Knob, idle};
@@ -11,7 +11,7 @@ use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
-use crate::render::{Counts, Crop, Film, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
+use crate::render::{Behind, Counts, Crop, Film, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -32,6 +32,8 @@ pub struct Order {
     pub arithmetic: Arithmetic,
     /// The part of the picture, within it.
     pub crop: Crop,
+    /// What it shows behind all surfaces, where paths are traced.
+    pub behind: Behind,
     /// What the picture holds; errors are those of display values in any case.
     pub values: Values,
     /// Whether soft lights keep their number of points, which is chosen otherwise.
@@ -95,20 +97,26 @@ const TAIL: f64 = 0.05;
 /// a handful of pixels is not judged by a handful of samples.
 const FIRST: usize = 1024;
 
+/// The least samples of a strand in the first round where paths are traced: what a code of sRGB makes of a mean of very few
+/// is no measure of what it makes of many.
+const FIRST_PATHS: usize = 4;
+
 /// Renders a proven scene until the goal is reached, on the threads of the current pool.
 ///
 /// # Errors
 /// If someone said stop.
 pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
-    let samples = [Knob::Supersampling, Knob::Aperture, Knob::Lights, Knob::Glossy];
-    if samples.into_iter().all(|knob| idle(knob, scene).is_some()) {
+    let mut samples = Knob::ALL.into_iter().filter(|knob| *knob != Knob::Depth);
+    if samples.all(|knob| idle(knob, scene).is_some()) {
         return exactly(scene, order, watch);
     }
     let (light_samples, tried) = light_samples(scene, order, watch)?;
     let world = prepare(scene, order, light_samples);
     let mut film = Growing::new(order.crop, order.seed);
+    film.behind = order.behind;
     (watch.round)(Progress { pixels: film.pixels.len() as u64, error: None });
-    let first = FIRST.div_ceil(film.pixels.len().max(1)).next_power_of_two();
+    let least = if idle(Knob::Paths, scene).is_none() { FIRST_PATHS } else { 1 };
+    let first = FIRST.div_ceil(film.pixels.len().max(1)).max(least).next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
     if !world.grow(&mut film, &|_| [first; 2], watch.proceed) {
         return Err(Stopped);
@@ -140,7 +148,7 @@ pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reach
 /// The picture of a mode that samples nothing.
 fn exactly(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
     let proven = prove(scene);
-    let job = Job { crop: Some(order.crop), values: order.values, ..Job::default() };
+    let job = Job { crop: Some(order.crop), values: order.values, behind: order.behind, ..Job::default() };
     let film = render(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL), &job, watch.proceed).ok_or(Stopped)?;
     let samples = Samples { least: 1, mean: 1.0, most: 1 };
     let Film { image, coverage, counts } = film;

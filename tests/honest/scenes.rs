@@ -5,7 +5,7 @@ use rtc::image::Image;
 use rtc::ir::Scene;
 use rtc::pipeline::{self, Options};
 use rtc::plan::Arithmetic;
-use rtc::render::{Crop, Values};
+use rtc::render::{Behind, Crop, Values};
 use rtc::source::SourceMap;
 use rtc::study::{Chance, Goal, LEVELS, Order, Reached, Watch, approach};
 use std::fmt::Write as _;
@@ -77,7 +77,15 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
 pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     let [width, height] = scene.camera.size;
     let crop = Crop { x: 0, y: 0, width, height };
-    Order { goal, arithmetic: Arithmetic::Robust, crop, values: Values::Display, keep_lights: false, seed }
+    Order {
+        goal,
+        arithmetic: Arithmetic::Robust,
+        crop,
+        behind: Behind::Surroundings,
+        values: Values::Display,
+        keep_lights: false,
+        seed,
+    }
 }
 
 /// Two references of other samples, each with at most a quarter of the error.

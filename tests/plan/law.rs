@@ -1,6 +1,7 @@
 //! The law: with and without the rules the film has the same bits, in both kinds of values, and no rule costs a ray.
 
 use super::dice::Dice;
+use super::stage::{ball, disc, first_light, matt, shiny, with};
 use super::{bits, file_name, files, film, proven, scene, small};
 use proptest::prelude::*;
 use rtc::ir::Scene;
@@ -86,12 +87,35 @@ proptest! {
 #[test]
 fn each_rule_leaves_something_out_of_some_scene() {
     let mut idle = Rule::ALL.to_vec();
-    let at_hits = [Rule::ShadowFacing, Rule::Cut, Rule::PixelMiss, Rule::PixelFlat];
-    idle.retain(|rule| !at_hits.contains(rule));
+    idle.retain(|rule| !BY_RAYS.contains(rule));
     for seed in 0..1000 {
         let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
         let fired = |rule: &Rule| plan.verdicts.iter().any(|verdict| verdict.rule == Some(*rule));
         idle.retain(|rule| !fired(rule));
     }
     assert!(idle.is_empty(), "never fired: {idle:?}");
+}
+
+/// The rules that leave out single rays, which no verdict is on.
+const BY_RAYS: [Rule; 4] = [Rule::ShadowFacing, Rule::PixelMiss, Rule::PixelFlat, Rule::Cut];
+
+#[test]
+fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
+    let ball_on_wall = with(&[(ball([1.0, 0.0, 1.5], 1.0), shiny()), (disc([0.0; 3], 1.5), shiny())]);
+    let counts = |scene: &Scene, rules| film(&proven(scene), rules, Values::Linear).counts;
+    let saved = |scene: &Scene, rule| {
+        let (less, more) = (counts(scene, Rules::NONE.with(rule)), counts(scene, Rules::NONE));
+        [more.camera - less.camera, more.shadow - less.shadow, more.mirror - less.mirror]
+    };
+    let [camera, shadow, mirror] = saved(&ball_on_wall, Rule::ShadowFacing);
+    assert!(camera == 0 && shadow > 0 && mirror == 0, "away from the light a ball asks nobody");
+    let [camera, shadow, mirror] = saved(&ball_on_wall, Rule::PixelMiss);
+    assert!(camera > 0 && shadow == 0 && mirror == 0, "where nothing shows there is nothing to shade");
+    let mut dark = with(&[(disc([0.0; 3], 9.0), matt())]);
+    (dark.settings.supersampling, first_light(&mut dark).position) = (3, [0.0, 0.0, -5.0]);
+    assert_eq!(saved(&dark, Rule::PixelFlat)[0], 24 * 20 * 8, "one of nine rays a pixel");
+    let mut deep = with(&[(ball([0.0; 3], 14.0), shiny())]);
+    deep.settings.max_depth = 40;
+    let [less, more] = [Rules::ALL.with(Rule::Cut), Rules::ALL].map(|rules| counts(&deep, rules));
+    assert!(less.mirror < more.mirror && less.camera == more.camera, "{less:?}, {more:?}");
 }

@@ -39,10 +39,10 @@ pub(in crate::cli) struct Render {
     pub(in crate::cli) depth: Option<u32>,
     /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100 pictures), to what ever more samples at this
     /// depth would show
-    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples"])]
+    #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) target_error: Option<f64>,
     /// Sample for this long, in seconds of the clock, where it helps most; the picture then depends on the machine
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples"])]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
     /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with `-%04d`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]

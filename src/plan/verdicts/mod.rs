@@ -111,10 +111,14 @@ impl Findings<'_> {
 
 /// The first few of many places.
 fn few(places: impl Iterator<Item = Place>) -> Vec<Place> {
-    let mut few = Vec::new();
+    const FEW: usize = 3;
+    let mut few = Vec::with_capacity(FEW);
     for place in places {
-        if few.len() < 3 && !few.contains(&place) {
+        if !few.contains(&place) {
             few.push(place);
+        }
+        if few.len() == FEW {
+            break;
         }
     }
     few

@@ -13,6 +13,7 @@ mod tracer;
 
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
+use super::progressive::Growing;
 use super::world::World;
 use crate::image::Image;
 use crate::valid::Path;
@@ -51,11 +52,11 @@ impl<S: Geometry> World<S> {
         let (mut pixels, mut coverage) = (vec![[0.0; 3]; count], vec![0.0; count]);
         let tone = self.scene.settings().mode.tone();
         let row = |((y, row), shares): ((u32, &mut [[f64; 3]]), &mut [f32])| {
-            let mut tracer = Tracer::new(self, &lights, path, strategy);
+            let mut tracer = Tracer::new(self, &lights, path, strategy).before(job.behind);
             for ((x, pixel), share) in (crop.x..).zip(row).zip(shares) {
                 let before = tracer.counts;
                 if job.tiles.is_none_or(|tiles| tiles.contain([x, y])) {
-                    let radiance = tracer.pixel([x, y], job).to_array();
+                    let radiance = tracer.pixel([x, y], job.seeds).to_array();
                     *pixel = if job.values == Values::Display { tone.display(radiance) } else { radiance };
                     *share = tracer.counts.coverage_since(&before);
                 }
@@ -70,5 +71,19 @@ impl<S: Geometry> World<S> {
         let rows = rows.zip(pixels.par_chunks_mut(width)).zip(coverage.par_chunks_mut(width));
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
+    }
+
+    /// Grows a film by tracing paths; see [`super::progressive::Grow`].
+    pub(super) fn grow_paths(
+        &self,
+        path: Path,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &(dyn Fn(u64) -> bool + Sync),
+    ) -> bool {
+        let lights = Lights::new(self, Strategy::Both);
+        let behind = film.behind;
+        let tracer = || Tracer::new(self, &lights, path, Strategy::Both).before(behind);
+        film.lengthen(tracer, wanted, proceed)
     }
 }

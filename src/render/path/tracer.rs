@@ -2,8 +2,9 @@
 
 use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
-use super::super::film::{Behind, Counts, Job};
+use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
+use super::super::progressive::{Sampling, Tone};
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
@@ -30,6 +31,8 @@ pub(super) struct Tracer<'world, S> {
     strategy: Strategy,
     /// Whether any surface may be absent in part.
     has_veils: bool,
+    /// What a ray of the camera that meets nothing shows.
+    behind: Behind,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
@@ -70,21 +73,29 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         strategy: Strategy,
     ) -> Self {
         let has_veils = world.surfaces.iter().any(|s| world.scene.standards()[s.material].alpha != Alpha::Opaque);
-        Self { world, lights, path, strategy, has_veils, counts: Counts::default() }
+        Self { world, lights, path, strategy, has_veils, behind: Behind::default(), counts: Counts::default() }
+    }
+
+    /// The same, with something else behind all surfaces.
+    pub(super) fn before(self, behind: Behind) -> Self {
+        Self { behind, ..self }
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
-    pub(super) fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> Vec3 {
-        let mut sum = Vec3::ZERO;
-        for index in 0..self.path.samples.get() {
-            let sobol = Sobol::new(pixel, index, job.seeds);
-            let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
-            let radiance = self.radiance(ray, sobol);
-            let counts = job.behind == Behind::Surroundings || self.counts.hits > hits;
-            // A number that overflowed says nothing.
-            sum += if counts && radiance.is_finite() { radiance } else { Vec3::ZERO };
-        }
-        sum / f64::from(self.path.samples.get())
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
+        let count = self.path.samples.get();
+        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
+        sum / f64::from(count)
+    }
+
+    /// The radiance along path `index` of a pixel.
+    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds) -> Vec3 {
+        let sobol = Sobol::new(pixel, index, seeds);
+        let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
+        let radiance = self.radiance(ray, sobol);
+        let counts = self.behind == Behind::Surroundings || self.counts.hits > hits;
+        // A number that overflowed says nothing.
+        if counts && radiance.is_finite() { radiance } else { Vec3::ZERO }
     }
 
     /// The ray from the camera that a path of a pixel begins with.
@@ -254,6 +265,18 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             ray = at.ray(wi);
         }
         0.0
+    }
+}
+
+impl<S: Geometry> Sampling for Tracer<'_, S> {
+    const TONE: Tone = Tone::Encoded;
+
+    fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
+        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
+    }
+
+    fn counts(&self) -> Counts {
+        self.counts
     }
 }
 

@@ -84,7 +84,7 @@ pub(super) fn knob(report: &KnobReport) -> String {
     let name = match report.knob {
         Knob::Supersampling => "samples of a pixel",
         Knob::Depth => "depth, 0 at ½",
-        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy) => knob.name(),
+        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths) => knob.name(),
     };
     plot((400, 300), |root| {
         let mut chart = axes(root, [xs.clone(), ys], [name, "error in grey levels"], digits)?;

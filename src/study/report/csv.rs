@@ -3,7 +3,7 @@
 use super::super::knob::Knob;
 use super::super::outcome::{Row, Study};
 
-const NAMES: &str = "supersampling,aperture,lights,glossy,depth,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
+const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_uncertainty,relative_mse,max,\
 visible,flip,model";
 

@@ -1,0 +1,36 @@
+//! The same promises where paths are traced: the truth is the code of sRGB of what ever more paths lead to.
+
+use super::on;
+use super::scenes::{error, references, render};
+use rtc::codec::{self, Form};
+use rtc::diag::Sink;
+use rtc::ir::Scene;
+use rtc::source::SourceMap;
+
+/// Two balls on a floor, under a disc that shines and a sky.
+fn balls() -> Scene {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("paths.json", include_bytes!("paths.json").to_vec());
+    codec::decode(Form::Text, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+#[test]
+fn the_error_said_is_kept_by_paths() {
+    let scene = balls();
+    let references = references(&scene, 6.0);
+    let mut kept = 0;
+    for seed in 1..=8 {
+        let reached = render(&scene, 6.0, seed);
+        assert!(reached.error <= 6.0 && reached.error > 0.5, "{}", reached.error);
+        assert!(reached.samples.most > reached.samples.least, "samples go where the noise is: {:?}", reached.samples);
+        kept += u32::from(error(&reached, &references) <= reached.error);
+    }
+    assert!(kept >= 6, "{kept} of 8");
+}
+
+#[test]
+fn threads_change_no_bit_of_paths() {
+    let scene = balls();
+    let [one, three] = [1, 3].map(|threads| on(threads, || render(&scene, 12.0, 0)));
+    assert!(one.image == three.image && one.counts == three.counts && one.error == three.error);
+}
