@@ -141,7 +141,7 @@ fn a_mirrored_instance_mirrors_its_normal_map() {
 fn normals_made_against_the_winding_are_turned_round() {
     let seen = |z: f64| {
         let mut scene = scene(4);
-        add_mesh(&mut scene, lambert([1.0; 3]), [1.0, 0.0, 0.0], |mesh| mesh.normals = vec![[0.0, 0.0, z]; 4]);
+        add_mesh(&mut scene, lambert([1.0; 3]), [1.0, 0.0, 0.0], |mesh| mesh.normals = vec![[0.0, 0.0, z]; 4].into());
         add_light(&mut scene, Punctual { emitter: Emitter::Sun { direction: [0.8, 0.0, 0.6] }, intensity: [1.0; 3] });
         render(&scene).image
     };
@@ -157,7 +157,7 @@ fn a_mirror_whose_normal_map_leans_too_far_shows_its_horizon() {
     let map = add_texture(&mut scene, [1, 1], &[[238, 128, 191, 255]]);
     let mirror = Standard { roughness: 0.0, normal_map: map, ..Standard::default() };
     add_mesh(&mut scene, mirror, [1.0, 0.0, 0.0], |mesh| {
-        mesh.uvs = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        mesh.uvs = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].into();
     });
     assert!((mean(&render(&scene)) - Vec3::ONE).abs().max_element() < 1e-9);
 }
