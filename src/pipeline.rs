@@ -2,11 +2,13 @@
 
 pub mod trial;
 
-use crate::diag::Sink;
+use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::{assets, course, gltf};
-use crate::ir::{Lowered, Origins, Scene};
-use crate::plan::Plan;
-use crate::render::{Fault, Film, Job, render as render_planned, verify as verify_planned};
+use crate::image::Layers;
+use crate::ir::{Lowered, Origins, Scene, Stage};
+use crate::math::BasisFault;
+use crate::plan::{Arithmetic, Plan};
+use crate::render::{self, Aov, Crop, Fault, Film, Job};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
@@ -37,6 +39,22 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
             Some(draft.finish())
         }
     }
+}
+
+/// Puts view and light into a scene that was read, and what has no light into the studio.
+pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
+    let fault = match stage.apply(lowered) {
+        Ok(false) => return,
+        Ok(true) => {
+            let note = Diagnostic::new(&codes::STUDIO, "the scene has no light, so it stands in the studio");
+            return sink
+                .push(note.hint("light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness"));
+        }
+        Err(BasisFault::ZeroGaze) => (&codes::EYE_IS_CENTER, "the view asked for is from the point that it looks at"),
+        Err(BasisFault::ZeroUp) => (&codes::ZERO_UP, "the upward direction asked for has no length"),
+        Err(BasisFault::Parallel) => (&codes::UP_PARALLEL, "the upward direction asked for is along the view"),
+    };
+    sink.push(Diagnostic::new(fault.0, fault.1));
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.
@@ -73,7 +91,22 @@ pub fn render(
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| render_planned(scene, plan, job, proceed)))
+    Ok(pool.install(|| render::render(scene, plan, job, proceed)))
+}
+
+/// Renders layers of a part of a picture on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
+///
+/// # Errors
+/// If the system gives no threads.
+pub fn layers(
+    scene: &ValidScene,
+    arithmetic: Arithmetic,
+    (wanted, crop): (&[Aov], Crop),
+    threads: usize,
+    proceed: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Layers>, rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    Ok(pool.install(|| render::layers(scene, arithmetic, wanted, crop, proceed)))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
@@ -88,5 +121,5 @@ pub fn verify(
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| verify_planned(scene, plan, job, proceed)))
+    Ok(pool.install(|| render::verify(scene, plan, job, proceed)))
 }

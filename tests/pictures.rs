@@ -70,7 +70,7 @@ fn curved_shapes_show_neither_acne_nor_cracks() {
 #[test]
 fn one_wrong_pixel_is_counted() {
     let image = Image { width: 5, height: 5, pixels: vec![[0.5; 3]; 25] };
-    let mut film = Film { image, counts: Counts::default() };
+    let mut film = Film { image, coverage: vec![1.0; 25], counts: Counts::default() };
     assert_eq!(outliers(&film), 0);
     film.image.pixels[12] = [0.5, 0.0, 0.5];
     assert_eq!(outliers(&film), 1);

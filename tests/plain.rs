@@ -45,8 +45,8 @@ fn shapes() -> Vec<(&'static str, valid::Shape)> {
 /// A tetrahedron.
 fn mesh() -> Arc<valid::Mesh> {
     Arc::new(valid::Mesh {
-        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
-        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].map(|corner| corner.to_array()).into_iter().collect(),
+        triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].into(),
         ..valid::Mesh::default()
     })
 }

@@ -152,13 +152,14 @@ proptest! {
         ray in ray(), corners in prop::collection::vec(vector(1.0), 3..30), x in axis(), y in axis(), z in axis(), to in vector(1.0)
     ) {
         prop_assume!(x.normalize().dot(y.normalize().cross(z.normalize())).abs() > 0.1);
-        let triangles = (0..corners.len() - 2).map(|k| [k, k + 1, k + 2]).collect::<Vec<_>>();
+        let triangles = (0..u32::try_from(corners.len()).unwrap() - 2).map(|k| [k, k + 1, k + 2]).collect::<Vec<_>>();
         let place = |p: Vec3| x * p.x + y * p.y + z * p.z + to;
         let nearest = triangles.iter().filter_map(|t| {
-            Triangle::new(t.map(|k| place(corners[k])))?.intersect(&ray, &Shear::new(&ray))
+            Triangle::new(t.map(|k| place(corners[k as usize])))?.intersect(&ray, &Shear::new(&ray))
         });
         let nearest = nearest.min_by(f64::total_cmp);
-        let mesh = Mesh { positions: corners.clone(), triangles, ..Mesh::default() };
+        let positions = corners.iter().map(|corner| corner.to_array()).collect();
+        let mesh = Mesh { positions, triangles: triangles.into(), ..Mesh::default() };
         let instance = Instance::new(&Arc::new(PreparedMesh::new(&Arc::new(mesh))), [x, y, z, to]);
         let found = instance.intersect(&ray, f64::INFINITY).map(|(t, _)| t);
         match (found, nearest) {

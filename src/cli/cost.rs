@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// Studies the scene and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(args, &mut Input::read(&args.file, &args.reading), &mut talk);
+    let outcome = carry_out(args, &mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
     talk.finish()?;
     outcome
 }

@@ -1,10 +1,11 @@
 //! The input of a command: a scene from a file or standard input, with what was found about it.
 
 use super::Failure;
-use super::args::Reading;
+use super::args::{self, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::ir::{Lowered, Scene};
+use crate::front::assets;
+use crate::ir::{Lowered, Scene, Stage, Surroundings, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, SourceMap, Span};
 use crate::valid::ValidScene;
@@ -12,6 +13,9 @@ use crate::{codec, front, valid};
 use std::io;
 use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
+
+/// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every pixel allowed.
+const MAX_ENVIRONMENT: u64 = 1 << 29;
 
 /// A scene that was read, or could not be.
 pub(super) struct Input {
@@ -21,6 +25,8 @@ pub(super) struct Input {
     sink: Sink,
     file: Option<FileId>,
     options: Options,
+    /// Its view and light; none for a scene that is not to be shown.
+    stage: Option<Stage>,
 }
 
 /// A scene that was proven, and that from which it was.
@@ -34,7 +40,7 @@ pub(super) struct Proven {
 impl Input {
     /// Reads the file at `path`, or standard input if it is `-`.
     pub(super) fn read(path: &Path, reading: &Reading) -> Self {
-        let Reading { stdin_name, strict, lenient, asset_root, time, animation, variant, allow_huge } = reading;
+        let Reading { stdin_name, strict, lenient, asset_root, time, animation, variant, camera, allow_huge } = reading;
         let options = Options {
             front: front::Options {
                 strict: *strict,
@@ -43,6 +49,7 @@ impl Input {
                 time: *time,
                 animation: animation.clone(),
                 variant: variant.clone(),
+                camera: camera.clone(),
             },
             valid: valid::Options { allow_huge: *allow_huge },
         };
@@ -56,12 +63,42 @@ impl Input {
         let read =
             if from_stdin { Loader.reader(&name, io::stdin().lock(), &mut map) } else { Loader.file(path, &mut map) };
         let file = read.map_err(|error| sink.push(unreadable(&name, &error))).ok();
-        Self { name, map, sink, file, options }
+        Self { name, map, sink, file, options, stage: None }
     }
 
-    /// Lowers the scene, lets `change` change it, and proves it.
+    /// Reads the file at `path`, or standard input if it is `-`, to be shown in the view and the light given.
+    pub(super) fn staged(path: &Path, reading: &Reading, stage: &args::Stage) -> Result<Self, Failure> {
+        let args::Stage { eye, center, up, yfov, env, env_color, sun, no_scene_lights, integrator } = stage;
+        let mut input = Self::read(path, reading);
+        let picture = match env {
+            Some(path) => input.environment(path)?,
+            None => env_color.map(Surroundings::Color),
+        };
+        input.stage = Some(Stage {
+            view: View { eye: *eye, center: *center, up: *up, yfov: *yfov },
+            integrator: integrator.map(Into::into),
+            surroundings: picture,
+            suns: sun.clone(),
+            without_lights: *no_scene_lights,
+        });
+        Ok(input)
+    }
+
+    /// The surroundings in a file; what is wrong in it is a finding.
+    fn environment(&mut self, path: &Path) -> Result<Option<Surroundings>, Failure> {
+        let name = path.display().to_string();
+        let bytes = Loader.bytes(path, MAX_ENVIRONMENT);
+        let bytes = bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
+        let picture = assets::environment(&name, &bytes);
+        Ok(picture.map_err(|fault| self.push(assets::refusal(&fault, &name))).map(Surroundings::Picture).ok())
+    }
+
+    /// Lowers the scene, sets the stage, lets `change` change it, and proves it.
     pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered)) -> Option<Proven> {
         let mut lowered = pipeline::load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
+        if let Some(stage) = &self.stage {
+            pipeline::stage(&mut lowered, stage, &mut self.sink);
+        }
         change(&mut lowered);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })

@@ -9,6 +9,7 @@ mod cost;
 mod explain;
 mod input;
 mod interrupt;
+mod look;
 mod output;
 mod parse;
 mod progress;
@@ -16,6 +17,7 @@ mod render;
 mod report;
 mod talk;
 mod tell;
+mod turntable;
 
 use args::{Cli, Command};
 use clap::Parser;

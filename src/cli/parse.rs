@@ -1,5 +1,7 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
+use crate::image::Backdrop;
+use crate::ir::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
 use std::path::PathBuf;
@@ -13,6 +15,46 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
 pub(super) fn moment(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
+}
+
+/// Finite numbers with commas between them.
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    let finite = |part: &str| part.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    text.split(',').map(finite).collect()
+}
+
+pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
+    let vector = numbers(text).and_then(|numbers| numbers.try_into().ok());
+    vector.ok_or_else(|| "expected three numbers, as 1,-0.5,2".to_owned())
+}
+
+/// One number or three, none below 0.
+fn light(numbers: &[f64]) -> Option<[f64; 3]> {
+    let channels = match *numbers {
+        [grey] => [grey; 3],
+        [r, g, b] => [r, g, b],
+        _ => return None,
+    };
+    channels.iter().all(|channel| *channel >= 0.0).then_some(channels)
+}
+
+pub(super) fn color(text: &str) -> Result<[f64; 3], String> {
+    let color = numbers(text).and_then(|numbers| light(&numbers));
+    color.ok_or_else(|| "expected one number or three of at least 0, as 0.5 or 1,0.9,0.8".to_owned())
+}
+
+pub(super) fn sun(text: &str) -> Result<Sun, String> {
+    let numbers = numbers(text).unwrap_or_default();
+    let (direction, irradiance) = numbers.split_first_chunk().unwrap_or((&[0.0; 3], &[]));
+    let direction = Some(*direction).filter(|direction| *direction != [0.0; 3]);
+    let sun = direction.zip(light(irradiance)).map(|(direction, irradiance)| Sun { direction, irradiance });
+    sun.ok_or_else(|| "expected a direction and an irradiance of one number or three, as 0,1,0,3".to_owned())
+}
+
+/// An opening in radians.
+pub(super) fn degrees(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees: &f64| 0.001 <= *degrees && *degrees < 180.0);
+    degrees.map(f64::to_radians).ok_or_else(|| "expected an angle above 0 and below 180 degrees".to_owned())
 }
 
 pub(super) fn rule(text: &str) -> Result<Rule, String> {
@@ -32,6 +74,28 @@ pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
 }
 
+pub(super) fn setting(text: &str) -> Result<(String, String), String> {
+    let pair = text.split_once('=').map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
+    pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
+}
+
+pub(super) fn stops(text: &str) -> Result<f64, String> {
+    let stops = text.parse().ok().filter(|stops| (-64.0..=64.0).contains(stops));
+    stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
+}
+
+pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
+    let numbers = || text.split(',').map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0));
+    match text {
+        "env" => Ok(Backdrop::Film),
+        "transparent" => Ok(Backdrop::Transparent),
+        _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
+            Some(&[r, g, b]) => Ok(Backdrop::Color([r, g, b])),
+            _ => Err("expected `env`, `transparent`, or red, green and blue, as 1,1,1".to_owned()),
+        },
+    }
+}
+
 pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
     Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
 }
@@ -49,12 +113,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_and_crops() {
+    fn values_are_those_that_mean_something() {
         assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
         assert!(["640", "0x4", "4x", "-1x2", "1x2x3"].into_iter().all(|text| size(text).is_err()));
         assert!(["0", "-1", "nan", "inf", "256", "x"].into_iter().all(|text| levels(text).is_err()));
         assert!(["0", "-1", "nan", "inf", "1e300", "x"].into_iter().all(|text| seconds(text).is_err()));
         assert_eq!((levels("0.5"), seconds("2.5")), (Ok(0.5), Ok(Duration::from_millis(2500))));
+        assert!(["65", "-65", "nan", "x"].into_iter().all(|text| stops(text).is_err()));
+        assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
+        assert!(["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"].into_iter().all(|text| backdrop(text).is_err()));
+        assert_eq!((vector("1,-2, 3"), color("0.5")), (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3])));
+        assert!(["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""].into_iter().all(|text| vector(text).is_err()));
+        assert!(["-1", "1,2", "1,2,nan"].into_iter().all(|text| color(text).is_err()));
+        assert_eq!(sun("0,-1,0,2"), Ok(Sun { direction: [0.0, -1.0, 0.0], irradiance: [2.0; 3] }));
+        assert_eq!(sun("0,1,0,3,2,1").map(|sun| sun.irradiance), Ok([3.0, 2.0, 1.0]));
+        assert!(["0,0,0,1", "0,1,0", "0,1,0,-1", "0,1,0,1,2", "x"].into_iter().all(|text| sun(text).is_err()));
+        assert!(["0", "180", "-5", "nan", "x"].into_iter().all(|text| degrees(text).is_err()));
         assert_eq!(crop("1, 2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
         assert!(["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"].into_iter().all(|text| crop(text).is_err()));
     }

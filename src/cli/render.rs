@@ -1,57 +1,56 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`Plan`] before anything is read.
 
 use super::Failure;
-use super::args::{self, Bits};
+use super::args;
 use super::input::{self, Input, Proven};
 use super::interrupt::Interrupt;
+use super::look::Look;
 use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
+use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
-use crate::image;
+use crate::image::{Image, Layers, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline;
 use crate::plan::{self, Rule, Rules, Symptom};
-use crate::render::{Counts, Crop, Fault, Film, Job, Values};
-use crate::study::{Goal, Order, Samples, Stopped, Watch};
+use crate::render::{Counts, Crop, Fault, Film, Job};
+use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// A render as it will be done.
 struct Plan {
     output: PathBuf,
-    kind: Kind,
+    look: Look,
     overrides: Overrides,
+    set: Vec<(String, String)>,
     arithmetic: plan::Arithmetic,
     crop: Option<Crop>,
     goal: Goal,
     threads: usize,
     rules: Rules,
     verify: bool,
+    /// Views around the scene, if more than its own.
+    turntable: Option<u32>,
+    up: Option<[f64; 3]>,
 }
 
-/// A picture, and what is said of it.
-struct Picture {
-    image: image::Image,
+/// What was rendered, and what is said of it.
+struct Shot {
+    image: Image,
+    coverage: Vec<f32>,
     counts: Counts,
     elapsed: Duration,
     /// How good it is, if that was asked.
     quality: Option<String>,
 }
 
-/// A kind of pixel file.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Png8,
-    Png16,
-    Exr,
-}
-
 /// Renders the scene and writes the picture.
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.carry_out(&mut Input::read(&args.file, &args.reading), &mut talk);
+    let outcome = plan.carry_out(&mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -62,9 +61,12 @@ impl Plan {
             Some(output) => output.clone(),
             None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
         };
+        if args.turntable.is_some() && output.as_os_str() == "-" {
+            return Err(Failure::Trouble("a turntable is many pictures; give `-o NAME-%04d.png`".to_owned()));
+        }
         output::refuse_terminal(&output)?;
         Ok(Self {
-            kind: kind(&output, args.bits)?,
+            look: Look::new(&args.look, &output)?,
             output,
             overrides: Overrides {
                 size: args.size,
@@ -75,38 +77,67 @@ impl Plan {
                 depth: args.depth,
                 spp: args.spp,
             },
+            set: args.set.clone(),
             arithmetic: args.arithmetic.into(),
             crop: args.crop,
             goal: Goal { error: args.target_error, time: args.time_budget },
             threads: args.threads.map_or(0, usize::from),
             rules: rules(&args.pruning),
             verify: args.pruning.verify_effects,
+            turntable: args.turntable,
+            up: args.stage.up,
         })
     }
 
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let proven = input::require(input, talk, |lowered| self.overrides.apply(&mut lowered.scene))?;
-        let window = self.window(&proven.lowered.scene)?;
+        let mut set = Ok(());
+        let mut proven = input::require(input, talk, |lowered| {
+            self.overrides.apply(&mut lowered.scene);
+            set = self.set.iter().try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
+        })?;
+        set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
+        self.window(&proven.lowered.scene)?;
         if let Some(warning) = imprecise(&proven, self.arithmetic) {
             input.push(warning);
             input.tell(talk)?;
         }
         let interrupt = Interrupt::listen()?;
-        let output = Output::open(&self.output, &interrupt)?;
+        let Some(count) = self.turntable else { return self.shoot(&proven, &self.output, input, talk, &interrupt) };
+        let table = Turntable::new(&proven.lowered.scene, self.up, count);
+        for frame in 0..count {
+            table.turn(&mut proven, frame)?;
+            self.shoot(&proven, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
+        }
+        Ok(())
+    }
+
+    /// Renders one picture and writes it.
+    fn shoot(
+        &self,
+        proven: &Proven,
+        path: &Path,
+        input: &mut Input,
+        talk: &mut Talk,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let window = self.window(&proven.lowered.scene)?;
+        let output = Output::open(path, interrupt)?;
         let quiet = talk.is_quiet();
-        let picture = match self.goal {
-            Goal { error: None, time: None } => self.trace(&proven, window, &interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(&proven, window, &interrupt, quiet)?,
+        let shot = match self.goal {
+            Goal { error: None, time: None } => self.trace(proven, window, interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(proven, window, interrupt, quiet)?,
         };
-        if self.crop.is_none() && picture.counts.hits == 0 {
-            input.push(nothing_in_view(&proven));
+        if self.crop.is_none() && shot.counts.hits == 0 {
+            input.push(nothing_in_view(proven));
             input.tell(talk)?;
         }
-        let form = self.form(&proven.lowered.scene);
-        let bytes = picture.image.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))?;
-        output.commit(&bytes, &interrupt)?;
+        let summary = self.summary(path, &shot);
+        let mut picture = self.look.develop(shot.image, shot.coverage, &proven.scene.settings().mode);
+        picture.layers = self.layers(proven, window, interrupt)?;
+        let bytes = self.look.encode(&picture, || self.origin(&proven.lowered.scene))?;
+        output.commit(&bytes, interrupt)?;
         if !quiet {
-            talk::say(&self.summary(&picture));
+            talk::say(&summary);
         }
         Ok(())
     }
@@ -121,13 +152,10 @@ impl Plan {
         Ok(window)
     }
 
-    fn values(&self) -> Values {
-        if self.kind == Kind::Exr { Values::Linear } else { Values::Display }
-    }
-
     /// The picture in the setting of the scene.
-    fn trace(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Picture, Failure> {
-        let job = Job { crop: Some(window), values: self.values(), ..Job::default() };
+    fn trace(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
+        let values = self.look.values(&proven.scene.settings().mode);
+        let job = Job { crop: Some(window), values, behind: self.look.behind(), ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
@@ -141,17 +169,17 @@ impl Plan {
         };
         let elapsed = progress.finish();
         let film = film.map_err(no_threads)?.ok_or(Failure::Interrupted)?;
-        let Film { image, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
-        Ok(Picture { image, counts, elapsed, quality: None })
+        let Film { image, coverage, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        Ok(Shot { image, coverage, counts, elapsed, quality: None })
     }
 
     /// The picture with the samples that its goal takes.
-    fn approach(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Picture, Failure> {
+    fn approach(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
         let order = Order {
             goal: self.goal,
             arithmetic: self.arithmetic,
             crop: window,
-            values: self.values(),
+            values: self.look.values(&proven.scene.settings().mode),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
         };
@@ -167,32 +195,35 @@ impl Plan {
         let reached = pipeline::approach(&proven.lowered.scene, &order, self.threads, &watch);
         let elapsed = progress.finish();
         let reached = reached.map_err(no_threads)?.map_err(|Stopped| Failure::Interrupted)?;
-        let Samples { least, mean, most } = reached.samples;
+        let Reached { image, coverage, counts, samples: Samples { least, mean, most }, .. } = reached;
         let quality =
             format!("{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
-        Ok(Picture { image: reached.image, counts: reached.counts, elapsed, quality: Some(quality) })
+        Ok(Shot { image, coverage, counts, elapsed, quality: Some(quality) })
     }
 
-    fn summary(&self, picture: &Picture) -> String {
-        let Picture { image, counts, elapsed, quality } = picture;
+    /// The layers beside the colours.
+    fn layers(&self, proven: &Proven, window: Crop, interrupt: &Interrupt) -> Result<Layers, Failure> {
+        if self.look.aovs.is_empty() {
+            return Ok(Layers::default());
+        }
+        let wanted = (self.look.aovs.as_slice(), window);
+        let proceed = || !interrupt.is_raised();
+        let layers = pipeline::layers(&proven.scene, self.arithmetic, wanted, self.threads, &proceed);
+        layers.map_err(no_threads)?.ok_or(Failure::Interrupted)
+    }
+
+    fn summary(&self, path: &Path, shot: &Shot) -> String {
+        let Shot { image, counts, elapsed, quality, coverage: _ } = shot;
         let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!("{}: {}×{}, {work}", self.output.display(), image.width, image.height);
+        let line = format!("{}: {}×{}, {work}", path.display(), image.width, image.height);
         match quality {
             Some(quality) => format!("{line}\n{quality}"),
             None => line,
         }
     }
 
-    fn form(&self, scene: &Scene) -> image::Form {
-        match self.kind {
-            Kind::Png8 => image::Form::Png8,
-            Kind::Png16 => image::Form::Png16,
-            Kind::Exr => image::Form::Exr(self.origin(scene)),
-        }
-    }
-
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
-    fn origin(&self, scene: &Scene) -> image::Origin {
+    fn origin(&self, scene: &Scene) -> Origin {
         let mut settings = serde_json::json!({
             "size": scene.camera.size,
             "lens": scene.camera.lens,
@@ -205,7 +236,8 @@ impl Plan {
         if let Some(time) = self.goal.time {
             settings["timeBudget"] = time.as_secs_f64().into();
         }
-        image::Origin {
+        self.look.describe(&mut settings);
+        Origin {
             software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
             scene: input::hash(scene),
             settings: settings.to_string(),
@@ -251,20 +283,6 @@ fn beside_here(file: &Path, stdin_name: Option<&str>) -> Result<PathBuf, Failure
     let stem = name.and_then(Path::file_stem);
     let stem = stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
     Ok(PathBuf::from(stem).with_added_extension("png"))
-}
-
-fn kind(output: &Path, bits: Option<Bits>) -> Result<Kind, Failure> {
-    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let is_stdout = output.as_os_str() == "-";
-    match (extension.as_deref(), bits) {
-        (Some("exr"), None) => Ok(Kind::Exr),
-        (Some("exr"), Some(_)) => Err(Failure::Trouble("`--bits` is for PNG; an EXR holds 32-bit floats".to_owned())),
-        (Some("png"), Some(Bits::Sixteen)) => Ok(Kind::Png16),
-        (Some("png"), Some(Bits::Eight) | None) => Ok(Kind::Png8),
-        (None, Some(Bits::Sixteen)) if is_stdout => Ok(Kind::Png16),
-        (None, Some(Bits::Eight) | None) if is_stdout => Ok(Kind::Png8),
-        _ => Err(Failure::Trouble(format!("can't tell what `{}` is to be; name it .png or .exr", output.display()))),
-    }
 }
 
 fn nothing_in_view(proven: &Proven) -> Diagnostic {

@@ -1,4 +1,9 @@
-//! Colour: display values and how they become integers. A display value of 1 is the full integer; there is no gamma.
+//! Colour: display values, how linear ones become such, and how they become integers. A display value of 1 is the full
+//! integer; there is no gamma.
+
+mod tone;
+
+pub use tone::Tone;
 
 /// ⌊255·v⌋ with `v` clamped to [0, 1]; NaN is 0.
 #[must_use]

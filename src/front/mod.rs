@@ -23,6 +23,8 @@ pub struct Options {
     pub animation: Option<String>,
     /// Of a glTF asset: the variant of its materials.
     pub variant: Option<String>,
+    /// Of a glTF asset: the camera, by its name, that of its node, or its index; the first one that shows anything without.
+    pub camera: Option<String>,
 }
 
 /// A file that a scene names, for a place in the IR that waits for it.

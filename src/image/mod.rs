@@ -1,11 +1,15 @@
-//! Pixels and pixel files, in memory: a picture written as PNG (8 or 16 bit) or EXR, the same bytes every time; PNG,
-//! JPEG and WebP read.
+//! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8 or 16 bit) or EXR, the
+//! same bytes every time; PNG, JPEG and WebP read, and pictures of light from HDR and EXR.
 
 mod decode;
 mod exr;
+mod look;
 mod png;
+mod radiance;
 
 pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha};
+pub use look::{Association, Backdrop, Look};
+pub use radiance::{Radiance, decode_radiance};
 
 use std::fmt;
 
@@ -18,6 +22,26 @@ pub struct Image {
     pub height: u32,
     /// `width * height` values.
     pub pixels: Vec<[f64; 3]>,
+}
+
+/// A picture as a file holds it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// The colours.
+    pub image: Image,
+    /// The opacity of each pixel in [0, 1], if not all are opaque.
+    pub alpha: Option<Vec<f32>>,
+    /// What an EXR holds beside the colours; no other form does.
+    pub layers: Layers,
+}
+
+/// Further numbers of each pixel of a picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layers {
+    /// The name of each channel, layer and channel apart by a dot, as `normal.X`; none of them twice.
+    pub names: Vec<&'static str>,
+    /// The values of all channels, pixel after pixel.
+    pub values: Vec<f32>,
 }
 
 /// A form of pixel file.
@@ -52,14 +76,21 @@ impl fmt::Display for EncodeError {
     }
 }
 
-impl Image {
+impl Picture {
+    /// A picture of colours alone.
+    #[must_use]
+    pub fn opaque(image: Image) -> Self {
+        Self { image, alpha: None, layers: Layers::default() }
+    }
+
     /// The bytes of the pixel file.
     ///
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
     pub fn encode(&self, form: &Form) -> Result<Vec<u8>, EncodeError> {
-        if self.width == 0 || self.height == 0 {
-            return Err(EncodeError(format!("a picture of {}×{} pixels has no file", self.width, self.height)));
+        let Image { width, height, .. } = self.image;
+        if width == 0 || height == 0 {
+            return Err(EncodeError(format!("a picture of {width}×{height} pixels has no file")));
         }
         match form {
             Form::Png8 => png::eight_bit(self),
@@ -75,7 +106,7 @@ mod tests {
 
     #[test]
     fn an_empty_picture_is_refused() {
-        let empty = Image { width: 0, height: 3, pixels: Vec::new() };
+        let empty = Picture::opaque(Image { width: 0, height: 3, pixels: Vec::new() });
         for form in [Form::Png8, Form::Png16, Form::Exr(Origin::default())] {
             assert!(empty.encode(&form).is_err());
         }

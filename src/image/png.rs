@@ -1,53 +1,73 @@
-//! PNG of 8 and 16 bits per channel, red, green, blue. It carries no colour profile, no gamma and no time.
+//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries no colour profile, no
+//! gamma and no time.
 
-use super::{EncodeError, Image};
+use super::{EncodeError, Picture};
 use crate::color;
 use ::image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use ::image::{ExtendedColorType, ImageEncoder};
 
 /// The picture in 8 bits per channel.
-pub(super) fn eight_bit(image: &Image) -> Result<Vec<u8>, EncodeError> {
-    let samples: Vec<u8> = image.pixels.iter().flatten().map(|&v| color::quantize8(v)).collect();
-    encode(image, &samples, ExtendedColorType::Rgb8)
+pub(super) fn eight_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
+    let samples: Vec<u8> = samples(picture).map(color::quantize8).collect();
+    encode(picture, &samples, [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8])
 }
 
 /// The picture in 16 bits per channel.
-pub(super) fn sixteen_bit(image: &Image) -> Result<Vec<u8>, EncodeError> {
+pub(super) fn sixteen_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
     // The encoder takes 16-bit samples in the order of the machine and turns them round itself.
-    let samples: Vec<u8> = image.pixels.iter().flatten().flat_map(|&v| color::quantize16(v).to_ne_bytes()).collect();
-    encode(image, &samples, ExtendedColorType::Rgb16)
+    let samples: Vec<u8> = samples(picture).flat_map(|v| color::quantize16(v).to_ne_bytes()).collect();
+    encode(picture, &samples, [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16])
 }
 
-fn encode(image: &Image, samples: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>, EncodeError> {
+/// The channels of all pixels.
+fn samples(picture: &Picture) -> impl Iterator<Item = f64> {
+    let alpha = |index: usize| picture.alpha.as_ref().map(|alpha| f64::from(alpha[index]));
+    picture.image.pixels.iter().enumerate().flat_map(move |(index, pixel)| pixel.iter().copied().chain(alpha(index)))
+}
+
+fn encode(picture: &Picture, samples: &[u8], kinds: [ExtendedColorType; 2]) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
+    let kind = kinds[usize::from(picture.alpha.is_some())];
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(samples, image.width, image.height, kind)
+        .write_image(samples, picture.image.width, picture.image.height, kind)
         .map_err(|error| EncodeError(error.to_string()))?;
     Ok(bytes)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Form;
+    use super::super::{Form, Image};
     use super::*;
 
-    fn ramp() -> Image {
+    fn ramp() -> Picture {
         let pixels = (0..35).map(|i| [f64::from(i) / 34.0, 1.0 - f64::from(i) / 20.0, f64::NAN]).collect();
-        Image { width: 7, height: 5, pixels }
+        Picture::opaque(Image { width: 7, height: 5, pixels })
     }
 
     #[test]
     fn eight_bits_come_back() {
         let read = ::image::load_from_memory(&ramp().encode(&Form::Png8).unwrap()).unwrap();
-        let expected: Vec<u8> = ramp().pixels.iter().flatten().map(|&v| color::quantize8(v)).collect();
+        let expected: Vec<u8> = ramp().image.pixels.iter().flatten().map(|&v| color::quantize8(v)).collect();
         assert_eq!(((read.width(), read.height()), read.as_rgb8().unwrap().as_raw()), ((7, 5), &expected));
     }
 
     #[test]
     fn sixteen_bits_come_back() {
         let read = ::image::load_from_memory(&ramp().encode(&Form::Png16).unwrap()).unwrap();
-        let expected: Vec<u16> = ramp().pixels.iter().flatten().map(|&v| color::quantize16(v)).collect();
+        let expected: Vec<u16> = ramp().image.pixels.iter().flatten().map(|&v| color::quantize16(v)).collect();
         assert_eq!(read.as_rgb16().unwrap().as_raw(), &expected);
+    }
+
+    #[test]
+    fn opacity_comes_back_beside_the_colours() {
+        let pixels = vec![[1.0, 0.5, 0.0]; 3];
+        let mut picture = Picture::opaque(Image { width: 3, height: 1, pixels });
+        picture.alpha = Some(vec![0.0, 0.5, 1.0]);
+        let read = |form| ::image::load_from_memory(&picture.encode(&form).unwrap()).unwrap();
+        let eight: Vec<u8> = [0, 127, 255].into_iter().flat_map(|alpha| [255, 127, 0, alpha]).collect();
+        assert_eq!(read(Form::Png8).as_rgba8().unwrap().as_raw(), &eight);
+        let sixteen: Vec<u16> = [0, 32767, 65535].into_iter().flat_map(|alpha| [65535, 32767, 0, alpha]).collect();
+        assert_eq!(read(Form::Png16).as_rgba16().unwrap().as_raw(), &sixteen);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! The meshes: triangles that share corners.
 
+use super::{Column, Shared};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -17,22 +18,22 @@ pub struct Mesh {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
     /// Where the corners are.
-    pub positions: Vec<[f64; 3]>,
+    pub positions: Column<3>,
     /// The shading normal at each corner, of any length; empty for flat shading.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub normals: Vec<[f64; 3]>,
+    #[serde(default, skip_serializing_if = "Column::is_empty")]
+    pub normals: Column<3>,
     /// The texture coordinates at each corner; empty if there are none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub uvs: Vec<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Column::is_empty")]
+    pub uvs: Column<2>,
     /// The second set of texture coordinates; empty if there is none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub second_uvs: Vec<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Column::is_empty")]
+    pub second_uvs: Column<2>,
     /// The direction of growing u at each corner, and ±1 for that of growing v: `w·(normal × tangent)`; empty if none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub tangents: Vec<[f64; 4]>,
+    #[serde(default, skip_serializing_if = "Column::is_empty")]
+    pub tangents: Column<4>,
     /// The colour at each corner, linear, with alpha: it multiplies that of the material; empty if none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub colors: Vec<[f64; 4]>,
+    #[serde(default, skip_serializing_if = "Column::is_empty")]
+    pub colors: Column<4>,
     /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Shared<[u32; 3]>,
 }

@@ -5,7 +5,9 @@
 //! 1 is the full byte. Surfaces refer to materials by index; where each value was written is kept beside the scene, in
 //! [`Origins`], and is not part of it.
 
+mod bounds;
 mod camera;
+mod column;
 mod environment;
 mod image;
 mod light;
@@ -15,10 +17,14 @@ mod origin;
 mod overrides;
 mod settings;
 mod shape;
+mod stage;
 mod standard;
+mod studio;
 mod texture;
 
+pub use bounds::Ball;
 pub use camera::{Camera, Lens, Projection};
+pub use column::{Column, Shared};
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, PointLight, Punctual};
@@ -28,6 +34,7 @@ pub use origin::{Field, Noun, Origins, Place};
 pub use overrides::Overrides;
 pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+pub use stage::{Integrator, Stage, Sun, Surroundings, View};
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
 

@@ -230,6 +230,11 @@ impl Origins {
         }
     }
 
+    /// Forgets where the entities of a kind were written: they were replaced.
+    pub fn forget(&mut self, noun: Noun) {
+        self.lists[noun as usize] = List::default();
+    }
+
     /// Brings the places into order; call it once, after the last `record`.
     pub fn finish(&mut self) {
         for list in self.lists.iter_mut().filter(|list| list.unsorted) {

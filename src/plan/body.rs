@@ -115,7 +115,7 @@ impl Body {
 
 /// The bodies of all surfaces.
 pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
-    let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().copied());
+    let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     scene.surfaces().iter().map(|surface| Body::of(&surface.shape, &meshes)).collect()
 }

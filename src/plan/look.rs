@@ -109,6 +109,9 @@ pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
 
 /// Whether all corners of each triangle of a mesh have the same normal.
 pub(super) fn is_even(mesh: &Mesh) -> bool {
-    let same = |[a, b, c]: &[usize; 3]| mesh.normals[*a] == mesh.normals[*b] && mesh.normals[*a] == mesh.normals[*c];
+    let same = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|corner| mesh.normal(corner));
+        a == b && a == c
+    };
     mesh.normals.is_empty() || mesh.triangles.iter().all(same)
 }

@@ -157,7 +157,7 @@ fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
 fn placed(scene: &ValidScene, instance: &Instance) -> (Vec3, Form) {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
-    let mut corners = scene.meshes()[instance.mesh].positions.iter().copied().map(to_world);
+    let mut corners = scene.meshes()[instance.mesh].positions.iter().map(Vec3::from_array).map(to_world);
     let first = corners.next().unwrap_or(origin);
     (first, Form::Flat(corners.map(|corner| corner.distance(first)).fold(0.0, f64::max)))
 }

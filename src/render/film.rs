@@ -17,6 +17,18 @@ pub struct Job {
     pub seeds: Seeds,
     /// Which pixels are rendered; the others stay black.
     pub stride: Stride,
+    /// What is seen past all surfaces.
+    pub behind: Behind,
+}
+
+/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Behind {
+    /// The surroundings of the scene; black if it has none.
+    #[default]
+    Surroundings,
+    /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
+    Nothing,
 }
 
 /// Where each kind of sampling starts: 0 is the one of every render, any other number gives a picture that is
@@ -155,6 +167,12 @@ impl Counts {
         self.mirror + self.refracted
     }
 
+    /// The share of the camera rays since an earlier count that hit something; 0 if there were none.
+    #[must_use]
+    pub(super) fn coverage_since(&self, before: &Self) -> f32 {
+        coverage(self.hits - before.hits, self.camera - before.camera)
+    }
+
     /// Both together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
@@ -168,11 +186,20 @@ impl Counts {
     }
 }
 
+/// The share of rays that hit something; 0 of none.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
+pub(super) fn coverage(hits: u64, rays: u64) -> f32 {
+    (hits as f64 / rays.max(1) as f64) as f32
+}
+
 /// A picture and what it took.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// The picture, of the size of the crop.
     pub image: Image,
+    /// Of each pixel the share of the camera rays that met a surface, in [0, 1].
+    pub coverage: Vec<f32>,
     /// The rays it took.
     pub counts: Counts,
 }

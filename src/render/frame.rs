@@ -3,13 +3,14 @@
 use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Stride, Values};
 use super::geometry::Geometry;
+use super::ray::Ray;
 use super::sampler::Key;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Image;
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Sight};
-use crate::valid::{Mode, Pattern};
+use crate::valid::{Mode, Pattern, ValidScene};
 use rayon::prelude::*;
 
 impl<S: Geometry> World<S> {
@@ -21,35 +22,38 @@ impl<S: Geometry> World<S> {
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         match self.scene.settings().mode {
             Mode::Zbuffer => {
-                let (mut depths, counts) =
+                let (mut depths, coverage, counts) =
                     self.tiles(whole, job.stride, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
-                Some(Film { image, counts })
+                let coverage = part(&coverage, whole, crop).copied().collect();
+                Some(Film { image, coverage, counts })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
-                let (pixels, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
-                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+                let (pixels, coverage, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
+                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
             }
         }
     }
 
-    /// The values of all pixels of a rectangle, row by row, and the rays they took.
+    /// The values and the coverage of all pixels of a rectangle, row by row, and the rays they took.
     fn tiles<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
         stride: Stride,
         proceed: &(dyn Fn(u64) -> bool + Sync),
         value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
-    ) -> Option<(Vec<T>, Counts)> {
-        let mut pixels = vec![T::default(); crop.width as usize * crop.height as usize];
-        let row = |(y, row): (u32, &mut [T])| {
+    ) -> Option<(Vec<T>, Vec<f32>, Counts)> {
+        let count = crop.width as usize * crop.height as usize;
+        let (mut pixels, mut coverage) = (vec![T::default(); count], vec![0.0; count]);
+        let row = |((y, row), shares): ((u32, &mut [T]), &mut [f32])| {
             let mut tracer = Tracer::new(self);
-            for (x, pixel) in (crop.x..).zip(row).step_by(stride.get() as usize) {
-                let before = tracer.counts.rays();
+            for ((x, pixel), share) in (crop.x..).zip(row).zip(shares).step_by(stride.get() as usize) {
+                let before = tracer.counts;
                 *pixel = value(&mut tracer, [x, y]);
-                if !proceed(tracer.counts.rays() - before) {
+                *share = tracer.counts.coverage_since(&before);
+                if !proceed(tracer.counts.rays() - before.rays()) {
                     return None;
                 }
             }
@@ -57,9 +61,9 @@ impl<S: Geometry> World<S> {
         };
         let width = (crop.width as usize).max(1);
         let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
-        let rows = rows.step_by(stride.get() as usize);
+        let rows = rows.zip(coverage.par_chunks_mut(width)).step_by(stride.get() as usize);
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
-        Some((pixels, counts))
+        Some((pixels, coverage, counts))
     }
 }
 
@@ -129,6 +133,24 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 }
 
+/// The camera rays of a pixel, in the order of its sub-samples and of the points of the lens.
+pub(super) fn camera_rays(scene: &ValidScene, pixel: [u32; 2]) -> impl Iterator<Item = Ray> {
+    let (camera, settings) = (scene.camera(), scene.settings());
+    // The z-buffer asks the middle of each pixel, through the eye.
+    let (factor, points, pattern) = match settings.mode {
+        Mode::Zbuffer => (1, 1, Pattern::Grid),
+        Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
+            (settings.supersampling.get(), lens_samples(&camera.lens), settings.pattern)
+        }
+    };
+    let cells = (0..factor).flat_map(move |j| (0..factor).map(move |i| [i, j]));
+    cells.flat_map(move |[i, j]| {
+        let key = Key::new(pixel, u64::from(j) * u64::from(factor) + u64::from(i));
+        let target = image_point(camera, pixel, place_in_pixel(pattern, [i, j], factor, key));
+        (0..points).map(move |k| ray_through(camera, lens_point(camera, k, Twist::new(0, key)), target))
+    })
+}
+
 /// Where in its pixel a sub-sample lies, each coordinate in [0, 1].
 fn place_in_pixel(pattern: Pattern, cell: [u32; 2], factor: u32, key: Key) -> [f64; 2] {
     let key = key.child(PATTERN);
@@ -157,8 +179,12 @@ fn normalize_depths(depths: &mut [Option<f64>]) {
 
 /// The pixels of `crop` out of those of `whole`, in grey; black where nothing was hit.
 fn cut(values: &[Option<f64>], whole: Crop, crop: Crop) -> Image {
-    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
-    let inside = rows.flat_map(|row| row.iter().skip(crop.x as usize).take(crop.width as usize));
-    let pixels = inside.map(|value| [value.unwrap_or(0.0); 3]).collect();
+    let pixels = part(values, whole, crop).map(|value| [value.unwrap_or(0.0); 3]).collect();
     Image { width: crop.width, height: crop.height, pixels }
+}
+
+/// The values of the pixels of `crop` out of those of `whole`.
+fn part<T>(values: &[T], whole: Crop, crop: Crop) -> impl Iterator<Item = &T> {
+    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
+    rows.flat_map(move |row| row.iter().skip(crop.x as usize).take(crop.width as usize))
 }

@@ -5,7 +5,7 @@ use super::bvh::Bvh;
 use super::ray::{Interaction, Ray};
 use super::triangle::{Shear, Triangle};
 use crate::math::{Vec3, cross};
-use crate::valid::Mesh;
+use crate::valid::{Column, Mesh};
 use std::sync::Arc;
 
 /// A mesh ready to be hit, in object coordinates.
@@ -23,8 +23,8 @@ impl PreparedMesh {
     /// Prepares a mesh.
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let corners = |t: &[usize; 3]| Triangle::new(t.map(|k| mesh.positions[k]));
-        let prepared = (0_u32..).zip(&mesh.triangles).filter_map(|(index, t)| Some((corners(t)?, index)));
+        let corners = |t: &[u32; 3]| Triangle::new(t.map(|corner| mesh.position(corner)));
+        let prepared = (0_u32..).zip(mesh.triangles.iter()).filter_map(|(index, t)| Some((corners(t)?, index)));
         let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
         let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
         Self { mesh: Arc::clone(mesh), bvh: Bvh::build(&boxes), triangles, indices }
@@ -158,26 +158,25 @@ impl Instance {
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
         let normal = (!mesh.normals.is_empty()).then(|| {
-            let [a, b, c] = corners.map(|k| mesh.normals[k]);
+            let [a, b, c] = corners.map(|corner| mesh.normal(corner));
             let is_even = a == b && a == c;
             self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
         });
-        let uvs = (!mesh.uvs.is_empty()).then(|| corners.map(|k| mesh.uvs[k]));
+        let uvs = (!mesh.uvs.is_empty()).then(|| at(&mesh.uvs, corners));
         let uv = uvs.map(|uvs| interpolate(uvs, weights));
-        let (tangent, side) = match mesh.tangents.as_slice() {
-            [] => (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness)),
-            tangents => {
-                let [x, y, z, w] = blend(corners.map(|k| tangents[k]), weights);
-                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
-            }
+        let (tangent, side) = if mesh.tangents.is_empty() {
+            (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness))
+        } else {
+            let [x, y, z, w] = blend(at(&mesh.tangents, corners), weights);
+            (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
         };
         Details {
             normal: normal.filter(|normal| *normal != Vec3::ZERO),
             uv,
             tangent: tangent.map(|tangent| self.vector_to_world(tangent)),
             side: if self.mirrors { -side } else { side },
-            second_uv: (!mesh.second_uvs.is_empty()).then(|| interpolate(corners.map(|k| mesh.second_uvs[k]), weights)),
-            color: (!mesh.colors.is_empty()).then(|| blend(corners.map(|k| mesh.colors[k]), weights)),
+            second_uv: (!mesh.second_uvs.is_empty()).then(|| interpolate(at(&mesh.second_uvs, corners), weights)),
+            color: (!mesh.colors.is_empty()).then(|| blend(at(&mesh.colors, corners), weights)),
         }
     }
 
@@ -214,6 +213,11 @@ impl Default for Details {
 fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     -1.0_f64.copysign(area)
+}
+
+/// What a column says of three corners.
+fn at<const N: usize>(column: &Column<N>, corners: [u32; 3]) -> [[f64; N]; 3] {
+    corners.map(|corner| column.at(corner as usize))
 }
 
 /// The mean with these weights of the corners.

@@ -1,6 +1,7 @@
 //! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on the threads:
 //! a pixel is a function of the scene and its coordinates alone.
 
+mod aov;
 mod basic;
 mod bounds;
 mod bsdf;
@@ -35,6 +36,7 @@ mod verify;
 mod whitted;
 mod world;
 
+pub use aov::{Aov, layers};
 pub use basic::Basic;
 pub use bounds::Bounds;
 pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};
@@ -42,7 +44,7 @@ pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;
 pub use disc::Disc;
-pub use film::{Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use geometry::Geometry;
 pub use instance::{Details, Instance, PreparedMesh};
 pub use kernel::{KERNELS, Kernel, choose, render};

@@ -5,7 +5,7 @@
 
 use super::basic::Basic;
 use super::camera::{camera_ray, image_point, lens_at};
-use super::film::{Counts, Crop, Values};
+use super::film::{Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
 use super::kernel::{choose_of_few, dispatch};
 use super::plain::PlainShape;
@@ -14,27 +14,18 @@ use super::sequence::Sequence;
 use super::shape::Shape;
 use super::whitted::Tracer;
 use super::world::World;
-use crate::color::srgb_encoded;
+use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
 use crate::plan::{Arithmetic, Plan, Shapes};
 use crate::valid::{Mode, ValidScene};
 use rayon::prelude::*;
 
-/// What a picture shows of the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Tone {
-    /// The mean of samples that are each clamped to [0, 1].
-    #[default]
-    Clamped,
-    /// The code of sRGB of the mean.
-    Encoded,
-}
-
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Strands {
-    tone: Tone,
+    /// How the mean of the samples is shown; none where each is clamped to [0, 1].
+    tone: Option<Tone>,
     /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
@@ -43,9 +34,11 @@ pub struct Strands {
     linear: [Vec3; 2],
     /// Per half, how many samples each of its strands has.
     counts: [u32; 2],
+    /// Per half, how many of its samples met a surface.
+    hits: [u64; 2],
 }
 
-/// A part of a picture that grows, 176 bytes a pixel.
+/// A part of a picture that grows, 192 bytes a pixel.
 #[derive(Clone, Debug)]
 pub struct Growing {
     crop: Crop,
@@ -112,7 +105,9 @@ impl Growing {
                 let pixel = [x, crop.y + y as u32];
                 strands.tone = T::TONE;
                 strands.lengthen(wanted(y * width + i), |strand, index| {
-                    tracer.sample(pixel, (seed << 2 | strand as u64).wrapping_add(1), index)
+                    let hits = tracer.counts().hits;
+                    let radiance = tracer.sample(pixel, (seed << 2 | strand as u64).wrapping_add(1), index);
+                    (radiance, tracer.counts().hits - hits)
                 });
                 if !proceed(tracer.counts().rays() - before) {
                     return None;
@@ -138,6 +133,12 @@ impl Growing {
         let pixels = self.pixels.iter().map(|pixel| pixel.mean(values).to_array()).collect();
         Image { width: self.crop.width, height: self.crop.height, pixels }
     }
+
+    /// Of each pixel the share of the samples that met a surface.
+    #[must_use]
+    pub fn coverage(&self) -> Vec<f32> {
+        self.pixels.iter().map(Strands::coverage).collect()
+    }
 }
 
 impl Strands {
@@ -158,8 +159,8 @@ impl Strands {
     pub fn variance_of_half(&self, half: usize) -> f64 {
         let (n, [a, b]) = (f64::from(self.counts[half].max(1)), [self.sums[2 * half], self.sums[2 * half + 1]]);
         let apart = match self.tone {
-            Tone::Clamped => (a - b) / n,
-            Tone::Encoded => encoded(a / n) - encoded(b / n),
+            None => (a - b) / n,
+            Some(tone) => shown(tone, a / n) - shown(tone, b / n),
         };
         apart.length_squared() / 12.0
     }
@@ -172,9 +173,18 @@ impl Strands {
         let square = self.squares[half] - sum.length_squared() / n.max(1.0);
         let variance = square.max(0.0) / (3.0 * (n - 1.0).max(1.0));
         match self.tone {
-            Tone::Clamped => variance,
-            Tone::Encoded => variance * slope(sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt()),
+            None => variance,
+            Some(tone) => {
+                let (mean, deviation) = (sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt());
+                variance * slope(tone, mean, deviation)
+            }
         }
+    }
+
+    /// The share of the samples that met a surface: the mean of the halves.
+    fn coverage(&self) -> f32 {
+        let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
+        (of(0) + of(1)) * 0.5
     }
 
     /// The mean of the halves, whatever the samples of each.
@@ -187,46 +197,51 @@ impl Strands {
             sum / (2.0 * f64::from(self.counts[half].max(1)))
         };
         let mean = (of(0) + of(1)) * 0.5;
-        if self.tone == Tone::Encoded && values == Values::Display { encoded(mean) } else { mean }
+        match (values, self.tone) {
+            (Values::Display, Some(tone)) => shown(tone, mean),
+            (Values::Display | Values::Linear, _) => mean,
+        }
     }
 
-    /// Takes the samples that the strands lack of those wanted; `sample` is asked with the strand and its index.
-    fn lengthen(&mut self, wanted: [u32; 2], mut sample: impl FnMut(usize, u32) -> Vec3) {
+    /// Takes the samples that the strands lack of those wanted; `sample` is asked with the strand and its index for the
+    /// radiance, and how many surfaces the camera ray met, 0 or 1.
+    fn lengthen(&mut self, wanted: [u32; 2], mut sample: impl FnMut(usize, u32) -> (Vec3, u64)) {
         for strand in 0..4_usize {
             let half = strand / 2;
             for index in self.counts[half]..wanted[half] {
-                let radiance = sample(strand, index);
+                let (radiance, hits) = sample(strand, index);
                 let shown = match self.tone {
-                    Tone::Clamped => radiance.clamp(Vec3::ZERO, Vec3::ONE),
-                    Tone::Encoded => radiance,
+                    None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+                    Some(_) => radiance,
                 };
                 self.sums[strand] += shown;
                 self.squares[half] += shown.length_squared();
                 self.linear[half] += radiance;
+                self.hits[half] += hits;
             }
         }
         self.counts = [0, 1].map(|half: usize| self.counts[half].max(wanted[half]));
     }
 }
 
-fn encoded(mean: Vec3) -> Vec3 {
-    mean.map(srgb_encoded)
+fn shown(tone: Tone, mean: Vec3) -> Vec3 {
+    Vec3::from_array(tone.display(mean.to_array()))
 }
 
-/// The square of how much faster the code of sRGB grows than what it stands for, about a mean of the deviation given.
-fn slope(mean: f64, deviation: f64) -> f64 {
+/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the deviation given.
+fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
     if deviation == 0.0 {
         return 0.0;
     }
-    let rise = srgb_encoded(mean + deviation) - srgb_encoded(mean - deviation);
-    let slope = rise / (2.0 * deviation);
+    let [low, high] = [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
+    let slope = (high - low) / (2.0 * deviation);
     slope * slope
 }
 
 /// What takes samples of pixels.
 pub(super) trait Sampling {
-    /// What its samples are to the picture.
-    const TONE: Tone;
+    /// How the mean of its samples is shown; none where each is clamped to [0, 1].
+    const TONE: Option<Tone>;
 
     /// Sample `index` of strand `number` of a pixel, strands of other numbers being independent.
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3;
@@ -270,7 +285,7 @@ impl<S: Geometry> World<S> {
 const STRAND: u64 = u64::MAX - 2;
 
 impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
-    const TONE: Tone = Tone::Clamped;
+    const TONE: Option<Tone> = None;
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
         let camera = self.scene().camera();

@@ -9,7 +9,7 @@ use super::ray::{Interaction, Ray};
 use super::sampler::{Key, Lobe};
 use super::shade::View;
 use super::texture::{Frame, look_up};
-use super::world::World;
+use super::world::{Hit, World};
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Plan, Rule};
 use crate::valid::{Mode, Phong, ValidScene};
@@ -151,7 +151,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// What a ray sees, with the maps of its material applied.
     fn view(&self, ray: &Ray, key: Key) -> Option<View<'world>> {
-        let hit = self.world.nearest(ray)?;
+        self.world.nearest(ray).map(|hit| self.view_of(ray, hit, key))
+    }
+
+    /// What a ray sees at a hit.
+    pub(super) fn view_of(&self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
         let material = &self.world.materials[surface.material];
@@ -172,7 +176,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if ray.direction.dot(interaction.normal) > 0.0 {
             view.normal = -view.normal;
         }
-        Some(view)
+        view
     }
 
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps its own.

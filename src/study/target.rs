@@ -11,7 +11,7 @@ use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
-use crate::render::{Counts, Crop, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
+use crate::render::{Counts, Crop, Film, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -75,6 +75,8 @@ pub struct Samples {
 pub struct Reached {
     /// The picture.
     pub image: Image,
+    /// Of each pixel the share of the samples that met a surface.
+    pub coverage: Vec<f32>,
     /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
     /// The root mean square error in grey levels: computed to be kept with 95 % confidence, and said for 90 %, which is what
@@ -123,6 +125,7 @@ pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reach
         let error = noise.bound(tail);
         let reached = Reached {
             image: film.image(order.values),
+            coverage: film.coverage(),
             counts: film.counts.plus(tried),
             error,
             samples: samples_of(&film),
@@ -145,7 +148,8 @@ fn exactly(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, S
     let job = Job { crop: Some(order.crop), values: order.values, ..Job::default() };
     let film = render(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL), &job, watch.proceed).ok_or(Stopped)?;
     let samples = Samples { least: 1, mean: 1.0, most: 1 };
-    Ok(Reached { image: film.image, counts: film.counts, error: 0.0, samples, light_samples: 1 })
+    let Film { image, coverage, counts } = film;
+    Ok(Reached { image, coverage, counts, error: 0.0, samples, light_samples: 1 })
 }
 
 /// The scene, sampled anywhere in its pixels.

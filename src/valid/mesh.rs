@@ -4,26 +4,40 @@ use super::check::{Check, LARGEST, place};
 use super::shape::has_area;
 use crate::diag::Diagnostic;
 use crate::diag::codes;
-use crate::ir::{self, Field, Noun};
+use crate::ir::{self, Column, Field, Noun, Shared};
 use crate::math::Vec3;
 
-/// Triangles over one list of corners.
+/// Triangles over one list of corners; what it says of them it shares with the scene.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Where the corners are.
-    pub positions: Vec<Vec3>,
-    /// The unit shading normal at each corner, or zero where it has none; empty for flat shading.
-    pub normals: Vec<Vec3>,
+    pub positions: Column<3>,
+    /// The shading normal at each corner, finite and of any length, or zero where it has none; empty for flat shading.
+    pub normals: Column<3>,
     /// The texture coordinates at each corner; empty if there are none.
-    pub uvs: Vec<[f64; 2]>,
+    pub uvs: Column<2>,
     /// The second set of them; empty if there is none.
-    pub second_uvs: Vec<[f64; 2]>,
+    pub second_uvs: Column<2>,
     /// The direction of growing u at each corner, and ±1 for the side of growing v; empty if there are none.
-    pub tangents: Vec<[f64; 4]>,
+    pub tangents: Column<4>,
     /// The colour at each corner, with alpha, each at least 0; empty if there are none.
-    pub colors: Vec<[f64; 4]>,
+    pub colors: Column<4>,
     /// The corners of each triangle, in range; every triangle has an area.
-    pub triangles: Vec<[usize; 3]>,
+    pub triangles: Shared<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Where corner `corner` is.
+    #[must_use]
+    pub fn position(&self, corner: u32) -> Vec3 {
+        Vec3::from_array(self.positions.at(corner as usize))
+    }
+
+    /// The unit shading normal at corner `corner` of a mesh that has normals, or zero where it has none.
+    #[must_use]
+    pub fn normal(&self, corner: u32) -> Vec3 {
+        Vec3::from_array(self.normals.at(corner as usize)).normalize_or_zero()
+    }
 }
 
 pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Option<Mesh> {
@@ -32,18 +46,17 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
         return None;
     }
-    let ir::Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles: all } = mesh;
-    let positions = positions.iter().copied().map(Vec3::from_array).collect::<Vec<_>>();
-    let normals = normals.iter().map(|n| Vec3::from_array(*n).normalize_or_zero()).collect();
-    let triangles = all.iter().map(|t| t.map(|k| k as usize));
-    let triangles = triangles.filter(|t| has_area(t.map(|k| positions[k]))).collect::<Vec<_>>();
-    let flat = all.len() - triangles.len();
+    let ir::Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh.clone();
+    let mut proven = Mesh { positions, normals, uvs, second_uvs, tangents, colors, triangles };
+    let shows = |triangle: &[u32; 3]| has_area(triangle.map(|corner| proven.position(corner)));
+    let all = mesh.triangles.len();
+    let flat = all - mesh.triangles.iter().filter(|triangle| shows(triangle)).count();
     if flat > 0 {
-        let message = format!("{flat} of {} triangles of a mesh have no area, so nothing shows of them", all.len());
+        let message = format!("{flat} of {all} triangles of a mesh have no area, so nothing shows of them");
         check.report(whole, "", Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message));
+        proven.triangles = mesh.triangles.iter().copied().filter(shows).collect();
     }
-    let (uvs, second_uvs) = (uvs.clone(), second_uvs.clone());
-    Some(Mesh { positions, normals, uvs, second_uvs, tangents: tangents.clone(), colors: colors.clone(), triangles })
+    Some(proven)
 }
 
 /// The first fault of a mesh, in words.
@@ -51,19 +64,19 @@ fn fault(mesh: &ir::Mesh) -> Option<String> {
     let ir::Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh;
     let sound = |value: &f64| value.abs() <= LARGEST;
     if let Some(vertex) = positions.iter().position(|p| !p.iter().all(sound)) {
-        return Some(format!("vertex {vertex} of a mesh is no point of finite numbers: {:?}", positions[vertex]));
+        return Some(format!("vertex {vertex} of a mesh is no point of finite numbers: {:?}", positions.at(vertex)));
     }
     if let Some(vertex) = normals.iter().position(|n| !n.iter().all(|value| value.is_finite())) {
-        return Some(format!("normal {vertex} of a mesh is not finite: {:?}", normals[vertex]));
+        return Some(format!("normal {vertex} of a mesh is not finite: {:?}", normals.at(vertex)));
     }
-    if let Some(vertex) = uvs.iter().chain(second_uvs).position(|uv| !uv.iter().all(sound)) {
+    if let Some(vertex) = uvs.iter().chain(second_uvs.iter()).position(|uv| !uv.iter().all(sound)) {
         return Some(format!("uv {vertex} of a mesh is not finite"));
     }
     if let Some(vertex) = tangents.iter().position(|tangent| !tangent.iter().all(sound)) {
-        return Some(format!("tangent {vertex} of a mesh is not finite: {:?}", tangents[vertex]));
+        return Some(format!("tangent {vertex} of a mesh is not finite: {:?}", tangents.at(vertex)));
     }
     if let Some(vertex) = colors.iter().position(|color| !color.iter().all(|c| (0.0..=LARGEST).contains(c))) {
-        return Some(format!("colour {vertex} of a mesh is negative or not finite: {:?}", colors[vertex]));
+        return Some(format!("colour {vertex} of a mesh is negative or not finite: {:?}", colors.at(vertex)));
     }
     let count = positions.len();
     let matches = |length: usize| length == 0 || length == count;

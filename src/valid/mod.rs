@@ -14,7 +14,7 @@ mod shape;
 mod standard;
 mod surrounding;
 
-pub use crate::ir::{Alpha, Filter, Map, Projection, Sampled, Standard, Wrap};
+pub use crate::ir::{Alpha, Column, Filter, Map, Projection, Sampled, Shared, Standard, Wrap};
 pub use camera::{Camera, Lens};
 pub use image::{Image, Texels, Texture};
 pub use light::{Emitter, Falloff, Light, Punctual};
@@ -117,6 +117,18 @@ impl ValidScene {
     #[must_use]
     pub fn surfaces(&self) -> &[Surface] {
         &self.surfaces
+    }
+}
+
+impl ValidScene {
+    /// The same scene with another camera, of a picture of the same size; `None` if that is no sound one.
+    #[must_use]
+    pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
+        let (origins, mut sink) = (Origins::default(), Sink::default());
+        let mut check = Check::new(&origins, &mut sink);
+        let camera = camera::camera(camera, &mut check)?;
+        let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
+        (check.is_clean() && is_as_large).then(|| Self { camera, ..self.clone() })
     }
 }
 

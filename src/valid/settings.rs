@@ -1,6 +1,7 @@
 //! The proof of the settings, and of the work they ask for.
 
 use super::check::Check;
+use crate::color::Tone;
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
@@ -47,6 +48,18 @@ pub enum Mode {
     Gooch(Gooch),
     /// The light along all paths.
     Path(Path),
+}
+
+impl Mode {
+    /// The tone map of its pictures, where none is asked for: radiance is coded for a display, colours of the course are
+    /// shown as they are.
+    #[must_use]
+    pub fn tone(&self) -> Tone {
+        match self {
+            Self::Path(_) => Tone::Srgb,
+            Self::Phong | Self::Zbuffer | Self::Normal | Self::Gooch(_) => Tone::None,
+        }
+    }
 }
 
 /// How paths are traced.

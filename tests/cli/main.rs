@@ -7,7 +7,9 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
+mod looks;
 mod reports;
+mod stage;
 
 use std::fs;
 use std::io::{Read, Write};

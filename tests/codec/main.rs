@@ -97,7 +97,7 @@ fn frozen_files_decode() {
     assert_eq!((sphere.radius, text.settings.supersampling, text.surfaces.len()), (59.9, 4, 3));
     let text = large();
     assert_eq!(decode(Form::Binary, &std::fs::read(frozen("v2/scene.rtir")).unwrap()).unwrap(), text);
-    assert_eq!((text.meshes[0].positions[35], text.meshes[0].triangles.len()), ([0.5, 0.5, 0.125], 50));
+    assert_eq!((text.meshes[0].positions.at(35), text.meshes[0].triangles.len()), ([0.5, 0.5, 0.125], 50));
     assert_eq!((text.images[0].pixels.len(), &text.textures[1]), (512, &Texture::Uv));
 }
 
@@ -220,7 +220,7 @@ fn long_lists_and_texts_have_sections_of_their_own() {
     }
     let header = |file: &[u8]| u32::from_le_bytes(file[12..16].try_into().unwrap());
     let before = header(&file);
-    scene.meshes[0].positions = vec![[0.5; 3]; 10_000];
+    scene.meshes[0].positions = vec![[0.5; 3]; 10_000].into();
     scene.images[0].pixels = "A".repeat(30_000);
     let file = codec::encode(Form::Binary, &scene).unwrap();
     assert!(header(&file) < before + 100, "the header does not grow with what is in sections");

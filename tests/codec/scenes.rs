@@ -2,9 +2,9 @@
 
 use proptest::prelude::*;
 use rtc::ir::{
-    Alpha, Bump, Camera, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance, Lens, Light, Map, Material,
-    MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels, Plane, PointLight, Projection, Punctual, Sampled,
-    Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance, Lens, Light, Map,
+    Material, MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels, Plane, PointLight, Projection, Punctual,
+    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
@@ -33,14 +33,22 @@ fn image() -> impl Strategy<Value = Image> {
     })
 }
 
-/// A mesh with lists on both sides of what is long.
+/// Numbers within the range of 32-bit floats, some of them below what is normal there.
+fn small<const N: usize>(vector: &[f64; N]) -> [f64; N] {
+    vector.map(|number| number.clamp(-f64::from(f32::MAX), f64::from(f32::MAX)))
+}
+
+/// A mesh with columns of both precisions and lists on both sides of what is long.
 fn mesh() -> impl Strategy<Value = Mesh> {
     let list = || prop::collection::vec(triple(), 0..60);
     let uvs = prop::collection::vec(pair(), 0..60);
     let triangles = prop::collection::vec(any::<[u32; 3]>(), 0..60);
     let wide = prop::collection::vec([number(), number(), number(), number()], 0..60);
     (text(), list(), list(), uvs, wide, triangles).prop_map(|(name, positions, normals, uvs, tangents, triangles)| {
-        let (second_uvs, colors) = (uvs.clone(), tangents.clone());
+        let (second_uvs, colors) =
+            (Column::rounded(uvs.iter().map(small)), Column::rounded(tangents.iter().map(small)));
+        let (positions, normals) = (positions.into(), Column::rounded(normals.iter().map(small)));
+        let (uvs, tangents, triangles) = (uvs.into(), tangents.into(), triangles.into());
         Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles }
     })
 }

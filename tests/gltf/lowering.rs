@@ -5,6 +5,7 @@ use rtc::codec::{self, Form};
 use rtc::diag::{Severity, Sink};
 use rtc::front;
 use rtc::ir::{Mesh, Scene, Shape};
+use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
 use rtc::source::SourceMap;
 
@@ -43,8 +44,8 @@ fn small_assets_become_what_was_approved() {
 #[test]
 fn at_rest_nothing_moves_and_the_first_material_counts() {
     let rest = lower(make::motion(), front::Options::default());
-    assert_eq!(rest.meshes[0].positions[0], [0.0, 0.0, 0.25], "the weight of the mesh itself");
-    assert_eq!(rest.meshes[1].positions[1], [1.0, 0.0, 0.0]);
+    assert_eq!(rest.meshes[0].positions.at(0), [0.0, 0.0, 0.25], "the weight of the mesh itself");
+    assert_eq!(rest.meshes[1].positions.at(1), [1.0, 0.0, 0.0]);
     assert!(text(&lower(make::stage(), front::Options::default())).contains("glowing"));
 }
 
@@ -88,8 +89,8 @@ fn compressed_tori_are_the_same_torus() {
 fn corners(mesh: &Mesh) -> Vec<[Vec<u64>; 3]> {
     let corner = |at: u32| {
         let at = at as usize;
-        let numbers = mesh.positions[at].iter().chain(&mesh.normals[at]).chain(&mesh.uvs[at]);
-        numbers.map(|number| number.to_bits()).collect()
+        let numbers = [&mesh.positions.at(at)[..], &mesh.normals.at(at), &mesh.uvs.at(at)].concat();
+        numbers.into_iter().map(f64::to_bits).collect()
     };
     let mut triangles: Vec<[Vec<u64>; 3]> = mesh.triangles.iter().map(|triangle| triangle.map(corner)).collect();
     triangles.iter_mut().for_each(|triangle| triangle.sort());
@@ -114,4 +115,16 @@ fn every_asset_at_hand_is_lowered_and_proven() {
         let sink = super::findings(&asset);
         assert!(!sink.has_errors(), "{}: {:?}", asset.display(), super::errors(&sink));
     }
+}
+
+/// Without a camera the ball around all of it just fits into 35° from bottom to top.
+#[test]
+fn a_camera_that_is_not_there_sees_all_of_it() {
+    let scene = lower(make::texture(), front::Options::default());
+    let [eye, up] = [scene.camera.eye, scene.camera.up].map(Vec3::from_array);
+    let ball = scene.ball().unwrap();
+    let half = (up.length() * f64::from(scene.camera.size[1]) / 2.0).atan();
+    assert!((half.to_degrees() - 17.5).abs() < 1e-9, "{half}");
+    assert!(((ball.radius / eye.distance(ball.center)).asin() - half).abs() < 1e-9);
+    assert!(eye.x > ball.center.x && eye.y > ball.center.y && eye.z > ball.center.z, "a three-quarter view");
 }

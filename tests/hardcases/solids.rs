@@ -67,7 +67,12 @@ pub(crate) struct Form {
 /// An icosphere of 80 triangles for all instances.
 pub(crate) fn icosphere() -> Arc<PreparedMesh> {
     let Mesh { vertices, triangles } = Mesh::icosphere(1);
-    let mesh = valid::Mesh { positions: vertices, triangles, ..valid::Mesh::default() };
+    let index = |corner: usize| u32::try_from(corner).unwrap();
+    let mesh = valid::Mesh {
+        positions: vertices.iter().map(|vertex| vertex.to_array()).collect(),
+        triangles: triangles.iter().map(|triangle| triangle.map(index)).collect(),
+        ..valid::Mesh::default()
+    };
     Arc::new(PreparedMesh::new(&Arc::new(mesh)))
 }
 

@@ -1,7 +1,7 @@
 //! Scenes whose radiance is known in closed form.
 
 use crate::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
-use rtc::ir::{Emitter, Punctual, Standard};
+use rtc::ir::{Emitter, Mode, Path, Punctual, Standard};
 use rtc::math::Vec3;
 use std::f64::consts::PI;
 
@@ -122,4 +122,24 @@ fn what_is_inside_a_body_fades_with_the_way() {
     scene.camera.up = [0.0, 0.001, 0.0];
     add_sphere(&mut scene, [0.0; 3], 0.75, body);
     assert_near(mean(&render(&scene)), Vec3::new(0.125, 0.015_625, 1.0), 1e-3);
+}
+
+#[test]
+fn a_white_metal_of_any_roughness_vanishes_in_a_white_furnace() {
+    let seen = |roughness: f64, multiple_scattering: bool| {
+        let mut scene = scene(64);
+        scene.settings.mode = Mode::Path(Path { samples: 64, multiple_scattering });
+        scene.environment = sky(1.0);
+        add_sphere(&mut scene, [0.0; 3], 0.75, Standard { roughness, base_color: [1.0; 4], ..Standard::default() });
+        let film = render(&scene);
+        let inside = film.image.pixels.iter().zip(&film.coverage).filter(|(_, share)| **share == 1.0);
+        let inside: Vec<_> = inside.map(|(pixel, _)| pixel[0]).collect();
+        inside.iter().sum::<f64>() / inside.len() as f64
+    };
+    for roughness in [0.0, 0.3, 0.6, 1.0] {
+        let mean = seen(roughness, true);
+        assert!((mean - 1.0).abs() < 0.01, "roughness {roughness}: {mean}");
+    }
+    let lost = 1.0 - seen(1.0, false);
+    assert!(lost > 0.1, "without the light between the facets a rough metal is dark: {lost}");
 }

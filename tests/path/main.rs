@@ -4,16 +4,18 @@
 
 mod agreement;
 mod closed;
+mod coverage;
+mod layers;
 mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Camera, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Projection, Punctual, Scene,
-    Settings, Shape, Sphere, Standard, Surface, Triangle,
+    Alpha, Camera, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Phong, Projection,
+    Punctual, Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Basic, Film, Job, Seeds, Strategy, Stride, Values, World};
+use rtc::render::{Basic, Behind, Film, Job, Seeds, Strategy, Stride, Values, World};
 use rtc::valid::{self, ValidScene};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at the origin.
@@ -96,7 +98,14 @@ fn prove(scene: &Scene) -> ValidScene {
     proof.unwrap_or_else(|| panic!("{sink:?}"))
 }
 
-const JOB: Job = Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE, stride: Stride::EVERY };
+const JOB: Job = Job {
+    crop: None,
+    values: Values::Linear,
+    tiles: None,
+    seeds: Seeds::NONE,
+    stride: Stride::EVERY,
+    behind: Behind::Surroundings,
+};
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = prove(scene);

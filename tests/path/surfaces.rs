@@ -74,8 +74,8 @@ fn base_colours_are_decoded_and_v_runs_down() {
 /// A square mesh of two triangles with what `fill` adds to its corners.
 fn add_mesh(scene: &mut Scene, standard: Standard, x: [f64; 3], fill: impl Fn(&mut Mesh)) {
     let mut mesh = Mesh {
-        positions: vec![[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        positions: vec![[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]].into(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
         ..Mesh::default()
     };
     fill(&mut mesh);
@@ -93,9 +93,9 @@ fn colours_of_corners_and_the_second_set_of_coordinates_count() {
     map.as_mut().unwrap().set = 1;
     let unlit = Standard { base_color_map: map, unlit: true, ..Standard::default() };
     add_mesh(&mut scene, unlit, [1.0, 0.0, 0.0], |mesh| {
-        mesh.uvs = vec![[0.25, 0.5]; 4];
-        mesh.second_uvs = vec![[0.75, 0.5]; 4];
-        mesh.colors = vec![[0.5, 0.25, 0.125, 1.0]; 4];
+        mesh.uvs = vec![[0.25, 0.5]; 4].into();
+        mesh.second_uvs = vec![[0.75, 0.5]; 4].into();
+        mesh.colors = vec![[0.5, 0.25, 0.125, 1.0]; 4].into();
     });
     assert!((mean(&render(&scene)) - Vec3::new(0.5, 0.25, 0.125)).length() < 1e-12);
 }
@@ -108,10 +108,10 @@ fn leaning(axis: usize, sun: [f64; 3], x: [f64; 3], tangents: bool) -> f64 {
     let map = add_texture(&mut scene, [1, 1], &[texel]);
     let standard = Standard { normal_map: map, ..lambert([1.0; 3]) };
     add_mesh(&mut scene, standard, x, |mesh| {
-        mesh.uvs = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        mesh.uvs = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].into();
         if tangents {
-            mesh.normals = vec![[0.0, 0.0, 1.0]; 4];
-            mesh.tangents = vec![[1.0, 0.0, 0.0, 1.0]; 4];
+            mesh.normals = vec![[0.0, 0.0, 1.0]; 4].into();
+            mesh.tangents = vec![[1.0, 0.0, 0.0, 1.0]; 4].into();
         }
     });
     add_light(&mut scene, Punctual { emitter: Emitter::Sun { direction: sun }, intensity: [std::f64::consts::PI; 3] });

@@ -155,10 +155,10 @@ impl Dice {
         let uvs = if self.chance(2) { vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] } else { Vec::new() };
         ir::Mesh {
             name: "tent".to_owned(),
-            positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.5], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.5]],
-            normals,
-            uvs,
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.5], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.5]].into(),
+            normals: normals.into(),
+            uvs: uvs.into(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..ir::Mesh::default()
         }
     }

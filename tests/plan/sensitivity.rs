@@ -102,8 +102,9 @@ fn one_corner_makes_normals_worth_interpolating() {
     let (up, tilted) = ([0.0, 0.0, 1.0], [1e-3, 0.0, 1.0]);
     let mut scene = with(&[(ball([3.0, 0.0, 0.0], 0.5), matt())]);
     square(&mut scene, [up; 4]);
-    turns(Effect::NormalInterpolation, Rule::NormalFlat, &scene, |scene| scene.meshes[0].normals[1] = tilted);
-    scene.meshes[0].normals[1] = tilted;
+    let lean = |scene: &mut Scene| scene.meshes[0].normals = [up, tilted, up, up].into_iter().collect();
+    turns(Effect::NormalInterpolation, Rule::NormalFlat, &scene, lean);
+    lean(&mut scene);
     scene.lights.clear();
     assert_eq!(fate(&scene, Effect::NormalInterpolation), (State::Pruned, Some(Rule::NormalFlat)));
 }

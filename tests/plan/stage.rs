@@ -109,9 +109,9 @@ pub(super) fn texture(scene: &mut Scene, value: [u8; 3], last: [u8; 3]) -> Textu
 pub(super) fn square(scene: &mut Scene, normals: [[f64; 3]; 4]) {
     let mesh = ir::Mesh {
         name: "square".to_owned(),
-        positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
-        normals: normals.to_vec(),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]].into(),
+        normals: normals.into_iter().collect(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
         ..ir::Mesh::default()
     };
     scene.meshes.push(mesh);

@@ -4,7 +4,7 @@ use rtc::diag::Sink;
 use rtc::ir::{Lowered, Origins, Overrides, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Film, Job, Seeds, Stride, Values};
+use rtc::render::{Behind, Film, Job, Seeds, Stride, Values};
 use rtc::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -45,8 +45,14 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     scene
 }
 
-pub(crate) const WHOLE: Job =
-    Job { crop: None, values: Values::Linear, tiles: None, seeds: Seeds::NONE, stride: Stride::EVERY };
+pub(crate) const WHOLE: Job = Job {
+    crop: None,
+    values: Values::Linear,
+    tiles: None,
+    seeds: Seeds::NONE,
+    stride: Stride::EVERY,
+    behind: Behind::Surroundings,
+};
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
     let (mut sink, options) = (Sink::default(), Options::default());

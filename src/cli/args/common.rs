@@ -29,6 +29,9 @@ pub(in crate::cli) struct Reading {
     /// The variant of the materials of a glTF asset, by its name
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) variant: Option<String>,
+    /// The camera of a glTF asset: its name, that of its node, or its index [default: the first that shows anything]
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(in crate::cli) camera: Option<String>,
     /// Lift the limits on the size of the picture and the number of rays
     #[arg(long)]
     pub(in crate::cli) allow_huge: bool,

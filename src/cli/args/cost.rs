@@ -1,6 +1,6 @@
 //! What `rtc cost` is told.
 
-use super::{Reading, Talk};
+use super::{Reading, Stage, Talk};
 use crate::study;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -28,6 +28,8 @@ pub(in crate::cli) struct Cost {
     /// Threads for what is not timed [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
+    #[command(flatten)]
+    pub(in crate::cli) stage: Stage,
     #[command(flatten)]
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]

@@ -2,11 +2,15 @@
 
 mod common;
 mod cost;
+mod look;
 mod render;
+mod stage;
 
 pub(super) use common::{Color, MessageFormat, Reading, Talk};
 pub(super) use cost::{Cost, Report};
-pub(super) use render::{Bits, Pruning, Render};
+pub(super) use look::{Bits, Look};
+pub(super) use render::{Pruning, Render};
+pub(super) use stage::Stage;
 
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -35,7 +39,7 @@ pub(super) enum Command {
     /// Compile a scene to the intermediate representation
     Compile(Compile),
     /// Render a scene to a picture
-    Render(Render),
+    Render(Box<Render>),
     /// Show what accuracy costs in a scene, and which settings are worth it
     Cost(Cost),
     /// Explain a code of a diagnostic
@@ -73,6 +77,8 @@ pub(super) struct Compile {
     /// What to write [default: by the extension of the output (.json, .rtir, .yaml), or `ir`]
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
+    #[command(flatten)]
+    pub(super) stage: Stage,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! What `rtc render` is told.
 
-use super::super::parse::{crop, levels, rule, seconds, size};
-use super::{Reading, Talk};
+use super::super::parse::{crop, levels, rule, seconds, setting, size};
+use super::{Look, Reading, Stage, Talk};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use clap::{Args, ValueEnum, ValueHint};
@@ -44,6 +44,9 @@ pub(in crate::cli) struct Render {
     /// Sample for this long, in seconds of the clock, where it helps most; the picture then depends on the machine
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
+    /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with `-%04d`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
+    pub(in crate::cli) turntable: Option<u32>,
     /// Threads to work on [default: one a core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
@@ -53,11 +56,15 @@ pub(in crate::cli) struct Render {
     /// How rays meet shapes
     #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
     pub(in crate::cli) arithmetic: Arithmetic,
-    /// Bits a channel of a PNG [default: 8]
-    #[arg(long)]
-    pub(in crate::cli) bits: Option<Bits>,
+    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false; `rtc schema ir` lists them
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    pub(in crate::cli) set: Vec<(String, String)>,
+    #[command(flatten)]
+    pub(in crate::cli) look: Look,
     #[command(flatten)]
     pub(in crate::cli) pruning: Pruning,
+    #[command(flatten)]
+    pub(in crate::cli) stage: Stage,
     #[command(flatten)]
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]
@@ -76,14 +83,6 @@ pub(in crate::cli) struct Pruning {
     /// Simulate also what is left out, and stop at a pixel where it would show
     #[arg(long, conflicts_with_all = ["no_prune", "arithmetic"])]
     pub(in crate::cli) verify_effects: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Bits {
-    #[value(name = "8")]
-    Eight,
-    #[value(name = "16")]
-    Sixteen,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

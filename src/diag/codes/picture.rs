@@ -10,4 +10,9 @@ super::codes! { RD:
          where it is large beside the surface, curved ones lose their shape; where things are hardly larger than 1e-5, \
          rays pass through them. The warning is an estimate from the sizes and distances in the scene. Without the \
          option rtc bounds its errors, and none of this happens.";
+    STUDIO = "RD003", Note, "the scene has no light, so it is shown in the studio",
+        "A scene whose paths are traced is black without light. If it has no light of its own, no environment, and no \
+         surface that glows enough to light the others (labels and eyes do not), it is shown in the studio: three soft \
+         boxes in a dim room, the brightest from the left and above. `--env`, `--env-color` and `--sun` give other light; \
+         `--env-color 0,0,0` is darkness.";
 }

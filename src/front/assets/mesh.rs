@@ -43,7 +43,14 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
             if let Some(place) = lowered.scene.meshes.get_mut(id.0 as usize) {
                 let Geometry { positions, normals, uvs, triangles } = mesh;
                 let name = std::mem::take(&mut place.name);
-                *place = Mesh { name, positions, normals, uvs, triangles, ..Mesh::default() };
+                *place = Mesh {
+                    name,
+                    positions: positions.into(),
+                    normals: normals.into(),
+                    uvs: uvs.into(),
+                    triangles: triangles.into(),
+                    ..Mesh::default()
+                };
             }
         }
         // Lenient, the object is left out once.

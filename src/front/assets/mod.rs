@@ -3,11 +3,14 @@
 //! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what is wrong there. A
 //! lenient run goes on without the file and says what is missing.
 
+mod environment;
 mod image;
 mod mesh;
 mod obj;
 mod off;
 mod scan;
+
+pub use environment::{environment, refusal};
 
 use super::{Asset, Options, Wanted};
 use crate::diag::{Diagnostic, Severity, Sink, codes};

@@ -73,7 +73,7 @@ pub(super) fn fit(scene: &mut ir::Scene, surface: usize) {
         return;
     };
     let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else { return };
-    let corners = || mesh.positions.iter().copied().map(Vec3::from_array);
+    let corners = || mesh.positions.iter().map(Vec3::from_array);
     let Some((low, high)) = corners().map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else { return };
     let half = ((high - low) / 2.0).max_element();
     if half > 0.0 {

@@ -35,6 +35,11 @@ impl<'world> Point<'world> {
         point
     }
 
+    /// The first texture coordinates.
+    pub(super) fn uv(&self) -> Option<[f64; 2]> {
+        self.places[0]
+    }
+
     /// What a map shows; ones where there is none.
     fn show(&self, map: Option<&Map>, content: Content) -> [f64; 4] {
         map.and_then(|map| look_up(self.scene, map, &self.places, content)).unwrap_or([1.0; 4])

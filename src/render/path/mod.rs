@@ -2,6 +2,7 @@
 //!
 //! A pixel is a function of the scene and its coordinates alone, whatever the number of threads.
 
+mod aov;
 mod environment;
 mod lights;
 mod material;
@@ -14,9 +15,7 @@ use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
 use super::progressive::Growing;
 use super::world::World;
-use crate::color::srgb_encoded;
 use crate::image::Image;
-use crate::math::Vec3;
 use crate::valid::Path;
 use lights::Lights;
 use rayon::prelude::*;
@@ -49,24 +48,29 @@ impl<S: Geometry> World<S> {
         let whole = Crop { x: 0, y: 0, width, height };
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         let lights = Lights::new(self, strategy);
-        let mut pixels = vec![[0.0; 3]; crop.width as usize * crop.height as usize];
-        let row = |(y, row): (u32, &mut [[f64; 3]])| {
+        let count = crop.width as usize * crop.height as usize;
+        let (mut pixels, mut coverage) = (vec![[0.0; 3]; count], vec![0.0; count]);
+        let tone = self.scene.settings().mode.tone();
+        let row = |((y, row), shares): ((u32, &mut [[f64; 3]]), &mut [f32])| {
             let mut tracer = Tracer::new(self, &lights, path, strategy);
-            for (x, pixel) in (crop.x..).zip(row) {
-                let before = tracer.counts.rays();
+            for ((x, pixel), share) in (crop.x..).zip(row).zip(shares) {
+                let before = tracer.counts;
                 if job.tiles.is_none_or(|tiles| tiles.contain([x, y])) {
-                    *pixel = shown(tracer.pixel([x, y], job.seeds), job.values);
+                    let radiance = tracer.pixel([x, y], job).to_array();
+                    *pixel = if job.values == Values::Display { tone.display(radiance) } else { radiance };
+                    *share = tracer.counts.coverage_since(&before);
                 }
-                if !proceed(tracer.counts.rays() - before) {
+                if !proceed(tracer.counts.rays() - before.rays()) {
                     return None;
                 }
             }
             Some(tracer.counts)
         };
         let rows = (crop.y..crop.y + crop.height).into_par_iter();
-        let rows = rows.zip(pixels.par_chunks_mut((crop.width as usize).max(1)));
+        let width = (crop.width as usize).max(1);
+        let rows = rows.zip(pixels.par_chunks_mut(width)).zip(coverage.par_chunks_mut(width));
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
-        Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, counts })
+        Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
     }
 
     /// Grows a film by tracing paths; see [`super::progressive::Grow`].
@@ -79,13 +83,5 @@ impl<S: Geometry> World<S> {
     ) -> bool {
         let lights = Lights::new(self, Strategy::Both);
         film.lengthen(|| Tracer::new(self, &lights, path, Strategy::Both), wanted, proceed)
-    }
-}
-
-/// What the film holds of a mean radiance: itself, or its code of sRGB.
-fn shown(radiance: Vec3, values: Values) -> [f64; 3] {
-    match values {
-        Values::Display => radiance.to_array().map(srgb_encoded),
-        Values::Linear => radiance.to_array(),
     }
 }

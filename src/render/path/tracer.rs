@@ -2,15 +2,16 @@
 
 use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
-use super::super::film::{Counts, Seeds};
+use super::super::film::{Behind, Counts, Job, Seeds};
 use super::super::geometry::Geometry;
-use super::super::progressive::{Sampling, Tone};
+use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
 use super::lights::{Incident, Lights};
 use super::material::{Frame, Point};
 use super::sobol::{CORNERS, FILM, LENS, Sobol};
+use crate::color::Tone;
 use crate::math::{Vec3, cos_sin_turns, exp};
 use crate::valid::{Alpha, Path};
 
@@ -25,9 +26,9 @@ const PAIRS: u32 = 4;
 
 /// Follows paths through a world.
 pub(super) struct Tracer<'world, S> {
-    world: &'world World<S>,
+    pub(super) world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: Path,
+    pub(super) path: Path,
     strategy: Strategy,
     /// Whether any surface may be absent in part.
     has_veils: bool,
@@ -36,8 +37,8 @@ pub(super) struct Tracer<'world, S> {
 }
 
 /// A path under way.
-struct Walk {
-    ray: Ray,
+pub(super) struct Walk {
+    pub(super) ray: Ray,
     /// The factor by which what the ray sees counts.
     beta: Vec3,
     /// The light found so far.
@@ -55,12 +56,12 @@ struct Walk {
 }
 
 /// What a ray met.
-struct Corner<'world> {
-    at: Interaction,
-    point: Point<'world>,
-    frame: Frame,
+pub(super) struct Corner<'world> {
+    pub(super) at: Interaction,
+    pub(super) point: Point<'world>,
+    pub(super) frame: Frame,
     coat: Vec3,
-    hit: Hit,
+    pub(super) hit: Hit,
 }
 
 impl<'world, S: Geometry> Tracer<'world, S> {
@@ -75,22 +76,24 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
-    pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
+    pub(super) fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> Vec3 {
         let count = self.path.samples.get();
-        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
+        let sum = (0..count).map(|index| self.sample_of(pixel, index, job.seeds, job.behind)).sum::<Vec3>();
         sum / f64::from(count)
     }
 
     /// The radiance along path `index` of a pixel.
-    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds) -> Vec3 {
+    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds, behind: Behind) -> Vec3 {
         let sobol = Sobol::new(pixel, index, seeds);
-        let ray = self.camera_ray(pixel, &sobol);
+        let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
+        let counts = behind == Behind::Surroundings || self.counts.hits > hits;
         // A number that overflowed says nothing.
-        if radiance.is_finite() { radiance } else { Vec3::ZERO }
+        if counts && radiance.is_finite() { radiance } else { Vec3::ZERO }
     }
 
-    fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
+    /// The ray from the camera that a path of a pixel begins with.
+    pub(super) fn camera_ray(&self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
         let camera = self.world.scene.camera();
         let target = image_point(camera, pixel, sobol.pair(FILM));
         let radius = camera.lens.radius.get();
@@ -106,17 +109,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The radiance along one path.
     fn radiance(&mut self, ray: Ray, sobol: Sobol) -> Vec3 {
         self.counts.camera += 1;
-        let mut walk = Walk {
-            ray,
-            beta: Vec3::ONE,
-            found: Vec3::ZERO,
-            sobol,
-            corners: 0,
-            pdf: None,
-            absorption: Vec3::ZERO,
-            channel: None,
-            travelled: 0.0,
-        };
+        let mut walk = Walk::new(ray, sobol);
         loop {
             let Some(corner) = self.meet(&mut walk) else {
                 self.find_environment(&mut walk);
@@ -131,7 +124,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The next surface that is there; veils let the ray on by chance.
-    fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
+    pub(super) fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
         walk.travelled = 0.0;
         for veil in 0..VEILS {
             let hit = self.world.nearest(&walk.ray)?;
@@ -270,10 +263,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 }
 
 impl<S: Geometry> Sampling for Tracer<'_, S> {
-    const TONE: Tone = Tone::Encoded;
+    const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
-        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
+        let seeds = Seeds { pixel: number, lens: number, path: number };
+        self.sample_of(pixel, index, seeds, Behind::Surroundings)
     }
 
     fn counts(&self) -> Counts {
@@ -282,6 +276,21 @@ impl<S: Geometry> Sampling for Tracer<'_, S> {
 }
 
 impl Walk {
+    /// A path that begins with a ray.
+    pub(super) fn new(ray: Ray, sobol: Sobol) -> Self {
+        Self {
+            ray,
+            beta: Vec3::ONE,
+            found: Vec3::ZERO,
+            sobol,
+            corners: 0,
+            pdf: None,
+            absorption: Vec3::ZERO,
+            channel: None,
+            travelled: 0.0,
+        }
+    }
+
     /// A pair of numbers of this corner.
     fn pair(&self, pair: u32) -> [f64; 2] {
         self.sobol.pair(CORNERS + PAIRS * self.corners + pair)

@@ -1,7 +1,7 @@
 //! Pictures for the page: the tiles looked at side by side, and how different each place looks, as data URIs.
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
-use crate::image::{Form, Image};
+use crate::image::{Form, Image, Picture};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
@@ -65,7 +65,7 @@ fn shrunk(image: Image) -> Image {
 
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
-    let bytes = image.encode(&Form::Png8).unwrap_or_default();
+    let bytes = Picture::opaque(image.clone()).encode(&Form::Png8).unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }
 

@@ -1,36 +1,65 @@
-//! The camera: the first one that the scene shows, or else one that looks at all of it.
+//! The camera: the one that is asked for or the first one that the scene shows, or else one that looks at all of it.
 
 use super::super::camera::Projection;
+use super::super::field::Fields;
+use super::super::json::NodeId;
 use super::Lowering;
-use crate::ir::{self, Camera, Field, Lens, Noun, Place, Shape};
+use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
 use crate::math::{Vec3, cos, sin};
 use glam::DAffine3;
 
 /// The height of a picture in pixels, and its width over its height where the asset does not say.
 const HEIGHT: u32 = 512;
 const ASPECT: f64 = 1.0;
-/// The opening of a camera that we choose, in radians.
-const OPENING: f64 = 0.8;
-/// Where it stands, from the middle of the scene: in front, a little to the right and above.
-const FROM: [f64; 3] = [0.4, 0.3, 1.0];
+/// The opening of a camera that we choose, in degrees from bottom to top.
+const OPENING: f64 = 35.0;
+/// Where it stands, from the middle of the scene: a three-quarter view, 34° to the right of the front and 23° above.
+const FROM: [f64; 3] = [2.0, 1.5, 3.0];
+
+/// A camera that the scene shows, by its index and that of its node.
+pub(super) struct Seen {
+    pub(super) camera: usize,
+    pub(super) node: usize,
+    pub(super) world: DAffine3,
+}
 
 impl Lowering<'_, '_, '_> {
-    /// Puts the camera into the scene.
-    pub(super) fn camera(&mut self) {
-        let own = self.cameras.iter().find_map(|(camera, world)| {
-            let camera = self.doc.cameras.get(*camera)?;
-            Some((camera.at, through(camera.projection?, *world)?))
-        });
+    /// Puts the camera into the scene: the one that is wanted, by its name, that of its node, or its index.
+    pub(super) fn camera(&mut self, wanted: Option<&str>) {
+        let own = match wanted {
+            Some(name) => self.find_camera(name).and_then(|seen| self.own(seen)),
+            None => self.cameras.iter().find_map(|seen| self.own(seen)),
+        };
         match own {
             Some((at, camera)) => {
                 self.origins.record(Place::new(Noun::Camera, 0, Field::Whole), self.report.json.span(at));
                 self.scene.camera = camera;
             }
             None => {
-                let (center, radius) = bounds(&self.scene);
-                self.scene.camera = looking_at(center, radius);
+                if let Some(name) = wanted {
+                    let names: Vec<String> =
+                        self.cameras.iter().map(|seen| self.camera_names(seen).join("/")).collect();
+                    super::missing("camera that shows anything called", name, &names, self.report);
+                }
+                let ball = self.scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
+                self.scene.camera = looking_at(ball);
             }
         }
+    }
+
+    fn own(&self, seen: &Seen) -> Option<(NodeId, Camera)> {
+        let camera = self.doc.cameras.get(seen.camera)?;
+        Some((camera.at, through(camera.projection?, seen.world)?))
+    }
+
+    fn find_camera(&self, name: &str) -> Option<&Seen> {
+        (0..3).find_map(|kind| self.cameras.iter().find(|seen| self.camera_names(seen)[kind] == name))
+    }
+
+    /// What a camera can be called: its name, that of its node, its index.
+    fn camera_names(&self, seen: &Seen) -> [String; 3] {
+        let own = self.doc.cameras.get(seen.camera).map(|camera| Fields::new(self.report.json, camera.at).name());
+        [own.unwrap_or_default(), self.doc.nodes[seen.node].name.clone(), seen.camera.to_string()]
     }
 }
 
@@ -72,33 +101,12 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
     }
 }
 
-/// A camera that sees the whole ball around `center`.
-pub(super) fn looking_at(center: [f64; 3], radius: f64) -> Camera {
+/// A camera that sees the whole ball.
+pub(super) fn looking_at(Ball { center, radius }: Ball) -> Camera {
+    let half = OPENING.to_radians() / 2.0;
     let z = Vec3::from_array(FROM).normalize();
     let x = Vec3::Y.cross(z).normalize();
-    let eye = Vec3::from_array(center) + z * (radius / sin(OPENING / 2.0));
-    let tangent = sin(OPENING / 2.0) / cos(OPENING / 2.0);
+    let eye = center + z * (radius / sin(half));
+    let tangent = sin(half) / cos(half);
     camera(eye, [x, z.cross(x), z], [tangent * ASPECT, tangent], ir::Projection::Perspective)
-}
-
-/// The middle of all that is placed, and how far it reaches from there.
-fn bounds(scene: &ir::Scene) -> ([f64; 3], f64) {
-    let corners = scene.meshes.iter().map(|mesh| {
-        let positions = || mesh.positions.iter().map(|position| Vec3::from_array(*position));
-        [positions().fold(Vec3::INFINITY, Vec3::min), positions().fold(Vec3::NEG_INFINITY, Vec3::max)]
-    });
-    let corners: Vec<[Vec3; 2]> = corners.collect();
-    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    for surface in &scene.surfaces {
-        let Shape::Instance(instance) = &surface.shape else { continue };
-        let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
-        let Some(&[least, most]) = corners.get(instance.mesh.0 as usize) else { continue };
-        for corner in 0..8 {
-            let pick = |bit: u32, axis: usize| if corner >> bit & 1 == 0 { least[axis] } else { most[axis] };
-            let point = world.transform_point3(Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2)));
-            (low, high) = (low.min(point), high.max(point));
-        }
-    }
-    let (center, radius) = ((low + high) / 2.0, (high - low).length() / 2.0);
-    if center.is_finite() && radius > 0.0 { (center.to_array(), radius) } else { ([0.0; 3], 1.0) }
 }

@@ -4,7 +4,7 @@ use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::mesh::{Attribute, Primitive};
 use super::super::skin::Skin;
-use crate::ir;
+use crate::ir::{self, Column};
 use crate::math::Vec3;
 use glam::{DAffine3, DMat3, DMat4};
 
@@ -28,41 +28,45 @@ pub(super) fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Ve
 
 /// Moves the vertices of a mesh.
 pub(super) fn deform(doc: &Document<'_>, primitive: &Primitive, shape: &Shape, mesh: &mut ir::Mesh) {
-    for (target, weight) in primitive.targets.iter().zip(&shape.weights).filter(|(_, weight)| **weight != 0.0) {
-        morph(doc, target, *weight, mesh);
+    let targets = primitive.targets.iter().zip(&shape.weights).filter(|(_, weight)| **weight != 0.0);
+    let targets = targets.map(|(target, weight)| (target.as_slice(), *weight)).collect::<Vec<_>>();
+    let morph = Morph { doc, targets };
+    morph.add::<3, 3>("POSITION", &mut mesh.positions);
+    morph.add::<3, 3>("NORMAL", &mut mesh.normals);
+    morph.add::<4, 3>("TANGENT", &mut mesh.tangents);
+    morph.add::<2, 2>("TEXCOORD_0", &mut mesh.uvs);
+    morph.add::<2, 2>("TEXCOORD_1", &mut mesh.second_uvs);
+    if morph.add::<4, 4>("COLOR_0", &mut mesh.colors) {
+        mesh.colors = super::mesh::clamped(mesh.colors.iter());
     }
     if let Some(joints) = &shape.skin {
         skin(doc, primitive, joints, mesh);
     }
 }
 
-/// Adds a share of what a target moves.
-fn morph(doc: &Document<'_>, target: &[Attribute], weight: f64, mesh: &mut ir::Mesh) {
-    for attribute in target {
-        let Some(elements) = doc.accessors.get(attribute.accessor).and_then(|own| Elements::of(doc, own)) else {
-            continue;
-        };
-        match attribute.name.as_str() {
-            "POSITION" => add(&mut mesh.positions, &elements.vectors::<3>(), weight),
-            "NORMAL" => add(&mut mesh.normals, &elements.vectors::<3>(), weight),
-            "TANGENT" => add(&mut mesh.tangents, &elements.vectors::<3>(), weight),
-            "TEXCOORD_0" => add(&mut mesh.uvs, &elements.vectors::<2>(), weight),
-            "TEXCOORD_1" => add(&mut mesh.second_uvs, &elements.vectors::<2>(), weight),
-            "COLOR_0" => {
-                let width = elements.layout.components();
-                let mut deltas = elements.vectors::<4>();
-                deltas.iter_mut().filter(|_| width < 4).for_each(|delta| delta[3] = 0.0);
-                add(&mut mesh.colors, &deltas, weight);
-                mesh.colors.iter_mut().flatten().for_each(|channel| *channel = channel.clamp(0.0, 1.0));
-            }
-            _ => {}
-        }
-    }
+/// The morph targets that count, each with its weight.
+struct Morph<'d, 's> {
+    doc: &'d Document<'s>,
+    targets: Vec<(&'d [Attribute], f64)>,
 }
 
-fn add<const N: usize, const M: usize>(base: &mut [[f64; N]], deltas: &[[f64; M]], weight: f64) {
-    for (base, delta) in base.iter_mut().zip(deltas) {
-        base.iter_mut().zip(delta).for_each(|(base, delta)| *base += weight * delta);
+impl Morph<'_, '_> {
+    /// Adds what the targets move of an attribute, to the first `M` of its components. False if they leave it alone.
+    fn add<const N: usize, const M: usize>(&self, name: &str, column: &mut Column<N>) -> bool {
+        let mut moved: Option<Vec<[f64; N]>> = None;
+        for (target, weight) in &self.targets {
+            let accessor = target.iter().find(|attribute| attribute.name == name).map(|attribute| attribute.accessor);
+            let accessor = accessor.and_then(|accessor| self.doc.accessors.get(accessor));
+            let Some(deltas) = accessor.and_then(|accessor| Elements::of(self.doc, accessor)) else { continue };
+            let moved = moved.get_or_insert_with(|| column.iter().collect());
+            for (vertex, delta) in moved.iter_mut().zip(deltas.vectors::<M>()) {
+                vertex.iter_mut().zip(delta).for_each(|(number, delta)| *number += weight * delta);
+            }
+        }
+        if let Some(moved) = &moved {
+            *column = Column::rounded(moved.iter().copied());
+        }
+        moved.is_some()
     }
 }
 
@@ -81,20 +85,17 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
             }
         }
     }
-    for (at, (matrix, translation)) in blends.into_iter().enumerate() {
-        let position = &mut mesh.positions[at];
-        *position = (matrix * Vec3::from_array(*position) + translation).to_array();
-        // Normals turn with the cofactors, which the inverse transpose is but for its length.
-        let cofactors = DMat3::from_cols(
-            matrix.y_axis.cross(matrix.z_axis),
-            matrix.z_axis.cross(matrix.x_axis),
-            matrix.x_axis.cross(matrix.y_axis),
-        );
-        if let Some(normal) = mesh.normals.get_mut(at) {
-            *normal = (cofactors * Vec3::from_array(*normal)).normalize_or_zero().to_array();
-        }
-        if let Some([x, y, z, _]) = mesh.tangents.get_mut(at) {
-            [*x, *y, *z] = (matrix * Vec3::new(*x, *y, *z)).normalize_or_zero().to_array();
-        }
-    }
+    let positions = mesh.positions.iter().map(Vec3::from_array).zip(&blends);
+    mesh.positions = Column::rounded(positions.map(|(p, (matrix, translation))| (matrix * p + translation).to_array()));
+    // Normals turn with the cofactors, which the inverse transpose is but for its length.
+    let cofactors =
+        |m: &DMat3| DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    let normals = mesh.normals.iter().map(Vec3::from_array).zip(&blends);
+    let turned = normals.map(|(normal, (matrix, _))| (cofactors(matrix) * normal).normalize_or_zero().to_array());
+    mesh.normals = Column::rounded(turned);
+    let turned = mesh.tangents.iter().zip(&blends).map(|([x, y, z, side], (matrix, _))| {
+        let Vec3 { x, y, z } = (*matrix * Vec3::new(x, y, z)).normalize_or_zero();
+        [x, y, z, side]
+    });
+    mesh.tangents = Column::rounded(turned);
 }

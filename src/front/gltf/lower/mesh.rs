@@ -1,6 +1,5 @@
 //! Meshes: the attributes of a primitive as the IR has them; what is the same is made once.
 
-use super::super::accessor::Layout;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::mesh::Primitive;
@@ -8,7 +7,7 @@ use super::super::report::Report;
 use super::deform::{self, Shape};
 use super::{tangent, topology};
 use crate::diag::codes;
-use crate::ir::{self, Field, Mesh, MeshId, Noun, Origins, Place, Scene};
+use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 
 /// Vertices and indices that are made for each element of the accessors, and beside that.
 const MAX_RATIO: usize = 16;
@@ -97,28 +96,28 @@ fn key(wanted: &Wanted<'_>) -> Key {
 fn read(doc: &Document<'_>, wanted: &Wanted<'_>) -> Option<Mesh> {
     let Wanted { primitive, name, shape, needs_tangents } = wanted;
     let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
-    let positions = elements("POSITION")?.vectors::<3>();
+    let positions = elements("POSITION")?.column();
     let count = positions.len();
     let mut triangles = topology::triangles(doc, primitive, count)?;
-    let normals = elements("NORMAL").map_or_else(Vec::new, |normals| normals.vectors::<3>());
+    let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
     // Without normals tangents mean nothing (glTF 2.0, section 3.7.2.1).
     let tangents = elements("TANGENT").filter(|_| !normals.is_empty());
-    let uvs = |name| elements(name).map_or_else(Vec::new, |uvs| uvs.vectors::<2>());
+    let uvs = |name| elements(name).map_or_else(Column::default, |uvs| uvs.column());
     let mut mesh = ir::Mesh {
         name: (*name).to_owned(),
         positions,
         normals,
         uvs: uvs("TEXCOORD_0"),
         second_uvs: uvs("TEXCOORD_1"),
-        tangents: tangents.map_or_else(Vec::new, |tangents| tangents.vectors::<4>()),
-        colors: elements("COLOR_0").map_or_else(Vec::new, |own| colors(&own)),
-        triangles: Vec::new(),
+        tangents: tangents.map_or_else(Column::default, |tangents| tangents.column()),
+        colors: elements("COLOR_0").map_or_else(Column::default, |own| colors(&own)),
+        triangles: Shared::default(),
     };
     deform::deform(doc, primitive, shape, &mut mesh);
     if let Some(kept) = topology::compact(&mut triangles, count) {
-        keep(&mut mesh, &kept);
+        pick(&mut mesh, &kept);
     }
-    mesh.triangles = triangles;
+    mesh.triangles = triangles.into();
     if *needs_tangents && mesh.tangents.is_empty() {
         tangent::generate(&mut mesh);
     }
@@ -126,29 +125,26 @@ fn read(doc: &Document<'_>, wanted: &Wanted<'_>) -> Option<Mesh> {
 }
 
 /// Colours with alpha, each channel from 0 to 1.
-fn colors(elements: &Elements<'_>) -> Vec<[f64; 4]> {
-    let has_alpha = Layout::components(elements.layout) == 4;
-    let mut colors = elements.vectors::<4>();
-    for color in &mut colors {
-        color[3] = if has_alpha { color[3] } else { 1.0 };
-        *color = color.map(|channel| channel.clamp(0.0, 1.0));
-    }
-    colors
+fn colors(elements: &Elements<'_>) -> Column<4> {
+    let has_alpha = elements.layout.components() == 4;
+    let colors = elements.vectors().into_iter();
+    clamped(colors.map(|[r, g, b, alpha]| [r, g, b, if has_alpha { alpha } else { 1.0 }]))
 }
 
-fn keep(mesh: &mut Mesh, kept: &[u32]) {
-    fn pick<T: Copy>(from: &mut Vec<T>, kept: &[u32]) {
-        if !from.is_empty() {
-            *from = kept.iter().map(|vertex| from[*vertex as usize]).collect();
-        }
-    }
+/// Colours, each channel kept from 0 to 1.
+pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
+    Column::rounded(colors.map(|color| color.map(|channel| channel.clamp(0.0, 1.0))))
+}
+
+/// Makes a mesh of these vertices of it, whatever its triangles say.
+pub(super) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
     let Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles: _ } = mesh;
-    pick(positions, kept);
-    pick(normals, kept);
-    pick(uvs, kept);
-    pick(second_uvs, kept);
-    pick(tangents, kept);
-    pick(colors, kept);
+    *positions = positions.pick(vertices);
+    *normals = normals.pick(vertices);
+    *uvs = uvs.pick(vertices);
+    *second_uvs = second_uvs.pick(vertices);
+    *tangents = tangents.pick(vertices);
+    *colors = colors.pick(vertices);
 }
 
 /// A count of a scene, which is far below 2^32.

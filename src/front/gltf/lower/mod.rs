@@ -17,7 +17,8 @@ use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
 use crate::front::Options;
-use crate::ir::{self, Environment, Field, Lowered, Material, MaterialId, Mode, Noun, Origins, Place, Scene};
+use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
+use crate::math::Vec3;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
@@ -36,8 +37,8 @@ struct Lowering<'l, 'r, 's> {
     meshes: Meshes,
     /// The variant of the materials that was asked for.
     variant: Option<usize>,
-    /// The cameras that were met, each with its place.
-    cameras: Vec<(usize, DAffine3)>,
+    /// The cameras that were met.
+    cameras: Vec<camera::Seen>,
 }
 
 /// Lowers an asset without errors.
@@ -58,15 +59,15 @@ pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Repo
     for node in place::shown(doc) {
         lowering.node(node, &pose, &worlds);
     }
-    lowering.finish()
+    lowering.finish(options.camera.as_deref())
 }
 
 /// A scene without anything, that is rendered as glTF means it.
 fn empty() -> Scene {
     Scene {
-        camera: camera::looking_at([0.0; 3], 1.0),
+        camera: camera::looking_at(ir::Ball { center: Vec3::ZERO, radius: 1.0 }),
         settings: ir::Settings {
-            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: false }),
+            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: true }),
             shadows: true,
             max_depth: DEPTH,
             supersampling: 1,
@@ -111,7 +112,7 @@ impl Lowering<'_, '_, '_> {
     fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
         let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
         if let Some(camera) = node.camera {
-            self.cameras.push((camera, world));
+            self.cameras.push(camera::Seen { camera, node: index, world });
         }
         if let Some(light) = node.light.and_then(|light| doc.lights.get(light)) {
             self.light(*light, world);
@@ -160,17 +161,10 @@ impl Lowering<'_, '_, '_> {
         self.materials.make(self.doc, material, &mut self.scene, &mut self.origins, self.report)
     }
 
-    fn finish(mut self) -> Lowered {
-        self.camera();
+    fn finish(mut self, camera: Option<&str>) -> Lowered {
+        self.camera(camera);
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();
-        }
-        let glows = |material: &Material| match material {
-            Material::Standard(standard) => standard.unlit || standard.emissive.iter().any(|channel| *channel > 0.0),
-            Material::Phong(_) => false,
-        };
-        if self.scene.lights.is_empty() && !self.scene.materials.iter().any(glows) {
-            self.scene.environment = Some(Environment { radiance: [1.0; 3], image: None, image_from_world: None });
         }
         self.origins.finish();
         Lowered { scene: self.scene, origins: self.origins }

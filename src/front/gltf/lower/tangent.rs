@@ -2,8 +2,8 @@
 //!
 //! Corners of one vertex may get different tangents, so vertices are split where they do.
 
-use super::mesh::to_u32;
-use crate::ir::Mesh;
+use super::mesh::{pick, to_u32};
+use crate::ir::{Column, Mesh};
 use crate::math::Vec3;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 
@@ -43,15 +43,15 @@ impl Geometry<Libm> for Corners<'_> {
     }
 
     fn position(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.mesh.positions[self.vertex(face, vert)].map(|number| number as f32)
+        self.mesh.positions.at(self.vertex(face, vert)).map(|number| number as f32)
     }
 
     fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.mesh.normals[self.vertex(face, vert)].map(|number| number as f32)
+        self.mesh.normals.at(self.vertex(face, vert)).map(|number| number as f32)
     }
 
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
-        self.mesh.uvs[self.vertex(face, vert)].map(|number| number as f32)
+        self.mesh.uvs.at(self.vertex(face, vert)).map(|number| number as f32)
     }
 
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, vert: usize) {
@@ -83,31 +83,15 @@ pub(super) fn generate(mesh: &mut Mesh) {
 /// Gives each corner a vertex of its own, with the normal of its triangle.
 fn flatten(mesh: &mut Mesh) {
     let corners: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
-    *mesh = picked(mesh, &corners);
-    for triangle in &mesh.triangles {
-        let [a, b, c] = triangle.map(|corner| Vec3::from_array(mesh.positions[corner as usize]));
-        let normal = (b - a).cross(c - a).normalize_or_zero().to_array();
-        mesh.normals.extend([normal; 3]);
-    }
-}
-
-/// The mesh with these vertices, three a triangle.
-fn picked(mesh: &Mesh, vertices: &[u32]) -> Mesh {
-    fn pick<T: Copy>(from: &[T], vertices: &[u32]) -> Vec<T> {
-        if from.is_empty() { Vec::new() } else { vertices.iter().map(|vertex| from[*vertex as usize]).collect() }
-    }
-    let Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles: _ } = mesh;
-    let count = to_u32(vertices.len());
-    Mesh {
-        name: name.clone(),
-        positions: pick(positions, vertices),
-        normals: pick(normals, vertices),
-        uvs: pick(uvs, vertices),
-        second_uvs: pick(second_uvs, vertices),
-        tangents: pick(tangents, vertices),
-        colors: pick(colors, vertices),
-        triangles: (0..count / 3).map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]).collect(),
-    }
+    pick(mesh, &corners);
+    let first = (0..to_u32(corners.len())).step_by(3);
+    mesh.triangles = first.map(|corner| [corner, corner + 1, corner + 2]).collect();
+    let positions = mesh.positions.iter().map(Vec3::from_array).collect::<Vec<_>>();
+    let normals = positions.as_chunks::<3>().0.iter().flat_map(|[a, b, c]| {
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        [normal.to_array(); 3]
+    });
+    mesh.normals = Column::rounded(normals);
 }
 
 /// Puts the tangents of corners to the vertices; a vertex with several is split.
@@ -137,9 +121,8 @@ fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
             *corner = to_u32(at);
         }
     }
-    let triangles = std::mem::take(&mut mesh.triangles);
-    *mesh = Mesh { triangles, tangents: Vec::new(), ..picked(mesh, &origin) };
-    mesh.tangents = own.into_iter().map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])).collect();
+    pick(mesh, &origin);
+    mesh.tangents = Column::rounded(own.into_iter().map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])));
 }
 
 #[cfg(test)]
@@ -148,17 +131,17 @@ mod tests {
 
     #[test]
     fn tangents_follow_u_and_vertices_split_where_it_is_mirrored() {
-        let corner = |x: f64, y: f64| [x, y, 0.0];
+        let corner = |x: f32, y: f32| [x, y, 0.0];
         let mut mesh = Mesh {
-            positions: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(-1.0, 0.0)],
-            uvs: vec![[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0, 1.0]],
-            normals: vec![[0.0, 0.0, 1.0]; 4],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            positions: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(-1.0, 0.0)].into(),
+            uvs: vec![[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0_f32, 1.0]].into(),
+            normals: vec![[0.0_f32, 0.0, 1.0]; 4].into(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..Mesh::default()
         };
         generate(&mut mesh);
         assert_eq!((mesh.positions.len(), mesh.tangents.len()), (6, 6), "two corners are shared and differ");
-        let tangent = |triangle: usize| mesh.tangents[mesh.triangles[triangle][0] as usize];
+        let tangent = |triangle: usize| mesh.tangents.at(mesh.triangles[triangle][0] as usize);
         assert_eq!([tangent(0)[0], tangent(1)[0]], [1.0, -1.0]);
         // Green is up in the picture, against v: w·(n × t) points there.
         assert_eq!([tangent(0)[3], tangent(1)[3]], [1.0, -1.0]);

@@ -1,0 +1,87 @@
+//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what, with which layers.
+
+use super::super::parse::{backdrop, stops};
+use crate::color::Tone;
+use crate::image::Backdrop;
+use crate::render::Aov;
+use clap::{Args, ValueEnum};
+
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Look {
+    /// How a PNG shows linear values; an EXR holds them as they are [default: srgb if paths are traced, else none]
+    #[arg(long, value_enum, value_name = "MAP")]
+    pub(in crate::cli) tonemap: Option<Tonemap>,
+    /// Exposure in stops, of EXR too: each doubles the values
+    #[arg(long, value_name = "STOPS", default_value = "0", value_parser = stops, allow_negative_numbers = true)]
+    pub(in crate::cli) exposure: f64,
+    /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a colour R,G,B in the values that
+    /// the file is to hold. Light stays as it is
+    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = backdrop)]
+    pub(in crate::cli) background: Backdrop,
+    /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
+    #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
+    pub(in crate::cli) aov: Vec<Layer>,
+    /// Bits a channel of a PNG [default: 8]
+    #[arg(long)]
+    pub(in crate::cli) bits: Option<Bits>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Bits {
+    #[value(name = "8")]
+    Eight,
+    #[value(name = "16")]
+    Sixteen,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Layer {
+    /// Channels albedo.R, .G, .B: base colours, linear
+    Albedo,
+    /// Channels normal.X, .Y, .Z: shading normals in the world, towards the viewer
+    Normal,
+    /// Channel depth.Z: the distance along the axis of view; 1e10 where there is nothing
+    Depth,
+    /// Channels uv.U, .V: the first texture coordinates
+    Uv,
+    /// Channel instance.X: the number of the surface, from 1, that the first ray meets; 0 of none
+    Instance,
+    /// Channels position.X, .Y, .Z: places in the world
+    Position,
+}
+
+impl From<Layer> for Aov {
+    fn from(layer: Layer) -> Self {
+        match layer {
+            Layer::Albedo => Self::Albedo,
+            Layer::Normal => Self::Normal,
+            Layer::Depth => Self::Depth,
+            Layer::Uv => Self::Uv,
+            Layer::Instance => Self::Instance,
+            Layer::Position => Self::Position,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Tonemap {
+    /// As they are
+    None,
+    /// Cut off at 1, coded by sRGB
+    Srgb,
+    /// AgX: highlights roll off over many stops and fade to white
+    Agx,
+    /// Khronos PBR Neutral: colours below the highlights stay what they are
+    PbrNeutral,
+}
+
+impl From<Tonemap> for Tone {
+    fn from(map: Tonemap) -> Self {
+        match map {
+            Tonemap::None => Self::None,
+            Tonemap::Srgb => Self::Srgb,
+            Tonemap::Agx => Self::Agx,
+            Tonemap::PbrNeutral => Self::PbrNeutral,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! What every command that shows a scene is told of view and light.
+
+use super::super::parse::{color, degrees, sun, vector};
+use crate::ir;
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+/// From where a scene is seen, and what lights it.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "View and light")]
+pub(in crate::cli) struct Stage {
+    /// Where the camera stands [default: as in the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(in crate::cli) eye: Option<[f64; 3]>,
+    /// What is in the middle of the picture [default: with `--eye` the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(in crate::cli) center: Option<[f64; 3]>,
+    /// The upward direction [default: the axis nearest to that of the scene's camera]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    pub(in crate::cli) up: Option<[f64; 3]>,
+    /// The angle the picture spans from bottom to top, in degrees
+    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    pub(in crate::cli) yfov: Option<f64>,
+    /// A picture of the surroundings, .hdr or .exr: longitude across, its middle towards -z
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(in crate::cli) env: Option<PathBuf>,
+    /// The same radiance from every direction, one number or three; 0 is darkness
+    #[arg(long, value_name = "R,G,B", value_parser = color, conflicts_with = "env")]
+    pub(in crate::cli) env_color: Option<[f64; 3]>,
+    /// A sun: the direction to it, and the irradiance on a surface that faces it, one number or three
+    #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true)]
+    pub(in crate::cli) sun: Vec<ir::Sun>,
+    /// Leave out the lights of the scene
+    #[arg(long)]
+    pub(in crate::cli) no_scene_lights: bool,
+    /// How light is followed [default: by the scene: paths for glTF, Whitted's way for the course]
+    #[arg(long, value_enum)]
+    pub(in crate::cli) integrator: Option<Integrator>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Integrator {
+    /// Direct light, mirrors and refraction
+    Whitted,
+    /// All the light along all paths
+    Path,
+}
+
+impl From<Integrator> for ir::Integrator {
+    fn from(integrator: Integrator) -> Self {
+        match integrator {
+            Integrator::Whitted => Self::Whitted,
+            Integrator::Path => Self::Path,
+        }
+    }
+}
+
+fn direction(text: &str) -> Result<[f64; 3], String> {
+    vector(text).and_then(|up| if up == [0.0; 3] { Err("it has no direction".to_owned()) } else { Ok(up) })
+}

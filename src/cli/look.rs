@@ -1,0 +1,104 @@
+//! From film to file: which kind of file, which values the film must hold for it, and the bytes.
+
+use super::Failure;
+use super::args::{self, Bits};
+use crate::color::Tone;
+use crate::image::{self, Association, Backdrop, Image, Origin, Picture};
+use crate::render::{Aov, Behind, Values};
+use crate::valid::Mode;
+use std::path::Path;
+
+/// The look of a picture, as asked for.
+pub(super) struct Look {
+    kind: Kind,
+    tone: Option<Tone>,
+    stops: f64,
+    backdrop: Backdrop,
+    /// The layers wanted, each once.
+    pub(super) aovs: Vec<Aov>,
+}
+
+/// A kind of pixel file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Png8,
+    Png16,
+    Exr,
+}
+
+impl Look {
+    pub(super) fn new(args: &args::Look, output: &Path) -> Result<Self, Failure> {
+        let kind = kind(output, args.bits)?;
+        let tone = args.tonemap.map(Tone::from);
+        if kind == Kind::Exr && tone.is_some_and(|tone| tone != Tone::None) {
+            return Err(Failure::Trouble("`--tonemap` is for PNG; an EXR holds linear values".to_owned()));
+        }
+        let mut aovs: Vec<Aov> = Vec::new();
+        for aov in args.aov.iter().map(|layer| Aov::from(*layer)) {
+            if !aovs.contains(&aov) {
+                aovs.push(aov);
+            }
+        }
+        if kind != Kind::Exr && !aovs.is_empty() {
+            return Err(Failure::Trouble("`--aov` is for EXR; a PNG holds colours alone".to_owned()));
+        }
+        Ok(Self { kind, tone, stops: args.exposure, backdrop: args.background, aovs })
+    }
+
+    /// Which values a film of this mode must hold.
+    pub(super) fn values(&self, mode: &Mode) -> Values {
+        let is_plain = self.kind != Kind::Exr && self.stops == 0.0 && self.tone.unwrap_or(Tone::None) == Tone::None;
+        // Display values of the course are clamped sample by sample, as only its untouched pictures want it.
+        if is_plain && mode.tone() == Tone::None { Values::Display } else { Values::Linear }
+    }
+
+    /// What the film must show behind all surfaces.
+    pub(super) fn behind(&self) -> Behind {
+        if self.backdrop == Backdrop::Film { Behind::Surroundings } else { Behind::Nothing }
+    }
+
+    /// What the origin of a picture says of its look: what is not as always.
+    pub(super) fn describe(&self, settings: &mut serde_json::Value) {
+        if self.stops != 0.0 {
+            settings["exposure"] = self.stops.into();
+        }
+        match self.backdrop {
+            Backdrop::Film => {}
+            Backdrop::Transparent => settings["background"] = "transparent".into(),
+            Backdrop::Color(color) => settings["background"] = color.to_vec().into(),
+        }
+    }
+
+    /// The picture of a film.
+    pub(super) fn develop(&self, film: Image, coverage: Vec<f32>, mode: &Mode) -> Picture {
+        let (tone, association) = match self.kind {
+            Kind::Exr => (Tone::None, Association::Associated),
+            Kind::Png8 | Kind::Png16 => (self.tone.unwrap_or(mode.tone()), Association::Straight),
+        };
+        image::Look { stops: self.stops, tone, backdrop: self.backdrop }.develop(film, coverage, association)
+    }
+
+    /// The bytes of the file.
+    pub(super) fn encode(&self, picture: &Picture, origin: impl FnOnce() -> Origin) -> Result<Vec<u8>, Failure> {
+        let form = match self.kind {
+            Kind::Png8 => image::Form::Png8,
+            Kind::Png16 => image::Form::Png16,
+            Kind::Exr => image::Form::Exr(origin()),
+        };
+        picture.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))
+    }
+}
+
+fn kind(output: &Path, bits: Option<Bits>) -> Result<Kind, Failure> {
+    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let is_stdout = output.as_os_str() == "-";
+    match (extension.as_deref(), bits) {
+        (Some("exr"), None) => Ok(Kind::Exr),
+        (Some("exr"), Some(_)) => Err(Failure::Trouble("`--bits` is for PNG; an EXR holds 32-bit floats".to_owned())),
+        (Some("png"), Some(Bits::Sixteen)) => Ok(Kind::Png16),
+        (Some("png"), Some(Bits::Eight) | None) => Ok(Kind::Png8),
+        (None, Some(Bits::Sixteen)) if is_stdout => Ok(Kind::Png16),
+        (None, Some(Bits::Eight) | None) if is_stdout => Ok(Kind::Png8),
+        _ => Err(Failure::Trouble(format!("can't tell what `{}` is to be; name it .png or .exr", output.display()))),
+    }
+}

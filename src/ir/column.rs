@@ -1,0 +1,298 @@
+//! Columns: what a mesh says of its vertices, vertex by vertex, in the precision of its source.
+//!
+//! They are shared, not copied: a proof and a prepared world hold the columns of the scene itself. In JSON a column of
+//! 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
+
+use arbitrary::Arbitrary;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor, value::SeqAccessDeserializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
+
+/// A list that its copies share; who changes it gets one of their own.
+#[derive(Debug, PartialEq, Arbitrary)]
+pub struct Shared<T>(Arc<Vec<T>>);
+
+impl<T> Clone for Shared<T> {
+    fn clone(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+}
+
+impl<T> Default for Shared<T> {
+    fn default() -> Self {
+        Self(Arc::default())
+    }
+}
+
+impl<T> From<Vec<T>> for Shared<T> {
+    fn from(list: Vec<T>) -> Self {
+        Self(Arc::new(list))
+    }
+}
+
+impl<T> FromIterator<T> for Shared<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
+        Vec::from_iter(items).into()
+    }
+}
+
+impl<T> Deref for Shared<T> {
+    type Target = Vec<T>;
+
+    fn deref(&self) -> &Vec<T> {
+        &self.0
+    }
+}
+
+impl<T: Clone> DerefMut for Shared<T> {
+    fn deref_mut(&mut self) -> &mut Vec<T> {
+        Arc::make_mut(&mut self.0)
+    }
+}
+
+impl<T: Serialize> Serialize for Shared<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Shared<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Vec::deserialize(deserializer).map(Self::from)
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Shared<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        Vec::<T>::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Vec::<T>::json_schema(generator)
+    }
+}
+
+/// `N` numbers for each vertex.
+#[derive(Clone, Debug, Arbitrary)]
+pub enum Column<const N: usize> {
+    /// As binary files have them.
+    Single(Shared<[f32; N]>),
+    /// As texts have them.
+    Double(Shared<[f64; N]>),
+}
+
+impl<const N: usize> Column<N> {
+    /// The numbers rounded to 32 bits.
+    pub fn rounded(vectors: impl IntoIterator<Item = [f64; N]>) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
+        let round = |vector: [f64; N]| vector.map(|number| number as f32);
+        vectors.into_iter().map(round).collect::<Vec<_>>().into()
+    }
+
+    /// How many vertices it speaks of.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Single(vectors) => vectors.len(),
+            Self::Double(vectors) => vectors.len(),
+        }
+    }
+
+    /// Whether it speaks of none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What it says of vertex `index`, which is below the length.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, index: usize) -> [f64; N] {
+        match self {
+            Self::Single(vectors) => vectors[index].map(f64::from),
+            Self::Double(vectors) => vectors[index],
+        }
+    }
+
+    /// What it says of each vertex, in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = [f64; N]> + Clone {
+        (0..self.len()).map(|index| self.at(index))
+    }
+
+    /// What it says of these vertices, whose indices are below the length; an empty column stays empty.
+    #[must_use]
+    pub fn pick(&self, vertices: &[u32]) -> Self {
+        fn pick<T: Copy>(from: &[T], vertices: &[u32]) -> Vec<T> {
+            vertices.iter().map(|vertex| from[*vertex as usize]).collect()
+        }
+        match self {
+            _ if self.is_empty() => Self::default(),
+            Self::Single(vectors) => pick(vectors, vertices).into(),
+            Self::Double(vectors) => pick(vectors, vertices).into(),
+        }
+    }
+}
+
+impl<const N: usize> Default for Column<N> {
+    fn default() -> Self {
+        Self::Double(Shared::default())
+    }
+}
+
+/// Empty columns are equal, of whatever precision: nothing tells them apart in a file.
+impl<const N: usize> PartialEq for Column<N> {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Single(own), Self::Single(other)) => own == other,
+            (Self::Double(own), Self::Double(other)) => own == other,
+            (Self::Single(_), Self::Double(_)) | (Self::Double(_), Self::Single(_)) => {
+                self.is_empty() && other.is_empty()
+            }
+        }
+    }
+}
+
+impl<const N: usize> From<Vec<[f32; N]>> for Column<N> {
+    fn from(vectors: Vec<[f32; N]>) -> Self {
+        if vectors.is_empty() { Self::default() } else { Self::Single(vectors.into()) }
+    }
+}
+
+impl<const N: usize> From<Vec<[f64; N]>> for Column<N> {
+    fn from(vectors: Vec<[f64; N]>) -> Self {
+        Self::Double(vectors.into())
+    }
+}
+
+impl<const N: usize> FromIterator<[f64; N]> for Column<N> {
+    fn from_iter<I: IntoIterator<Item = [f64; N]>>(vectors: I) -> Self {
+        Vec::from_iter(vectors).into()
+    }
+}
+
+/// The key of a column of 32-bit floats.
+const SINGLE: &str = "f32";
+
+impl<const N: usize> Serialize for Column<N>
+where
+    [f32; N]: Serialize,
+    [f64; N]: Serialize,
+{
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Single(vectors) if !vectors.is_empty() => serializer.collect_map([(SINGLE, vectors)]),
+            Self::Single(_) => serializer.collect_seq([(); 0]),
+            Self::Double(vectors) => vectors.serialize(serializer),
+        }
+    }
+}
+
+impl<'de, const N: usize> Deserialize<'de> for Column<N>
+where
+    [f32; N]: Deserialize<'de>,
+    [f64; N]: Deserialize<'de>,
+{
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+/// Reads a column of `N` numbers a vertex.
+struct Reader<const N: usize>;
+
+impl<'de, const N: usize> Visitor<'de> for Reader<N>
+where
+    [f32; N]: Deserialize<'de>,
+    [f64; N]: Deserialize<'de>,
+{
+    type Value = Column<N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a list of {N} numbers each, or a map of `{SINGLE}` to one")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Column<N>, A::Error> {
+        Vec::<[f64; N]>::deserialize(SeqAccessDeserializer::new(list)).map(Column::from)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Column<N>, A::Error> {
+        let key = map.next_key::<Cow<'_, str>>()?.ok_or_else(|| Error::missing_field(SINGLE))?;
+        if key != SINGLE {
+            return Err(Error::unknown_field(&key, &[SINGLE]));
+        }
+        let vectors = map.next_value::<Vec<[f32; N]>>()?;
+        match map.next_key::<Cow<'_, str>>()? {
+            None => Ok(Column::from(vectors)),
+            Some(key) => Err(Error::unknown_field(&key, &[])),
+        }
+    }
+}
+
+impl<const N: usize> JsonSchema for Column<N>
+where
+    [f64; N]: JsonSchema,
+{
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Column{N}").into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let list = Vec::<[f64; N]>::json_schema(generator);
+        let single = json_schema!({
+            "type": "object",
+            "properties": { SINGLE: list },
+            "required": [SINGLE],
+            "additionalProperties": false,
+        });
+        json_schema!({ "anyOf": [list, single] })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_precisions_keep_every_bit_in_json() {
+        let single = Column::from(vec![[0.1_f32, -0.0], [f32::MAX, 1e-45]]);
+        let double = Column::from(vec![[0.1_f64, -0.0], [f64::MAX, 5e-324]]);
+        let text = serde_json::to_string(&single).unwrap();
+        assert_eq!(text, r#"{"f32":[[0.1,-0.0],[3.4028235e+38,1e-45]]}"#);
+        for column in [single, double, Column::default()] {
+            let text = serde_json::to_string(&column).unwrap();
+            assert_eq!(format!("{:?}", serde_json::from_str::<Column<2>>(&text).unwrap()), format!("{column:?}"));
+            let tree = serde_json::to_value(&column).unwrap();
+            assert_eq!(format!("{:?}", serde_json::from_value::<Column<2>>(tree).unwrap()), format!("{column:?}"));
+        }
+    }
+
+    #[test]
+    fn what_is_no_column_is_refused() {
+        for text in
+            ["{}", r#"{"f64":[]}"#, r#"{"f32":[],"f32":[]}"#, r#"{"f32":[[1]]}"#, "[[1]]", "1", r#"{"f32":[[1e39,0]]}"#]
+        {
+            assert!(serde_json::from_str::<Column<2>>(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_changes_is_no_longer_shared() {
+        let first = Shared::from(vec![1, 2]);
+        let mut second = first.clone();
+        assert!(std::ptr::eq(first.as_ptr(), second.as_ptr()));
+        second.push(3);
+        assert_eq!((first.as_slice(), second.as_slice()), (&[1, 2][..], &[1, 2, 3][..]));
+    }
+}

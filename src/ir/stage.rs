@@ -1,0 +1,284 @@
+//! What is said about view and light on one occasion: it replaces the camera, the lights and the surroundings of a scene
+//! before it is proven. Nothing else of the scene changes.
+
+use super::{Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path, PointLight};
+use super::{Projection, Punctual, Scene};
+use crate::math::{BasisFault, Vec3, camera_basis, cos, fallback_up, sin};
+use std::f64::consts::PI;
+
+/// The view and the light; what is not given stays as it is in the scene.
+#[derive(Clone, Debug, Default)]
+pub struct Stage {
+    /// From where the scene is seen.
+    pub view: View,
+    /// By which integrator.
+    pub integrator: Option<Integrator>,
+    /// What surrounds it.
+    pub surroundings: Option<Surroundings>,
+    /// The suns that are added.
+    pub suns: Vec<Sun>,
+    /// The lights of the scene are left out.
+    pub without_lights: bool,
+}
+
+/// A view; what is not given is that of the camera of the scene, whose picture keeps its size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// Where the camera stands.
+    pub eye: Option<[f64; 3]>,
+    /// What is in the middle of the picture; beside a given eye, the middle of the scene.
+    pub center: Option<[f64; 3]>,
+    /// The upward direction; the axis of the world that is nearest to that of the camera.
+    pub up: Option<[f64; 3]>,
+    /// The angle that the picture spans from bottom to top, in radians, above 0 and below π.
+    pub yfov: Option<f64>,
+}
+
+/// By which rules light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Whitted's: direct light of lights without extent, mirrors and refraction.
+    Whitted,
+    /// All paths.
+    Path,
+}
+
+/// What surrounds the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surroundings {
+    /// The same radiance from every direction.
+    Color([f64; 3]),
+    /// A picture of all directions, of linear floats.
+    Picture(Image),
+}
+
+/// A light from infinitely far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// The direction from the scene to it, of any length but 0.
+    pub direction: [f64; 3],
+    /// The irradiance on a surface that faces it.
+    pub irradiance: [f64; 3],
+}
+
+/// Bounces of paths, where the scene was not made for them.
+const DEPTH: u32 = 16;
+
+/// So many times as far as the scene is large stands a sun for those to whom it must stand somewhere.
+const FAR: f64 = 1e4;
+
+impl Stage {
+    /// Puts view and light into a scene. True if it had no light, and was put into the studio.
+    ///
+    /// # Errors
+    /// If the view has no direction, or no upward one.
+    pub fn apply(&self, lowered: &mut Lowered) -> Result<bool, BasisFault> {
+        let Lowered { scene, origins } = lowered;
+        if self.view != View::default() {
+            self.view.apply(scene)?;
+            origins.forget(Noun::Camera);
+        }
+        if self.without_lights {
+            scene.lights.clear();
+            origins.forget(Noun::Light);
+        }
+        scene.lights.extend(self.suns.iter().map(Sun::light));
+        if let Some(surroundings) = &self.surroundings {
+            scene.environment = Some(surroundings.environment(scene));
+            origins.forget(Noun::Environment);
+        }
+        match self.integrator {
+            Some(Integrator::Path) => trace_paths(scene),
+            Some(Integrator::Whitted) => leave_paths(scene),
+            None => {}
+        }
+        let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !scene.is_lit();
+        if is_dark {
+            scene.enter_studio();
+        }
+        Ok(is_dark)
+    }
+}
+
+impl View {
+    fn apply(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+        if self.eye.is_some() || self.center.is_some() || self.up.is_some() {
+            self.aim(scene)?;
+        }
+        if let Some(yfov) = self.yfov {
+            scene.camera.open(yfov);
+        }
+        Ok(())
+    }
+
+    fn aim(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+        let middle = self.eye.and_then(|_| scene.ball()).map_or(scene.camera.center, |ball| ball.center.to_array());
+        let camera = &mut scene.camera;
+        let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
+        let center = Vec3::from_array(self.center.unwrap_or(middle));
+        // A picture of the same angle is larger the farther it is; side by side, rays make it as large everywhere.
+        let scale = match camera.projection {
+            Projection::Perspective => eye.distance(center) / camera.distance(),
+            Projection::Orthographic => 1.0,
+        };
+        let [width, height] = [camera.right, camera.up].map(|step| Vec3::from_array(step).length());
+        let pixel = height * scale;
+        let up = self.up.map_or_else(|| camera.upright(), |up| Vec3::from_array(up).normalize_or_zero());
+        let basis = match (camera_basis(eye, center, up * pixel), self.up) {
+            (Err(BasisFault::Parallel), None) => camera_basis(eye, center, fallback_up(center - eye, up * pixel)),
+            (basis, _) => basis,
+        };
+        let (right, up) = basis?;
+        (camera.eye, camera.center) = (eye.to_array(), center.to_array());
+        (camera.right, camera.up) = ((right * (width / height)).to_array(), up.to_array());
+        Ok(())
+    }
+}
+
+impl Camera {
+    /// The size of a pixel at a distance, if `height` of them span the angle `yfov` (radians).
+    #[must_use]
+    pub fn pixel(yfov: f64, distance: f64, height: u32) -> f64 {
+        2.0 * sin(yfov / 2.0) / cos(yfov / 2.0) * distance / f64::from(height)
+    }
+
+    /// The axis of the world that is nearest to the upward direction.
+    #[must_use]
+    pub fn upright(&self) -> Vec3 {
+        let up = Vec3::from_array(self.up);
+        let better = |best: Vec3, axis: Vec3| if up.dot(axis).abs() > up.dot(best).abs() { axis } else { best };
+        let axis = [Vec3::Z, Vec3::X].into_iter().fold(Vec3::Y, better);
+        if up.dot(axis) < 0.0 { -axis } else { axis }
+    }
+
+    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a point.
+    #[must_use]
+    pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
+        let (sine, cosine) = (sin(angle), cos(angle));
+        // Rodrigues' formula.
+        let turn = |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
+        let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
+        let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
+        let Self { eye, center, right, up, size, lens, projection } = self.clone();
+        Self { eye: point(eye), center: point(center), right: step(right), up: step(up), size, lens, projection }
+    }
+
+    /// From the eye to the plane of the image.
+    fn distance(&self) -> f64 {
+        let [eye, center, right, up] = [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
+        (center - eye).dot(right.cross(up).normalize_or_zero()).abs()
+    }
+
+    /// Opens to an angle from bottom to top, in radians.
+    fn open(&mut self, yfov: f64) {
+        let [_, height] = self.size;
+        let scale = Self::pixel(yfov, self.distance(), height) / Vec3::from_array(self.up).length();
+        let scaled = |step: [f64; 3]| step.map(|component| component * scale);
+        (self.right, self.up) = (scaled(self.right), scaled(self.up));
+        self.projection = Projection::Perspective;
+    }
+}
+
+impl Sun {
+    fn light(&self) -> Light {
+        let Self { direction, irradiance } = *self;
+        Light::Punctual(Punctual { emitter: Emitter::Sun { direction }, intensity: irradiance })
+    }
+}
+
+impl Surroundings {
+    fn environment(&self, scene: &mut Scene) -> Environment {
+        let (radiance, image) = match self {
+            Self::Color(radiance) => (*radiance, None),
+            Self::Picture(image) => ([1.0; 3], Some(scene.add_image(image.clone()))),
+        };
+        Environment { radiance, image, image_from_world: None }
+    }
+}
+
+impl Scene {
+    /// Adds an image.
+    pub fn add_image(&mut self, image: Image) -> ImageId {
+        self.images.push(image);
+        ImageId(u32::try_from(self.images.len() - 1).unwrap_or(u32::MAX))
+    }
+}
+
+/// Has all paths traced, if they are not.
+fn trace_paths(scene: &mut Scene) {
+    if !matches!(scene.settings.mode, Mode::Path(_)) {
+        scene.settings.mode = Mode::Path(Path::default());
+        scene.settings.max_depth = DEPTH;
+        scene.settings.supersampling = 1;
+    }
+}
+
+/// Has Whitted's integrator draw what was made for paths: with lights of the course in place of physical ones, which it
+/// does not see, and one from the left and above if there is none.
+fn leave_paths(scene: &mut Scene) {
+    if !matches!(scene.settings.mode, Mode::Path(_)) {
+        return;
+    }
+    scene.settings.mode = Mode::Phong;
+    let ball = scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
+    if scene.lights.is_empty() {
+        let key = Sun { direction: super::studio::key().to_array(), irradiance: [PI; 3] };
+        scene.lights.push(key.light());
+    }
+    for light in &mut scene.lights {
+        if let Light::Punctual(punctual) = light {
+            *light = Light::Point(as_point(punctual, ball));
+        }
+    }
+}
+
+/// The light without falloff that gives the middle of the scene as much as a physical one.
+fn as_point(light: &Punctual, ball: Ball) -> PointLight {
+    let (position, irradiance) = match &light.emitter {
+        Emitter::Sun { direction } => {
+            let direction = Vec3::from_array(*direction).normalize_or(Vec3::Y);
+            ((ball.center + direction * (FAR * ball.radius)).to_array(), 1.0)
+        }
+        Emitter::Point { position, range: _ } | Emitter::Spot { position, .. } => {
+            let square = Vec3::from_array(*position).distance_squared(ball.center);
+            (*position, 1.0 / square.max(ball.radius * ball.radius))
+        }
+    };
+    // A white surface that faces the light shows its colour here, its irradiance over π there.
+    PointLight { position, color: light.intensity.map(|channel| channel * irradiance / PI), radius: 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::Lens;
+
+    fn camera() -> Camera {
+        Camera {
+            eye: [0.0, 0.0, 10.0],
+            center: [0.0; 3],
+            right: [0.5, 0.0, 0.0],
+            up: [0.0, 0.5, 0.0],
+            size: [8, 4],
+            lens: Lens { radius: 0.0, samples: 1 },
+            projection: Projection::Perspective,
+        }
+    }
+
+    #[test]
+    fn an_angle_spans_the_height_of_the_picture() {
+        let mut camera = camera();
+        camera.open(std::f64::consts::FRAC_PI_2);
+        assert!((4.0 * camera.up[1] - 20.0).abs() < 1e-12 && (camera.right[0] - camera.up[1]).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_turn_of_a_quarter_and_the_axis_that_is_up() {
+        let turned = camera().turned(std::f64::consts::FRAC_PI_2, Vec3::Y, Vec3::new(0.0, 7.0, 0.0));
+        let near = |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b)) < 1e-12;
+        assert!(near(turned.eye, [10.0, 0.0, 0.0]) && near(turned.right, [0.0, 0.0, -0.5]), "{turned:?}");
+        assert!(near(turned.up, [0.0, 0.5, 0.0]) && near(turned.center, [0.0; 3]));
+        let tilted = Camera { up: [0.1, 0.2, -0.4], ..camera() };
+        assert_eq!((camera().upright(), tilted.upright()), (Vec3::Y, Vec3::NEG_Z));
+    }
+}

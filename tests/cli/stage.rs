@@ -1,0 +1,227 @@
+//! View and light from the command line: they mean the same as in a scene, and what they can't mean is refused.
+
+use super::{code, command, names, stderr};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+use tempfile::TempDir;
+
+/// A white Lambert square of side 2 that faces +z, before a camera at (0, 0, 3).
+fn square() -> Value {
+    let corners: [[f32; 3]; 6] =
+        [[-1., -1., 0.], [1., -1., 0.], [1., 1., 0.], [-1., -1., 0.], [1., 1., 0.], [-1., 1., 0.]];
+    let bytes: Vec<u8> = corners.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect();
+    json!({
+        "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_specular"],
+        "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [
+            {"mesh": 0},
+            {"camera": 0, "name": "front", "translation": [0, 0, 3]},
+            {"camera": 1, "translation": [1, 0, 3]}],
+        "cameras": [
+            {"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 1.0, "znear": 0.1}},
+            {"name": "wide", "type": "perspective", "perspective": {"yfov": 1.0, "aspectRatio": 1.0, "znear": 0.1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{
+            "pbrMetallicRoughness": {"metallicFactor": 0}, "doubleSided": true,
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}],
+        "accessors": [{
+            "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 6, "min": [-1, -1, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 72}],
+        "buffers": [{
+            "byteLength": 72, "uri": format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes))}],
+    })
+}
+
+/// The square under a directional light of its own that shines along −z.
+fn sunny() -> Value {
+    let mut asset = square();
+    asset["extensionsUsed"] = json!(["KHR_materials_specular", "KHR_lights_punctual"]);
+    asset["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}});
+    asset["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+    asset
+}
+
+/// A scene of the course, seen from `eye`.
+fn course(eye: &str) -> String {
+    format!(
+        "Camera: {{eye: {eye}, center: [1, 2, 0], up: [0, 0.5, 0], viewSize: [24, 16]}}\nShadows: true\n\
+         Lights:\n- {{position: [30, 40, 60], color: [1, 1, 1]}}\nObjects:\n- type: sphere\n  position: [1, 2, 0]\n  \
+         radius: 3\n  material: {{color: [1, 0.5, 0.2], ka: 0.2, kd: 0.7, ks: 0, n: 1}}\n- type: plane\n  position: \
+         [0, -3, 0]\n  normal: [0, 1, 0]\n  material: {{color: [0.3, 0.5, 0.7], ka: 0.2, kd: 0.7, ks: 0, n: 1}}\n"
+    )
+}
+
+/// Two by two pixels of 0.5.
+const GREY_SKY: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80\x80";
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
+    write("square.gltf", square().to_string().as_bytes());
+    write("sunny.gltf", sunny().to_string().as_bytes());
+    write("ball.yaml", course("[1, 2, 10]").as_bytes());
+    write("beside.yaml", course("[7, 2, 8]").as_bytes());
+    write("sky.hdr", GREY_SKY);
+    write("broken.hdr", &GREY_SKY[..50]);
+    folder
+}
+
+fn rtc(folder: &Path, words: &str) -> Output {
+    command(folder, &words.split_whitespace().collect::<Vec<_>>()).output().unwrap()
+}
+
+/// The bytes of the picture that `rtc render` makes.
+fn picture(folder: &Path, words: &str) -> Vec<u8> {
+    let output = rtc(folder, &format!("render {words} -q -o -"));
+    assert_eq!(code(&output), 0, "{words}: {}", stderr(&output));
+    output.stdout
+}
+
+/// The values of all channels of a picture.
+fn values(folder: &Path, words: &str) -> Vec<u8> {
+    rtc::image::decode(&picture(folder, &format!("{words} --size 8x8"))).unwrap().bytes
+}
+
+#[test]
+fn what_contradicts_itself_or_is_out_of_range_is_refused() {
+    let folder = folder();
+    let wrong = [
+        "--env sky.hdr --env-color 1",
+        "--env none.hdr",
+        "--env-color -1",
+        "--sun 0,0,0,1",
+        "--sun 0,1,0",
+        "--eye 1,2",
+        "--up 0,0,0",
+        "--yfov 180",
+        "--integrator rasterizer",
+        "--turntable 0",
+        "--turntable 2 --verify-effects",
+        "--turntable 2 -o -",
+    ];
+    for words in wrong {
+        let output = rtc(folder.path(), &format!("render ball.yaml {words}"));
+        assert_eq!(code(&output), 2, "{words}: {}", stderr(&output));
+    }
+    let found = [
+        ("ball.yaml --env broken.hdr", "RE004"),
+        ("ball.yaml --env ball.yaml", "RE004"),
+        ("ball.yaml --eye 1,2,0", "VA104"),
+        ("ball.yaml --eye 1,9,0 --center 1,2,0 --up 0,1,0", "VA106"),
+        ("square.gltf --camera back", "GL048"),
+    ];
+    for (words, finding) in found {
+        let output = rtc(folder.path(), &format!("render {words}"));
+        assert_eq!(code(&output), 1, "{words}");
+        assert!(stderr(&output).contains(&format!("error[{finding}]")), "{words}: {}", stderr(&output));
+    }
+    let before = ["ball.yaml", "beside.yaml", "broken.hdr", "sky.hdr", "square.gltf", "sunny.gltf"];
+    assert_eq!(names(folder.path()), before);
+}
+
+#[test]
+fn a_view_asked_for_is_that_of_a_camera_there() {
+    let folder = folder();
+    let show = |words: &str| picture(folder.path(), words);
+    let beside = show("beside.yaml");
+    assert_eq!(show("ball.yaml --eye 7,2,8 --center 1,2,0"), beside, "the angle of the picture stays");
+    assert_eq!(show("ball.yaml --eye 7,2,8"), beside, "the middle of the scene is that of the ball");
+    assert_eq!(show("ball.yaml --eye 7,2,8 --up 0,3,0"), beside, "only the direction counts");
+    assert_ne!(show("ball.yaml"), beside);
+    assert_eq!(
+        show("ball.yaml --yfov 50"),
+        show("ball.yaml --eye 1,2,10 --yfov 50"),
+        "a wider lens stays in its place"
+    );
+    assert_ne!(show("ball.yaml --yfov 50"), show("ball.yaml"));
+    assert!(!show("ball.yaml --eye 1,9,0").is_empty(), "from above some direction is up");
+}
+
+#[test]
+fn a_camera_is_found_by_its_name_that_of_its_node_and_its_index() {
+    let folder = folder();
+    let show = |words: &str| picture(folder.path(), &format!("square.gltf --size 8x8 --spp 4 {words}"));
+    let (first, wide) = (show(""), show("--camera wide"));
+    assert_eq!([show("--camera front"), show("--camera 0")], [first.clone(), first.clone()]);
+    assert_eq!(show("--camera 1"), wide);
+    assert_ne!(first, wide);
+}
+
+#[test]
+fn a_sun_asked_for_is_the_light_of_an_asset() {
+    let folder = folder();
+    let show = |words: &str| picture(folder.path(), &format!("{words} --size 8x8 --spp 4"));
+    let sunny = show("sunny.gltf");
+    assert_eq!(show("square.gltf --sun 0,0,3,2"), sunny);
+    assert_eq!(show("sunny.gltf --no-scene-lights --sun 0,0,1,2,2,2"), sunny);
+    let one = values(folder.path(), "sunny.gltf --spp 4");
+    let two = values(folder.path(), "square.gltf --sun 0,0,1,0.5 --sun 0,0,1,1.5 --spp 4");
+    assert!(one.iter().zip(&two).all(|(one, two)| one.abs_diff(*two) <= 1), "suns add up: {one:?} {two:?}");
+}
+
+#[test]
+fn a_white_surface_under_an_even_sky_is_the_sky() {
+    let folder = folder();
+    let grey = 187;
+    let even = values(folder.path(), "square.gltf --env-color 0.5 --spp 4");
+    assert!(even.iter().all(|value| value.abs_diff(grey) <= 1), "{even:?}");
+    let sky = values(folder.path(), "square.gltf --env sky.hdr --spp 64");
+    let mean = sky.iter().map(|value| f64::from(*value)).sum::<f64>() / sky.len() as f64;
+    assert!((mean - f64::from(grey)).abs() < 2.0, "{mean}");
+    let warm = values(folder.path(), "square.gltf --env-color 1,0.5,0 --spp 4");
+    assert!(warm.chunks(3).all(|pixel| pixel[0] >= 254 && pixel[1].abs_diff(grey) <= 1 && pixel[2] == 0), "{warm:?}");
+}
+
+#[test]
+fn what_has_no_light_stands_in_the_studio() {
+    let folder = folder();
+    let told = |words: &str| stderr(&rtc(folder.path(), &format!("render {words} --size 8x8 --spp 4 -v -o x.png")));
+    assert!(told("square.gltf").contains("note[RD003]") && told("sunny.gltf --no-scene-lights").contains("RD003"));
+    for lit in [
+        "sunny.gltf",
+        "square.gltf --env-color 0",
+        "square.gltf --sun 0,0,1,1",
+        "square.gltf --env sky.hdr",
+        "ball.yaml",
+    ] {
+        assert!(!told(lit).contains("RD003"), "{lit}");
+    }
+    let dark = values(folder.path(), "square.gltf --env-color 0 --spp 4");
+    assert!(dark.iter().all(|value| *value == 0));
+    let studio = values(folder.path(), "square.gltf --spp 64");
+    assert!(studio.iter().all(|value| (40..250).contains(value)), "{studio:?}");
+    assert_eq!(code(&rtc(folder.path(), "compile square.gltf -o square.rtir")), 0);
+    assert_eq!(values(folder.path(), "square.rtir --spp 64"), studio, "the studio is part of the IR");
+}
+
+#[test]
+fn either_integrator_shows_either_kind_of_scene() {
+    let folder = folder();
+    let show = |words: &str| picture(folder.path(), &format!("{words} --size 12x8"));
+    assert_eq!(show("ball.yaml --integrator whitted"), show("ball.yaml"));
+    let paths = values(folder.path(), "ball.yaml --integrator path --spp 16");
+    assert!(paths.iter().any(|value| *value > 100) && show("ball.yaml --integrator path") != show("ball.yaml"));
+    for asset in ["square.gltf", "sunny.gltf"] {
+        let middle = values(folder.path(), &format!("{asset} --integrator whitted"))[3 * (4 * 8 + 4)];
+        assert!(middle > 100, "{asset}: {middle}");
+    }
+}
+
+#[test]
+fn a_turntable_is_so_many_pictures_all_around() {
+    let folder = folder();
+    let made = rtc(folder.path(), "render beside.yaml --turntable 3 -o out-%02d.png");
+    assert_eq!((code(&made), stderr(&made).lines().count()), (0, 3), "{}", stderr(&made));
+    let frame = |number: u32| fs::read(folder.path().join(format!("out-0{number}.png"))).unwrap();
+    assert_eq!(frame(1), picture(folder.path(), "beside.yaml"), "the first is the view of the scene");
+    assert!(frame(1) != frame(2) && frame(2) != frame(3) && frame(1) != frame(3));
+    assert_eq!(code(&rtc(folder.path(), "render beside.yaml -q --turntable 1")), 0);
+    let made = ["beside-0001.png", "out-01.png", "out-02.png", "out-03.png"];
+    let pictures: Vec<_> =
+        names(folder.path()).into_iter().filter(|name| !name.contains("gltf") && name.ends_with(".png")).collect();
+    assert_eq!(pictures, made);
+}
