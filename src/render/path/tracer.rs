@@ -4,13 +4,14 @@ use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
 use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
-use super::super::progressive::{Sampling, Tone};
+use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
 use super::lights::{Incident, Lights};
 use super::material::{Frame, Point};
 use super::sobol::{CORNERS, FILM, LENS, Sobol};
+use crate::color::Tone;
 use crate::math::{Vec3, cos_sin_turns, exp};
 use crate::valid::{Alpha, Path};
 
@@ -84,12 +85,12 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let count = self.path.samples.get();
-        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
+        let sum = (0..count).map(|index| self.sample_of(pixel, index, job.seeds, job.behind)).sum::<Vec3>();
         sum / f64::from(count)
     }
 
     /// The radiance along path `index` of a pixel.
-    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds) -> Vec3 {
+    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds, behind: Behind) -> Vec3 {
         let sobol = Sobol::new(pixel, index, seeds);
         let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
@@ -269,10 +270,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 }
 
 impl<S: Geometry> Sampling for Tracer<'_, S> {
-    const TONE: Tone = Tone::Encoded;
+    const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
-        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
+        let seeds = Seeds { pixel: number, lens: number, path: number };
+        self.sample_of(pixel, index, seeds, Behind::Surroundings)
     }
 
     fn counts(&self) -> Counts {
