@@ -14,27 +14,18 @@ use super::sequence::Sequence;
 use super::shape::Shape;
 use super::whitted::Tracer;
 use super::world::World;
-use crate::color::srgb_encoded;
+use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
 use crate::plan::{Arithmetic, Plan, Shapes};
 use crate::valid::{Mode, ValidScene};
 use rayon::prelude::*;
 
-/// What a picture shows of the samples of a pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Tone {
-    /// The mean of samples that are each clamped to [0, 1].
-    #[default]
-    Clamped,
-    /// The code of sRGB of the mean.
-    Encoded,
-}
-
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Strands {
-    tone: Tone,
+    /// How the mean of the samples is shown; none where each is clamped to [0, 1].
+    tone: Option<Tone>,
     /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
@@ -166,8 +157,8 @@ impl Strands {
     pub fn variance_of_half(&self, half: usize) -> f64 {
         let (n, [a, b]) = (f64::from(self.counts[half].max(1)), [self.sums[2 * half], self.sums[2 * half + 1]]);
         let apart = match self.tone {
-            Tone::Clamped => (a - b) / n,
-            Tone::Encoded => encoded(a / n) - encoded(b / n),
+            None => (a - b) / n,
+            Some(tone) => shown(tone, a / n) - shown(tone, b / n),
         };
         apart.length_squared() / 12.0
     }
@@ -180,8 +171,11 @@ impl Strands {
         let square = self.squares[half] - sum.length_squared() / n.max(1.0);
         let variance = square.max(0.0) / (3.0 * (n - 1.0).max(1.0));
         match self.tone {
-            Tone::Clamped => variance,
-            Tone::Encoded => variance * slope(sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt()),
+            None => variance,
+            Some(tone) => {
+                let (mean, deviation) = (sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt());
+                variance * slope(tone, mean, deviation)
+            }
         }
     }
 
@@ -201,7 +195,10 @@ impl Strands {
             sum / (2.0 * f64::from(self.counts[half].max(1)))
         };
         let mean = (of(0) + of(1)) * 0.5;
-        if self.tone == Tone::Encoded && values == Values::Display { encoded(mean) } else { mean }
+        match (values, self.tone) {
+            (Values::Display, Some(tone)) => shown(tone, mean),
+            (Values::Display | Values::Linear, _) => mean,
+        }
     }
 
     /// Takes the samples of a pixel that the strands lack of those wanted.
@@ -212,8 +209,8 @@ impl Strands {
             for index in self.counts[half]..wanted[half] {
                 let radiance = tracer.sample(pixel, number, index);
                 let shown = match self.tone {
-                    Tone::Clamped => radiance.clamp(Vec3::ZERO, Vec3::ONE),
-                    Tone::Encoded => radiance,
+                    None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+                    Some(_) => radiance,
                 };
                 self.sums[strand] += shown;
                 self.squares[half] += shown.length_squared();
@@ -225,24 +222,24 @@ impl Strands {
     }
 }
 
-fn encoded(mean: Vec3) -> Vec3 {
-    mean.map(srgb_encoded)
+fn shown(tone: Tone, mean: Vec3) -> Vec3 {
+    Vec3::from_array(tone.display(mean.to_array()))
 }
 
-/// The square of how much faster the code of sRGB grows than what it stands for, about a mean of the deviation given.
-fn slope(mean: f64, deviation: f64) -> f64 {
+/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the deviation given.
+fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
     if deviation == 0.0 {
         return 0.0;
     }
-    let rise = srgb_encoded(mean + deviation) - srgb_encoded(mean - deviation);
-    let slope = rise / (2.0 * deviation);
+    let [low, high] = [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
+    let slope = (high - low) / (2.0 * deviation);
     slope * slope
 }
 
 /// What takes samples of pixels.
 pub(super) trait Sampling {
-    /// What its samples are to the picture.
-    const TONE: Tone;
+    /// How the mean of its samples is shown; none where each is clamped to [0, 1].
+    const TONE: Option<Tone>;
 
     /// Sample `index` of strand `number` of a pixel, strands of other numbers being independent.
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3;
@@ -286,7 +283,7 @@ impl<S: Geometry> World<S> {
 const STRAND: u64 = u64::MAX - 2;
 
 impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
-    const TONE: Tone = Tone::Clamped;
+    const TONE: Option<Tone> = None;
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
         let camera = self.scene().camera();

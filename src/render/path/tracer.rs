@@ -4,13 +4,14 @@ use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
 use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
-use super::super::progressive::{Sampling, Tone};
+use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, World};
 use super::Strategy;
 use super::lights::{Incident, Lights};
 use super::material::{Frame, Point};
 use super::sobol::{CORNERS, FILM, LENS, Sobol};
+use crate::color::Tone;
 use crate::math::{Vec3, cos_sin_turns, exp};
 use crate::valid::{Alpha, Path};
 
@@ -269,7 +270,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 }
 
 impl<S: Geometry> Sampling for Tracer<'_, S> {
-    const TONE: Tone = Tone::Encoded;
+    const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
         self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
