@@ -17,7 +17,7 @@ trap 'rm -rf "$new"' EXIT
 for target in "${targets[@]}"; do
     mkdir "$new/$target"
     echo "fuzz $target for $share s"
-    cargo fuzz run -s none "$target" "$new/$target" "fuzz/corpus/$target" scenes tests/codec/v0 tests/codec/v1 -- \
+    cargo fuzz run -s none "$target" "$new/$target" "fuzz/corpus/$target" scenes tests/codec/v{0,1,2,3} -- \
         -max_total_time="$share" -timeout=5 -rss_limit_mb=2048 -max_len=20000 -dict=fuzz/yaml.dict -verbosity=0 \
         >"$new/log" 2>&1 || { tail -n 40 "$new/log"; exit 1; }
 done

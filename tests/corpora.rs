@@ -10,7 +10,7 @@ use rtc::pipeline::trial;
 use std::path::{Path, PathBuf};
 
 /// The folders every target starts from.
-const SEEDS: &[&str] = &["scenes", "tests/codec/v0", "tests/codec/v1"];
+const SEEDS: &[&str] = &["scenes", "tests/codec/v0", "tests/codec/v1", "tests/codec/v2", "tests/codec/v3"];
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);

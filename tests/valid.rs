@@ -75,7 +75,6 @@ fn each_fault_is_named_at_its_place() {
         ("/textures/0/image", json!(1), "VA014", "/textures/0"),
         ("/materials/0/phong/colorMap", json!(2), "VA014", "/materials/0/phong/colorMap"),
         ("/images/0/pixels", json!("AAAAAAAA"), "VA017", "/images/0"),
-        ("/images/0/pixels", json!("not Base64"), "VA017", "/images/0"),
         ("/images/0/width", json!(u32::MAX), "VA017", "/images/0"),
         ("/meshes/0/triangles/0", json!([0, 1, 3]), "VA018", "/meshes/0"),
         ("/meshes/0/positions/1", json!([1e61, 0.0, 0.0]), "VA018", "/meshes/0"),

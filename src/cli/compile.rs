@@ -10,6 +10,7 @@ use super::talk::Talk;
 use crate::codec::{self, Form};
 use crate::front::course;
 use crate::ir::Scene;
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Compiles the scene and writes it.
@@ -33,10 +34,10 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
         output::to_stdout(Report::new(&proven, &input)?.print(form).as_bytes())?;
     }
     let Some(target) = target(args) else { return Ok(()) };
-    let bytes = encode(emit, &proven.lowered.scene)
+    let write = writer(emit, &proven.lowered.scene)
         .map_err(|reason| Failure::Input(format!("`{}` can't be written so: {reason}", input.name())))?;
     let interrupt = Interrupt::listen()?;
-    Output::open(target, &interrupt)?.commit(&bytes, &interrupt)
+    Output::open(target, &interrupt)?.commit_by(&write, &interrupt)
 }
 
 /// Where the IR goes, if anywhere: an explanation takes its place on standard output.
@@ -60,11 +61,16 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
     }
 }
 
-fn encode(emit: Emit, scene: &Scene) -> Result<Vec<u8>, String> {
-    let ir = |form| codec::encode(form, scene).map_err(|codec::NotFinite| "a number is not finite".to_owned());
-    match emit {
-        Emit::Ir => ir(Form::Text),
-        Emit::IrBin => ir(Form::Binary),
-        Emit::Yaml => course::emit(scene).map(String::into_bytes),
-    }
+/// What writes the scene in this form.
+fn writer(emit: Emit, scene: &Scene) -> Result<impl Fn(&mut dyn Write) -> io::Result<()>, String> {
+    let ir = |form| codec::prepare(form, scene).map_err(|codec::NotFinite| "a number is not finite".to_owned());
+    let (encoded, text) = match emit {
+        Emit::Ir => (Some(ir(Form::Text)?), String::new()),
+        Emit::IrBin => (Some(ir(Form::Binary)?), String::new()),
+        Emit::Yaml => (None, course::emit(scene)?),
+    };
+    Ok(move |out: &mut dyn Write| match &encoded {
+        Some(encoded) => encoded.write(out),
+        None => out.write_all(text.as_bytes()),
+    })
 }

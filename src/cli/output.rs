@@ -24,6 +24,9 @@ pub(super) enum Output {
     },
 }
 
+/// What writes a result.
+type Writer<'w> = &'w dyn Fn(&mut dyn Write) -> io::Result<()>;
+
 impl Output {
     /// Prepares to write to `path`, `-` being standard output, so that a long work is not done in vain.
     ///
@@ -54,14 +57,19 @@ impl Output {
 
     /// Writes the result; a file appears under its name only now, and not after Ctrl-C.
     pub(super) fn commit(self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), Failure> {
+        self.commit_by(&|out| out.write_all(bytes), interrupt)
+    }
+
+    /// The same with a result that is written part by part.
+    pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
         let (target, written) = match self {
-            Self::Stdout => return to_stdout(bytes),
+            Self::Stdout => return by_stdout(write),
             Self::Stream(target) => {
-                let written = OpenOptions::new().write(true).open(&target).and_then(|mut to| to.write_all(bytes));
+                let written = OpenOptions::new().write(true).open(&target).and_then(|mut to| write(&mut to));
                 (target, written)
             }
             Self::File { target, mut draft } => {
-                let synced = draft.write_all(bytes).and_then(|()| draft.as_file().sync_all());
+                let synced = write(&mut draft).and_then(|()| draft.as_file().sync_all());
                 if interrupt.is_raised() {
                     return Err(Failure::Interrupted);
                 }
@@ -98,8 +106,12 @@ fn failure(name: &str, error: &io::Error) -> Failure {
 
 /// Writes to standard output; if its reader has gone that is no failure of ours.
 pub(super) fn to_stdout(bytes: &[u8]) -> Result<(), Failure> {
+    by_stdout(&|out| out.write_all(bytes))
+}
+
+fn by_stdout(write: Writer<'_>) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    let written = stdout.write_all(bytes).and_then(|()| stdout.flush());
+    let written = write(&mut stdout).and_then(|()| stdout.flush());
     written.map_err(|error| failure("standard output", &error))
 }
 

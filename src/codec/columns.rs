@@ -4,10 +4,10 @@
 //! No entity of the IR is named here: the tables describe themselves, so a file of an older version yields the tree of
 //! that version. Integers stay integers and floats keep every bit.
 
-use super::Decoded;
 use super::binary::Container;
 use super::run::{self, Run};
-use super::section::{Body, Element, Section};
+use super::section::{Body, Content, Element, Section};
+use super::{Decoded, NotFinite, tree};
 use crate::diag::codes;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -60,12 +60,13 @@ struct Taken {
     runs: Vec<Run>,
 }
 
-/// Moves the numbers of `entities` into sections of `body`.
-pub(super) fn pack(key: String, entities: Vec<Value>, body: &mut Body) -> Table {
+/// Moves the numbers of `entities` into sections of `body`; only one entity at a time is a tree.
+pub(super) fn pack<T: Serialize>(key: &str, entities: &[T], body: &mut Body<'_>) -> Result<Table, NotFinite> {
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
     let mut kinds: Vec<(Value, Taken)> = Vec::new();
     let mut order = Vec::new();
-    for mut entity in entities {
+    for entity in entities {
+        let mut entity = tree(entity)?;
         let mut taken = Taken::default();
         take(&mut entity, &mut taken, body);
         let name = format!("{entity}{:?}", taken.slots);
@@ -81,15 +82,15 @@ pub(super) fn pack(key: String, entities: Vec<Value>, body: &mut Body) -> Table 
             }
         }
     }
-    let order = body.push(Element::U32, 1, &order);
+    let order = body.push(Element::U32, 1, Content::Bytes(order.into()));
     let kinds = kinds.into_iter().map(|(entity, taken)| store(entity, taken, body)).collect();
-    Table { key, order, kinds }
+    Ok(Table { key: key.to_owned(), order, kinds })
 }
 
-fn store(entity: Value, taken: Taken, body: &mut Body) -> Kind {
+fn store(entity: Value, taken: Taken, body: &mut Body<'_>) -> Kind {
     let Taken { slots: numbers, floats, integers, runs } = taken;
-    let floats = body.push(Element::F64, count(&numbers, Slot::F64), &floats);
-    let integers = body.push(Element::U32, count(&numbers, Slot::U32), &integers);
+    let floats = body.push(Element::F64, count(&numbers, Slot::F64), Content::Bytes(floats.into()));
+    let integers = body.push(Element::U32, count(&numbers, Slot::U32), Content::Bytes(integers.into()));
     Kind { entity, numbers, floats, integers, runs }
 }
 
@@ -98,7 +99,7 @@ fn count(numbers: &[Slot], slot: Slot) -> usize {
 }
 
 /// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay: the IR has none.
-fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body) {
+fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body<'_>) {
     if let Some(run) = run::store(tree, body) {
         taken.runs.push(run);
         taken.slots.push(Slot::Run);
@@ -127,7 +128,7 @@ fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body) {
 /// The sections of a file, and how much more may be made of them: memory stays within a constant times its length.
 pub(super) struct Stock<'a> {
     sections: &'a [Section<'a>],
-    /// Which sections a run was made of: no two may be made of one.
+    /// Which sections a run, a column or an image was made of: no two may be made of one.
     spent: Vec<bool>,
     /// How many bytes of text the kinds may still repeat.
     text: usize,
@@ -138,17 +139,25 @@ impl<'a> Stock<'a> {
         Self { sections, spent: vec![false; sections.len()], text: file.bytes.len().saturating_mul(8) }
     }
 
-    /// True for runs that are sound and of sections that no other run is made of.
+    /// The section, unless something else was made of it before.
+    pub(super) fn take(&mut self, section: usize) -> Option<&'a Section<'a>> {
+        let spent = self.spent.get_mut(section)?;
+        (!std::mem::replace(spent, true)).then(|| &self.sections[section])
+    }
+
+    /// True for runs that are sound and of sections that nothing else is made of.
     fn spend(&mut self, runs: &[Run]) -> bool {
-        runs.iter().all(|run| {
-            let spent = self.spent.get_mut(run.section);
-            spent.is_some_and(|spent| !std::mem::replace(spent, true)) && run.is_sound(&self.sections[run.section])
-        })
+        runs.iter().all(|run| self.take(run.section).is_some_and(|section| run.is_sound(section)))
     }
 }
 
-/// The list a table was packed from.
-pub(super) fn unpack(table: &Table, stock: &mut Stock<'_>, file: &Container) -> Decoded<Vec<Value>> {
+/// Hands on each entity of the list a table was packed from.
+pub(super) fn unpack(
+    table: &Table,
+    stock: &mut Stock<'_>,
+    file: &Container,
+    mut take: impl FnMut(Value) -> Decoded<()>,
+) -> Decoded<()> {
     let malformed = |what: &str| {
         file.fault(&codes::MALFORMED, format!("table `{}` {what}", table.key.escape_debug()), 0, file.bytes.len())
     };
@@ -167,12 +176,11 @@ pub(super) fn unpack(table: &Table, stock: &mut Stock<'_>, file: &Container) -> 
         let source = kind.source(stock.sections, records).filter(|_| stock.spend(&kind.runs));
         sources.push(source.ok_or_else(|| malformed("has sections of another length or kind than it says"))?);
     }
-    let mut entity = |kind: &u32| {
+    order.iter().try_for_each(|kind| {
         let mut entity = table.kinds[*kind as usize].entity.clone();
         put(&mut entity, &mut sources[*kind as usize]);
-        entity
-    };
-    Ok(order.iter().map(&mut entity).collect())
+        take(entity)
+    })
 }
 
 /// Where what the nulls of one kind stand for is read from.

@@ -1,11 +1,14 @@
 //! The IR as bytes: a compact JSON text and a binary container with checksums, both with a version.
 //!
 //! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both forms hold the same
-//! tree of JSON values, so a step of `upgrade.rs` is written once and serves both.
+//! tree of JSON values, so a step of `upgrade.rs` is written once and serves both; only the columns of meshes and the
+//! pixels of images go from the scene to a container and back as they are.
 
 mod binary;
 mod columns;
+mod image;
 mod locate;
+mod mesh;
 mod print;
 mod run;
 mod schema;
@@ -18,7 +21,9 @@ pub use schema::schema;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::{Scene, VERSION};
 use crate::source::{FileId, SourceMap, Span};
+use serde::Serialize;
 use serde_json::Value;
+use std::io::{self, Write};
 
 /// The two forms the IR is stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,20 +59,52 @@ pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Opt
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotFinite;
 
+/// A scene encoded, and not yet written.
+pub struct Encoded<'s>(Writing<'s>);
+
+enum Writing<'s> {
+    Text(Vec<u8>),
+    Binary(binary::Draft<'s>),
+}
+
+impl Encoded<'_> {
+    /// Writes the file, a part at a time: columns and pixels are never in memory twice.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        match &self.0 {
+            Writing::Text(text) => out.write_all(text),
+            Writing::Binary(draft) => draft.write(out),
+        }
+    }
+}
+
 /// Encodes a scene. The same scene gives the same bytes, always.
 ///
 /// # Errors
 /// If a number is not finite: JSON has no word for it.
+pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
+    Ok(Encoded(match form {
+        Form::Text => Writing::Text(print::document(scene)?),
+        Form::Binary => Writing::Binary(binary::encode(scene)?),
+    }))
+}
+
+/// The bytes of an encoded scene.
+///
+/// # Errors
+/// As [`prepare`].
 pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
-    let tree = serde_json::to_value(scene).expect("a scene is structs, lists and numbers, which JSON holds");
-    let Value::Object(tree) = tree else { unreachable!("a scene is a struct, and so a map") };
-    if tree.values().any(has_null) {
-        return Err(NotFinite);
-    }
-    Ok(match form {
-        Form::Text => print::document(tree).into_bytes(),
-        Form::Binary => binary::encode(tree),
-    })
+    let mut bytes = Vec::new();
+    prepare(form, scene)?.write(&mut bytes).expect("memory takes all there is to write");
+    Ok(bytes)
+}
+
+/// A part of a scene as a tree.
+fn tree(part: &impl Serialize) -> Result<Value, NotFinite> {
+    let tree = serde_json::to_value(part).expect("a scene is structs, lists and numbers, which JSON holds");
+    if has_null(&tree) { Err(NotFinite) } else { Ok(tree) }
 }
 
 /// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.

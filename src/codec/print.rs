@@ -2,65 +2,113 @@
 //!
 //! So an entity is a line, a setting is a line, and a change to one is a change of one line.
 
-use crate::ir::VERSION;
-use serde_json::{Map, Value};
+use super::NotFinite;
+use crate::ir::{Scene, VERSION};
+use serde::Serialize;
+use serde_json::Serializer;
+use serde_json::ser::Formatter;
+use std::io::{self, ErrorKind, Write};
 
 /// Levels that are broken into lines.
 const BROKEN: usize = 2;
 
-/// The document of a scene's tree, with `irVersion` first and a line end at the end.
-pub(super) fn document(tree: Map<String, Value>) -> String {
-    let mut members = Map::new();
-    members.insert("irVersion".to_owned(), VERSION.into());
-    members.extend(tree);
-    let mut out = String::new();
-    value(&mut out, &Value::Object(members), 0);
-    out.push('\n');
-    out
+/// The document of a scene.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Document<'s> {
+    ir_version: u32,
+    #[serde(flatten)]
+    scene: &'s Scene,
 }
 
-fn value(out: &mut String, tree: &Value, level: usize) {
-    match tree {
-        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => out.push_str(&tree.to_string()),
-        Value::Array(items) => {
-            list(out, ['[', ']'], level, items.iter(), |out, item| value(out, item, level + 1));
-        }
-        Value::Object(members) => list(out, ['{', '}'], level, members.iter(), |out, (key, member)| {
-            out.push_str(&Value::from(key.as_str()).to_string());
-            out.push_str(": ");
-            value(out, member, level + 1);
-        }),
-    }
+/// The text of a scene, with `irVersion` first and a line end at the end.
+pub(super) fn document(scene: &Scene) -> Result<Vec<u8>, NotFinite> {
+    let mut text = Vec::new();
+    let mut serializer = Serializer::with_formatter(&mut text, Layout::default());
+    // Memory takes all there is to write, so what fails is the layout, and that at numbers that are none.
+    Document { ir_version: VERSION, scene }.serialize(&mut serializer).map_err(|_| NotFinite)?;
+    text.push(b'\n');
+    Ok(text)
 }
 
-fn list<T>(
-    out: &mut String,
-    [open, close]: [char; 2],
+#[derive(Default)]
+struct Layout {
+    /// How many lists and maps are open.
     level: usize,
-    items: impl ExactSizeIterator<Item = T>,
-    mut write: impl FnMut(&mut String, T),
-) {
-    let broken = level < BROKEN && items.len() > 0;
-    out.push(open);
-    for (index, item) in items.enumerate() {
-        match (broken, index) {
-            (true, 0) => new_line(out, level + 1),
-            (true, _) => {
-                out.push(',');
-                new_line(out, level + 1);
-            }
-            (false, 0) => {}
-            (false, _) => out.push_str(", "),
-        }
-        write(out, item);
-    }
-    if broken {
-        new_line(out, level);
-    }
-    out.push(close);
+    /// The innermost one has an item.
+    filled: bool,
 }
 
-fn new_line(out: &mut String, level: usize) {
-    out.push('\n');
-    out.extend(std::iter::repeat_n("  ", level));
+impl Layout {
+    fn open(&mut self, out: &mut (impl Write + ?Sized), bracket: &[u8]) -> io::Result<()> {
+        (self.level, self.filled) = (self.level + 1, false);
+        out.write_all(bracket)
+    }
+
+    fn item(&self, out: &mut (impl Write + ?Sized), first: bool) -> io::Result<()> {
+        match (self.level <= BROKEN, first) {
+            (true, true) => self.new_line(out),
+            (true, false) => out.write_all(b",").and_then(|()| self.new_line(out)),
+            (false, true) => Ok(()),
+            (false, false) => out.write_all(b", "),
+        }
+    }
+
+    fn close(&mut self, out: &mut (impl Write + ?Sized), bracket: &[u8]) -> io::Result<()> {
+        self.level -= 1;
+        if self.filled && self.level < BROKEN {
+            self.new_line(out)?;
+        }
+        out.write_all(bracket)
+    }
+
+    fn new_line(&self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        out.write_all(b"\n")?;
+        (0..self.level).try_for_each(|_| out.write_all(b"  "))
+    }
+}
+
+impl Formatter for Layout {
+    /// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.
+    fn write_null<W: ?Sized + Write>(&mut self, _out: &mut W) -> io::Result<()> {
+        Err(ErrorKind::InvalidData.into())
+    }
+
+    fn begin_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.open(out, b"[")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        self.item(out, first)
+    }
+
+    fn end_array_value<W: ?Sized + Write>(&mut self, _out: &mut W) -> io::Result<()> {
+        self.filled = true;
+        Ok(())
+    }
+
+    fn end_array<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.close(out, b"]")
+    }
+
+    fn begin_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.open(out, b"{")
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, out: &mut W, first: bool) -> io::Result<()> {
+        self.item(out, first)
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        out.write_all(b": ")
+    }
+
+    fn end_object_value<W: ?Sized + Write>(&mut self, _out: &mut W) -> io::Result<()> {
+        self.filled = true;
+        Ok(())
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, out: &mut W) -> io::Result<()> {
+        self.close(out, b"}")
+    }
 }

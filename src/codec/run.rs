@@ -1,8 +1,9 @@
-//! Long lists of numbers and long texts, each in a section of its own: the corners of a mesh, the pixels of an image.
+//! Long lists of numbers and long texts, each in a section of its own; in older files the pixels of images, and the
+//! corners of meshes.
 //!
 //! Which they are is seen from the values alone; no entity of the IR is named here.
 
-use super::section::{Body, Element, Section};
+use super::section::{Body, Content, Element, Section};
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
 
@@ -22,15 +23,19 @@ pub(super) struct Run {
 }
 
 /// Puts the value into a section if it is long and regular.
-pub(super) fn store(value: &Value, body: &mut Body) -> Option<Run> {
+pub(super) fn store(value: &Value, body: &mut Body<'_>) -> Option<Run> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
-            Some(Run { section: body.push(Element::U8, 1, text.as_bytes()), nested: false })
+            let bytes = Content::Bytes(text.as_bytes().to_vec().into());
+            Some(Run { section: body.push(Element::U8, 1, bytes), nested: false })
         }
         Value::Array(items) if items.len() > LONG_LIST => {
             let stride = items[0].as_array().map(Vec::len);
             let (element, bytes) = numbers(items, stride)?;
-            Some(Run { section: body.push(element, stride.unwrap_or(1), &bytes), nested: stride.is_some() })
+            Some(Run {
+                section: body.push(element, stride.unwrap_or(1), Content::Bytes(bytes.into())),
+                nested: stride.is_some(),
+            })
         }
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => None,
     }
@@ -77,8 +82,8 @@ pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
             .map(Value::Number)
             .expect("sections hold finite numbers: checked on opening"),
         Element::U32 => Value::from(section.u32(at)),
-        Element::U8 => {
-            unreachable!("a section of text is a run or is refused, in `Run::is_sound` and `Section::holds`")
+        Element::F32 | Element::U8 => {
+            unreachable!("tables hold no such numbers: refused in `Run::is_sound` and `Section::holds`")
         }
     }
 }
@@ -88,6 +93,7 @@ impl Run {
     pub(super) fn is_sound(&self, section: &Section<'_>) -> bool {
         match section.element {
             Element::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
+            Element::F32 => false,
             Element::F64 | Element::U32 => section.stride > 0 && (self.nested || section.stride == 1),
         }
     }

@@ -7,7 +7,9 @@ use super::binary::Container;
 use super::{CHECKSUMS_COUNT, Decoded};
 use crate::diag::codes;
 use serde::{Deserialize, Serialize};
-use xxhash_rust::xxh3::xxh3_64;
+use std::borrow::Cow;
+use std::io::{self, Write};
+use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 /// Sections start at multiples of this many bytes from the start of the file.
 pub(super) const ALIGNMENT: usize = 64;
@@ -16,9 +18,10 @@ pub(super) const ALIGNMENT: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) enum Element {
+    F32,
     F64,
     U32,
-    /// Bytes of text.
+    /// Bytes, of text or of pixels.
     U8,
 }
 
@@ -26,7 +29,7 @@ impl Element {
     fn bytes(self) -> usize {
         match self {
             Self::F64 => 8,
-            Self::U32 => 4,
+            Self::F32 | Self::U32 => 4,
             Self::U8 => 1,
         }
     }
@@ -47,26 +50,102 @@ pub(super) struct Entry {
     xxh3: String,
 }
 
-/// The sections of a file being written.
-#[derive(Default)]
-pub(super) struct Body {
-    pub(super) bytes: Vec<u8>,
-    pub(super) entries: Vec<Entry>,
+/// What a section is written from.
+pub(super) enum Content<'s> {
+    Bytes(Cow<'s, [u8]>),
+    Single(&'s [f32]),
+    Double(&'s [f64]),
+    Whole(&'s [u32]),
 }
 
-impl Body {
-    /// Adds a section of records of `stride` elements and returns its index.
-    pub(super) fn push(&mut self, element: Element, stride: usize, bytes: &[u8]) -> usize {
-        self.bytes.resize(self.bytes.len().next_multiple_of(ALIGNMENT), 0);
-        let (offset, length) = (self.bytes.len() as u64, bytes.len() as u64);
-        self.bytes.extend(bytes);
-        self.entries.push(Entry { offset, length, element, stride, xxh3: hash(bytes) });
-        self.entries.len() - 1
+impl Content<'_> {
+    /// In bytes.
+    fn length(&self) -> usize {
+        match self {
+            Self::Bytes(bytes) => bytes.len(),
+            Self::Single(numbers) => size_of_val(*numbers),
+            Self::Double(numbers) => size_of_val(*numbers),
+            Self::Whole(numbers) => size_of_val(*numbers),
+        }
+    }
+
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        match self {
+            Self::Bytes(bytes) => out.write_all(bytes),
+            Self::Single(numbers) => write_numbers(numbers, f32::to_le_bytes, out),
+            Self::Double(numbers) => write_numbers(numbers, f64::to_le_bytes, out),
+            Self::Whole(numbers) => write_numbers(numbers, u32::to_le_bytes, out),
+        }
     }
 }
 
-fn hash(bytes: &[u8]) -> String {
-    format!("{:016x}", xxh3_64(bytes))
+/// Writes numbers piece by piece, so that their bytes are never all in memory.
+fn write_numbers<T: Copy, const B: usize>(
+    numbers: &[T],
+    to_bytes: impl Fn(T) -> [u8; B],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    const PIECE: usize = 4096;
+    let mut piece = [[0; B]; PIECE];
+    numbers.chunks(PIECE).try_for_each(|numbers| {
+        piece.iter_mut().zip(numbers).for_each(|(bytes, number)| *bytes = to_bytes(*number));
+        out.write_all(piece[..numbers.len()].as_flattened())
+    })
+}
+
+/// The sections of a file to be written.
+#[derive(Default)]
+pub(super) struct Body<'s> {
+    contents: Vec<Content<'s>>,
+    /// In bytes.
+    length: usize,
+    pub(super) entries: Vec<Entry>,
+}
+
+impl<'s> Body<'s> {
+    /// Adds a section of records of `stride` elements and returns its index.
+    pub(super) fn push(&mut self, element: Element, stride: usize, content: Content<'s>) -> usize {
+        let mut hash = Hash::default();
+        content.write(&mut hash).expect("hashing does not fail");
+        let (offset, length) = (self.length.next_multiple_of(ALIGNMENT), content.length());
+        self.length = offset + length;
+        self.contents.push(content);
+        let (offset, length, xxh3) = (offset as u64, length as u64, spelt(hash.0.digest()));
+        self.entries.push(Entry { offset, length, element, stride, xxh3 });
+        self.entries.len() - 1
+    }
+
+    /// Writes the sections in turn, each at the next aligned byte; the first one's place is aligned.
+    pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let mut end = 0_usize;
+        for content in &self.contents {
+            let start = end.next_multiple_of(ALIGNMENT);
+            out.write_all(&[0; ALIGNMENT][..start - end])?;
+            content.write(out)?;
+            end = start + content.length();
+        }
+        Ok(())
+    }
+}
+
+/// Takes bytes for their hash alone.
+#[derive(Default)]
+struct Hash(Xxh3Default);
+
+impl Write for Hash {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A hash as the table spells it.
+fn spelt(hash: u64) -> String {
+    format!("{hash:016x}")
 }
 
 /// A section whose place, hash and numbers are checked.
@@ -90,9 +169,39 @@ impl Section<'_> {
         u32::from_le_bytes(*bytes)
     }
 
+    /// The bytes of a section of [`Element::U8`].
+    pub(super) fn octets(&self) -> Option<&[u8]> {
+        (self.element == Element::U8 && self.stride == 1).then_some(self.bytes)
+    }
+
     /// The text of a section of [`Element::U8`], if it is UTF-8.
     pub(super) fn text(&self) -> Option<&str> {
-        std::str::from_utf8(self.bytes).ok().filter(|_| self.element == Element::U8)
+        self.octets().and_then(|bytes| std::str::from_utf8(bytes).ok())
+    }
+
+    /// All of a section of records of `N` numbers of the element given, whose bytes `number` reads; none of another.
+    pub(super) fn vectors<T: Copy + Default, const N: usize, const B: usize>(
+        &self,
+        element: Element,
+        number: impl Fn([u8; B]) -> T,
+    ) -> Option<Vec<[T; N]>> {
+        if self.element != element || element.bytes() != B || self.stride != N {
+            return None;
+        }
+        let mut vectors = vec![[T::default(); N]; self.len() / N];
+        let numbers = vectors.as_flattened_mut().iter_mut().zip(self.bytes.as_chunks().0);
+        numbers.for_each(|(to, bytes)| *to = number(*bytes));
+        Some(vectors)
+    }
+
+    /// Where the first float that is not finite stands, in bytes from the start of the section.
+    fn not_finite(&self) -> Option<usize> {
+        let position = match self.element {
+            Element::F32 => first(self.bytes, |bytes| f32::from_le_bytes(bytes).is_finite()),
+            Element::F64 => first(self.bytes, |bytes| f64::from_le_bytes(bytes).is_finite()),
+            Element::U32 | Element::U8 => None,
+        };
+        position.map(|index| index * self.element.bytes())
     }
 
     /// True if it is `records` records of `stride` elements.
@@ -152,7 +261,7 @@ fn bytes_of<'a>(file: &Container<'a>, index: usize, entry: &Entry, start: usize,
     let Some(bytes) = file.bytes.get(start..end) else {
         return Err(file.truncated(end, &format!("section {index}")));
     };
-    if CHECKSUMS_COUNT && hash(bytes) != *xxh3 {
+    if CHECKSUMS_COUNT && spelt(xxh3_64(bytes)) != *xxh3 {
         let message = format!("the hash of section {index}, bytes {start} to {end}, is wrong");
         return Err(file.fault(&codes::DAMAGED, message, start, end));
     }
@@ -160,13 +269,17 @@ fn bytes_of<'a>(file: &Container<'a>, index: usize, entry: &Entry, start: usize,
 }
 
 fn numbers(file: &Container, index: usize, section: &Section, start: usize) -> Decoded<()> {
-    let floats = if section.element == Element::F64 { section.len() } else { 0 };
-    match (0..floats).find(|at| !section.f64(*at).is_finite()) {
+    match section.not_finite() {
         None => Ok(()),
         Some(at) => {
-            let byte = start + 8 * at;
+            let byte = start + at;
             let message = format!("the number at byte {byte}, in section {index}, is not finite");
-            Err(file.fault(&codes::MALFORMED, message, byte, byte + 8))
+            Err(file.fault(&codes::MALFORMED, message, byte, byte + section.element.bytes()))
         }
     }
+}
+
+/// The index of the first number, of `B` bytes, that is not sound.
+fn first<const B: usize>(bytes: &[u8], sound: impl Fn([u8; B]) -> bool) -> Option<usize> {
+    bytes.as_chunks().0.iter().position(|number| !sound(*number))
 }

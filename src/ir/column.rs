@@ -117,7 +117,11 @@ impl<const N: usize> Column<N> {
     #[inline]
     pub fn at(&self, index: usize) -> [f64; N] {
         match self {
-            Self::Single(vectors) => vectors[index].map(f64::from),
+            Self::Single(vectors) => {
+                let mut vector = [0.0; N];
+                vector.iter_mut().zip(vectors[index]).for_each(|(wide, number)| *wide = f64::from(number));
+                vector
+            }
             Self::Double(vectors) => vectors[index],
         }
     }

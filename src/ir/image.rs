@@ -1,5 +1,6 @@
 //! The images: pixels, as textures look them up.
 
+use super::Shared;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,7 +27,9 @@ pub struct Image {
     #[serde(default, skip_serializing_if = "Pixels::is_rgb8")]
     pub kind: Pixels,
     /// The pixels in rows from the top, as Base64 with padding (RFC 4648, §4).
-    pub pixels: String,
+    #[serde(with = "base64_text")]
+    #[schemars(with = "String")]
+    pub pixels: Shared<u8>,
 }
 
 /// What a pixel is made of.
@@ -56,5 +59,39 @@ impl Pixels {
     #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
     fn is_rgb8(&self) -> bool {
         *self == Self::Rgb8
+    }
+}
+
+/// Bytes as a text with padding.
+mod base64_text {
+    use super::Shared;
+    use base64::Engine as _;
+    use base64::display::Base64Display;
+    use base64::engine::general_purpose::STANDARD;
+    use serde::de::{Error, Visitor};
+    use serde::{Deserializer, Serializer};
+    use std::fmt;
+
+    pub(super) fn serialize<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&Base64Display::new(bytes, &STANDARD))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Shared<u8>, D::Error> {
+        deserializer.deserialize_str(Text)
+    }
+
+    struct Text;
+
+    impl Visitor<'_> for Text {
+        type Value = Shared<u8>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("Base64 with padding")
+        }
+
+        fn visit_str<E: Error>(self, text: &str) -> Result<Shared<u8>, E> {
+            let bytes = STANDARD.decode(text);
+            bytes.map(Shared::from).map_err(|fault| E::custom(format_args!("this is not Base64: {fault}")))
+        }
     }
 }

@@ -215,7 +215,6 @@ impl Strands {
                 self.sums[strand] += shown;
                 self.squares[half] += shown.length_squared();
                 self.linear[half] += radiance;
-                self.hits[half] += hits;
             }
             self.hits[half] += tracer.counts().hits - before;
         }

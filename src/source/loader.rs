@@ -47,7 +47,7 @@ impl Loader {
     /// # Errors
     /// What the reader says, or that there is too much of it.
     pub fn reader(&self, name: &str, reader: impl Read, map: &mut SourceMap) -> Result<FileId, LoadError> {
-        Ok(map.add(name, all(reader, MAX_BYTES)?))
+        Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
     }
 
     /// Reads the file at `path`, of at most `limit` bytes.
@@ -64,12 +64,13 @@ impl Loader {
         if metadata.len() > limit {
             return Err(LoadError::TooLarge { limit });
         }
-        all(file, limit)
+        all(file, usize::try_from(metadata.len()).unwrap_or(0), limit)
     }
 }
 
-fn all(reader: impl Read, limit: u64) -> Result<Vec<u8>, LoadError> {
-    let mut bytes = Vec::new();
+/// All there is to read, most likely `expected` bytes.
+fn all(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
+    let mut bytes = Vec::with_capacity(expected);
     reader.take(limit + 1).read_to_end(&mut bytes).map_err(LoadError::Io)?;
     if bytes.len() as u64 > limit {
         return Err(LoadError::TooLarge { limit });

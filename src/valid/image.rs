@@ -4,8 +4,6 @@ use super::check::{Check, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 
 /// A picture of at least one pixel.
 #[derive(Clone, Debug)]
@@ -93,16 +91,12 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
     let mut refuse = |message: String| {
         check.report(place(Noun::Image, index, Field::Whole), "", Diagnostic::new(&codes::BAD_IMAGE, message));
     };
-    let Ok(bytes) = STANDARD.decode(pixels) else {
-        refuse("the pixels of an image are not Base64".to_owned());
-        return None;
-    };
     let wanted = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
-    if wanted == 0 || bytes.len() as u64 != wanted {
-        refuse(format!("an image of {width} × {height} pixels has {} bytes of {wanted}", bytes.len()));
+    if wanted == 0 || pixels.len() as u64 != wanted {
+        refuse(format!("an image of {width} × {height} pixels has {} bytes of {wanted}", pixels.len()));
         return None;
     }
-    let pixels = Texels::new(*kind, &bytes);
+    let pixels = Texels::new(*kind, pixels);
     if !pixels.is_light() {
         refuse("an image has a pixel that is negative or not finite".to_owned());
         return None;

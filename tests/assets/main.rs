@@ -10,8 +10,6 @@ mod picture;
 mod search;
 mod shared;
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
 use rtc::front::{Asset, Options, Wanted, assets};
@@ -31,7 +29,7 @@ fn lowered(map: &mut SourceMap) -> Lowered {
     let mut lowered = rtc::pipeline::load(file, map, &rtc::pipeline::Options::default(), &mut sink).unwrap();
     assert!(!sink.has_errors(), "{sink:?}");
     lowered.scene.images =
-        vec![Image { name: "picture".to_owned(), width: 1, height: 1, kind: Pixels::Rgb8, pixels: "AAAA".to_owned() }];
+        vec![Image { name: "picture".to_owned(), width: 1, height: 1, kind: Pixels::Rgb8, pixels: vec![0; 3].into() }];
     lowered.scene.textures = vec![Texture::Uv, Texture::Image(ImageId(0))];
     lowered.scene.meshes = vec![Mesh { name: "mesh".to_owned(), ..Mesh::default() }];
     let phong = lowered.scene.materials[0].phong_mut().unwrap();
@@ -103,5 +101,5 @@ fn png(color: [u8; 3]) -> Vec<u8> {
 }
 
 fn pixels(outcome: &Outcome) -> Vec<u8> {
-    STANDARD.decode(&outcome.lowered.scene.images[0].pixels).unwrap()
+    outcome.lowered.scene.images[0].pixels.to_vec()
 }

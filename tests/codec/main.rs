@@ -7,11 +7,12 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 mod scenes;
+mod sections;
 
 use proptest::prelude::*;
 use rtc::codec::{self, Form};
 use rtc::diag::{Diagnostic, Sink};
-use rtc::ir::{Scene, Shape, Texture};
+use rtc::ir::{Column, ImageId, Pixels, Scene, Shape, Texture};
 use rtc::source::SourceMap;
 use scenes::scene;
 use std::path::{Path, PathBuf};
@@ -98,7 +99,41 @@ fn frozen_files_decode() {
     let text = large();
     assert_eq!(decode(Form::Binary, &std::fs::read(frozen("v2/scene.rtir")).unwrap()).unwrap(), text);
     assert_eq!((text.meshes[0].positions.at(35), text.meshes[0].triangles.len()), ([0.5, 0.5, 0.125], 50));
-    assert_eq!((text.images[0].pixels.len(), &text.textures[1]), (512, &Texture::Uv));
+    assert_eq!((text.images[0].pixels.len(), &text.textures[1]), (384, &Texture::Uv));
+}
+
+/// The scenes of version 3: all shapes of the course, and one whose paths are traced, with columns of 32-bit floats.
+#[test]
+fn frozen_files_of_version_3_decode() {
+    let [course, path] = ["course", "path"].map(|name| {
+        let text = decode(Form::Text, &std::fs::read(frozen(&format!("v3/{name}.json"))).unwrap()).unwrap();
+        let binary = decode(Form::Binary, &std::fs::read(frozen(&format!("v3/{name}.rtir"))).unwrap()).unwrap();
+        assert_eq!(format!("{binary:?}"), format!("{text:?}"), "{name}");
+        text
+    });
+    assert_eq!((course.surfaces.len(), course.materials.len(), course.names[9].as_str()), (10, 5, "leaf"));
+    assert_eq!((course.meshes[0].positions.at(35), course.images[0].pixels[383]), ([1.0, 1.0, 0.225], 40));
+    assert!(matches!(course.meshes[0].positions, Column::Double(_)));
+    let Column::Single(positions) = &path.meshes[0].positions else { panic!("glTF has 32-bit floats") };
+    assert_eq!((positions[1], path.meshes[0].colors.at(35)), ([0.2, 0.0, 0.045], [1.0, 1.0, f64::from(0.1_f32), 1.0]));
+    assert_eq!((path.lights.len(), path.images[1].kind, path.images[1].pixels.len()), (3, Pixels::Rgb32f, 384));
+    assert_eq!(path.environment.as_ref().and_then(|environment| environment.image), Some(ImageId(1)));
+}
+
+#[test]
+fn older_files_are_the_same_scene_in_the_current_version() {
+    let texts = ["v0/scene.json", "v1/scene.json", "v2/scene.json"].map(|name| (name, Form::Text));
+    let binaries = ["v1/scene.rtir", "v2/scene.rtir"].map(|name| (name, Form::Binary));
+    for (name, form) in texts.into_iter().chain(binaries) {
+        let old = decode(form, &std::fs::read(frozen(name)).unwrap()).unwrap();
+        for form in [Form::Text, Form::Binary] {
+            let bytes = codec::encode(form, &old).unwrap();
+            let version = [&b"\"irVersion\": 3"[..], b"\"irVersion\":3"];
+            let start = &bytes[..64];
+            assert!(version.iter().any(|version| start.windows(version.len()).any(|part| part == *version)), "{name}");
+            assert_eq!(format!("{:?}", decode(form, &bytes).unwrap()), format!("{old:?}"), "{name}, {form:?}");
+        }
+    }
 }
 
 #[test]
@@ -200,33 +235,6 @@ fn parts_that_do_not_fit_together_are_refused() {
     }
 }
 
-#[test]
-fn long_lists_and_texts_have_sections_of_their_own() {
-    let mut scene = large();
-    let file = codec::encode(Form::Binary, &scene).unwrap();
-    let cases = [
-        (r#""nested":true"#, r#""nested":false"#, "IR007"),
-        (r#""nested":false"#, r#""nested":true"#, "IR007"),
-        (r#"{"section":12,"#, r#"{"section":13,"#, "IR007"),
-        (r#"{"section":12,"#, r#"{"section":99,"#, "IR007"),
-        (r#""runs":["#, r#""runs":[{"section":3,"nested":false},"#, "IR007"),
-    ];
-    for (old, new, expected) in cases {
-        let bad = with_header(&file, |header| {
-            assert!(header.contains(old), "{old} is not in {header}");
-            header.replacen(old, new, 1)
-        });
-        assert_eq!(fault(Form::Binary, &bad).0, expected, "{new}");
-    }
-    let header = |file: &[u8]| u32::from_le_bytes(file[12..16].try_into().unwrap());
-    let before = header(&file);
-    scene.meshes[0].positions = vec![[0.5; 3]; 10_000].into();
-    scene.images[0].pixels = "A".repeat(30_000);
-    let file = codec::encode(Form::Binary, &scene).unwrap();
-    assert!(header(&file) < before + 100, "the header does not grow with what is in sections");
-    assert_eq!(decode(Form::Binary, &file).unwrap(), scene);
-}
-
 /// A short file can't ask for much memory: here each of 2 000 records would repeat 30 KB of text.
 #[test]
 fn a_table_that_would_grow_beyond_its_file_is_refused() {
@@ -275,6 +283,15 @@ fn faults_of_a_text_are_located() {
         let expected = (code, place.to_owned(), pointer.to_owned());
         assert_eq!(fault(Form::Text, bad.as_bytes()), expected, "{new}");
     }
+}
+
+#[test]
+fn pixels_that_are_no_base64_are_located() {
+    let file = String::from_utf8(codec::encode(Form::Text, &large()).unwrap()).unwrap();
+    let bad = file.replacen("\"pixels\": \"", "\"pixels\": \"?", 1);
+    let (finding, _) = *decode(Form::Text, bad.as_bytes()).unwrap_err();
+    assert_eq!((finding.code.id, finding.pointer.unwrap().as_str()), ("IR003", "/images/0/pixels"));
+    assert!(finding.message.contains("this is not Base64"), "{}", finding.message);
 }
 
 #[test]

@@ -27,9 +27,10 @@ fn text() -> impl Strategy<Value = String> {
 }
 
 fn image() -> impl Strategy<Value = Image> {
-    (text(), any::<[u32; 2]>(), text()).prop_map(|(name, [width, height], pixels)| {
+    let bytes = prop::collection::vec(any::<u8>(), 0..400);
+    (text(), any::<[u32; 2]>(), bytes).prop_map(|(name, [width, height], pixels)| {
         let kind = if width % 2 == 0 { Pixels::Rgb8 } else { Pixels::Rgb32f };
-        Image { name, width, height, kind, pixels }
+        Image { name, width, height, kind, pixels: pixels.into() }
     })
 }
 

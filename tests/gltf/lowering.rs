@@ -4,9 +4,11 @@ use super::make;
 use rtc::codec::{self, Form};
 use rtc::diag::{Severity, Sink};
 use rtc::front;
-use rtc::ir::{Mesh, Scene, Shape};
+use rtc::ir::{Lowered, Mesh, Mode, Origins, Scene, Shape};
 use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::Job;
 use rtc::source::SourceMap;
 
 /// The scene that an asset shows; every asset here is sound.
@@ -69,6 +71,46 @@ fn a_mesh_used_twice_is_made_once() {
     let scene = lower(make::hierarchy(), front::Options::default());
     assert_eq!((scene.meshes.len(), scene.surfaces.len()), (1, 4), "two nodes and two instances of one mesh");
     assert!(scene.surfaces.iter().all(|surface| matches!(surface.shape, Shape::Instance(_))));
+}
+
+/// A few pixels of what a scene shows, to the bit.
+fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
+    scene.camera.size = [24, 24];
+    if let Mode::Path(path) = &mut scene.settings.mode {
+        path.samples = 4;
+    }
+    let lowered = Lowered { scene, origins: Origins::default() };
+    let (options, mut sink) = (Options::default(), Sink::default());
+    let proven = pipeline::prove(&lowered, &options, &mut sink).unwrap();
+    let plan = Plan::new(&proven, Rules::ALL);
+    let film = pipeline::render(&proven, &plan, &Job::default(), 1, &|_| true).unwrap().unwrap();
+    film.image.pixels.iter().map(|pixel| pixel.map(f64::to_bits)).collect()
+}
+
+#[test]
+fn assets_make_the_same_picture_from_either_form_of_the_ir() {
+    let moved = front::Options { time: Some(1.0), animation: Some("move".to_owned()), ..front::Options::default() };
+    let cases = [
+        (make::hierarchy(), front::Options::default()),
+        (make::attributes(), front::Options::default()),
+        (make::motion(), moved),
+        (make::texture(), front::Options::default()),
+    ];
+    let (mut names, mut images, mut surroundings) = (0, 0, 0);
+    for (bytes, options) in cases {
+        let scene = lower(bytes, options);
+        names += scene.names.len();
+        images += scene.images.len();
+        surroundings += usize::from(scene.environment.is_some());
+        let expected = picture(scene.clone());
+        assert!(expected.iter().any(|pixel| *pixel != expected[0]), "something shows");
+        for form in [Form::Text, Form::Binary] {
+            let back = lower(codec::encode(form, &scene).unwrap(), front::Options::default());
+            assert_eq!(format!("{back:?}"), format!("{scene:?}"), "{form:?}");
+            assert!(picture(back) == expected, "{form:?}");
+        }
+    }
+    assert!(names > 0 && images > 0 && surroundings > 0, "names, images and surroundings are met");
 }
 
 /// The torus as Draco, meshopt and quantized data; the last two hold the same numbers.

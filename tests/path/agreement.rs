@@ -24,8 +24,7 @@ fn bright_spot() -> Image {
             bytes.extend([value, value * 0.8, value * 0.5].iter().flat_map(|channel| channel.to_le_bytes()));
         }
     }
-    let pixels = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, bytes);
-    Image { name: String::new(), width: 16, height: 8, kind: Pixels::Rgb32f, pixels }
+    Image { name: String::new(), width: 16, height: 8, kind: Pixels::Rgb32f, pixels: bytes.into() }
 }
 
 fn assert_agree(scene: &Scene, tolerance: f64) {

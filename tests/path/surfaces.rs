@@ -1,7 +1,6 @@
 //! Alpha, textures, corners' colours, normal maps, dispersion, and the orthographic camera.
 
 use crate::{add_light, add_quad, add_square, lambert, material, mean, middle, render, scene, sky};
-use base64::Engine as _;
 use rtc::ir::{
     Alpha, Emitter, Filter, Image, ImageId, Instance, Map, Mesh, MeshId, Pixels, Projection, Punctual, Sampled, Scene,
     Shape, Standard, Surface, Texture, TextureId, Wrap,
@@ -10,7 +9,7 @@ use rtc::math::Vec3;
 
 /// A texture of the pixels given, sampled without blending.
 fn add_texture(scene: &mut Scene, [width, height]: [u32; 2], pixels: &[[u8; 4]]) -> Option<Map> {
-    let pixels = base64::engine::general_purpose::STANDARD.encode(pixels.as_flattened());
+    let pixels = pixels.as_flattened().to_vec().into();
     scene.images.push(Image { name: String::new(), width, height, kind: Pixels::Rgba8, pixels });
     let image = ImageId(u32::try_from(scene.images.len() - 1).unwrap());
     scene.textures.push(Texture::Sampled(Sampled { image, wrap: [Wrap::Repeat; 2], filter: Filter::Nearest }));

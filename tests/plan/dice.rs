@@ -1,8 +1,6 @@
 //! Random scenes: each effect present, absent, or present with zero weight; places on a coarse grid, so that things touch,
 //! line up and coincide.
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use rtc::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};
 use rtc::math::{Vec3, view_basis};
 
@@ -113,8 +111,8 @@ impl Dice {
 
     fn textures(&mut self) -> (Vec<ir::Image>, Vec<Texture>) {
         let image = |value: &dyn Fn(u8) -> u8| {
-            let pixels = (0..12).map(value).collect::<Vec<_>>();
-            let (kind, pixels) = (ir::Pixels::Rgb8, STANDARD.encode(pixels));
+            let pixels = (0..12).map(value).collect();
+            let (kind, pixels) = (ir::Pixels::Rgb8, pixels);
             ir::Image { name: "dice".to_owned(), width: 2, height: 2, kind, pixels }
         };
         let images = vec![image(&|k| 20 * k), image(&|k| [90, 180, 30][usize::from(k) % 3]), image(&|_| 0)];

@@ -1,7 +1,5 @@
 //! A small stage: a ball, a disc and what else a test puts there, seen from (0, 0, 10) along −z.
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use rtc::ir::{self, ImageId, Light, Material, MaterialId, Phong, Scene, Shape, Surface, Texture, TextureId};
 
 /// Matt grey.
@@ -99,7 +97,7 @@ pub(super) fn first_light(scene: &mut Scene) -> &mut ir::PointLight {
 
 /// Adds a texture of 2 × 2 texels, one value but for the last.
 pub(super) fn texture(scene: &mut Scene, value: [u8; 3], last: [u8; 3]) -> TextureId {
-    let pixels = STANDARD.encode([value, value, value, last].concat());
+    let pixels = [value, value, value, last].concat().into();
     scene.images.push(ir::Image { name: "stage".to_owned(), width: 2, height: 2, kind: ir::Pixels::Rgb8, pixels });
     scene.textures.push(Texture::Image(ImageId(0)));
     TextureId(0)

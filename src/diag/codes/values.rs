@@ -49,7 +49,7 @@ super::codes! { VA:
         "`MaxRecursionDepth` is how many mirror or refraction bounces follow the first hit. Most scenes need fewer than \
          10, a box of mirrors a few hundred.";
     BAD_IMAGE = "VA017", Error, "an image has not the pixels it should have",
-        "An image of the IR is width × height pixels of three bytes, as Base64. Only a damaged or hand-made IR file \
+        "An image of the IR is width × height pixels of three, four or twelve bytes. Only a damaged or hand-made IR file \
          gets here.";
     BAD_MESH = "VA018", Error, "a mesh is not sound",
         "Every vertex, normal and texture coordinate of a mesh is finite, normals and texture coordinates are as many as \

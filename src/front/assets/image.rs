@@ -5,8 +5,6 @@ use crate::diag::{Diagnostic, Sink, codes};
 use crate::image::{DecodeError, Pixels, decode};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
 use crate::source::Found;
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored plainly.
 const MAX_BYTES: u64 = 1 << 30;
@@ -17,7 +15,7 @@ pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &
     match (pixels, lowered.scene.images.get_mut(id.0 as usize)) {
         (Some(Pixels { width, height, bytes }), Some(image)) => {
             (image.width, image.height) = (width, height);
-            image.pixels = STANDARD.encode(bytes);
+            image.pixels = bytes.into();
         }
         (_, _) => forget(id, &mut lowered.scene),
     }
@@ -87,9 +85,8 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
 }
 
 /// True if most pixels, taken as 2·rgb − 1, are directions that point out of the surface.
-fn holds_normals(pixels: &str) -> bool {
-    let Ok(bytes) = STANDARD.decode(pixels) else { return false };
-    let pixels = bytes.as_chunks::<3>().0;
+fn holds_normals(pixels: &[u8]) -> bool {
+    let pixels = pixels.as_chunks::<3>().0;
     let is_normal = |pixel: &&[u8; 3]| {
         let [x, y, z] = pixel.map(|channel| f64::from(channel) / 127.5 - 1.0);
         z > 0.0 && z > x && z > y && (0.75..1.25).contains(&(x * x + y * y + z * z))

@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 /// The word that stands for the uv of the surface in place of a file.
 pub(super) const UV: &str = "UV";
 
-/// One white pixel, in Base64.
-const PLACEHOLDER: &str = "////";
+/// One white pixel.
+const PLACEHOLDER: [u8; 3] = [255; 3];
 
 /// One black pixel of floats, in Base64.
 const DARK: &str = "AAAAAAAAAAAAAAAA";
@@ -34,7 +34,7 @@ impl Files {
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
-        let pixels = PLACEHOLDER.to_owned();
+        let pixels = PLACEHOLDER.to_vec().into();
         let image = Image { name: name.clone(), width: 1, height: 1, kind: Pixels::Rgb8, pixels };
         let image = add(&mut scene.images, image, ImageId);
         self.want(Asset::Image(image), file);

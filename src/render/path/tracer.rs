@@ -85,12 +85,12 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let count = self.path.samples.get();
-        let sum = (0..count).map(|index| self.sample_of(pixel, index, job.seeds, job.behind)).sum::<Vec3>();
+        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
         sum / f64::from(count)
     }
 
     /// The radiance along path `index` of a pixel.
-    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds, behind: Behind) -> Vec3 {
+    fn sample_of(&mut self, pixel: [u32; 2], index: u32, seeds: Seeds) -> Vec3 {
         let sobol = Sobol::new(pixel, index, seeds);
         let (ray, hits) = (self.camera_ray(pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
@@ -273,8 +273,7 @@ impl<S: Geometry> Sampling for Tracer<'_, S> {
     const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
-        let seeds = Seeds { pixel: number, lens: number, path: number };
-        self.sample_of(pixel, index, seeds, Behind::Surroundings)
+        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
     }
 
     fn counts(&self) -> Counts {

@@ -7,8 +7,6 @@ use crate::diag::codes;
 use crate::image::decode_with_alpha;
 use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Pixels, Place, Sampled, Scene, TextureId, Wrap};
 use crate::math::{cos, sin};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 
 /// What became of the textures and images of the asset.
 pub(super) struct Textures {
@@ -100,7 +98,7 @@ impl Textures {
                 width: pixels.width,
                 height: pixels.height,
                 kind: if has_alpha { Pixels::Rgba8 } else { Pixels::Rgb8 },
-                pixels: STANDARD.encode(pixels.bytes),
+                pixels: pixels.bytes.into(),
             });
             ImageId(super::mesh::to_u32(at))
         });

@@ -1,0 +1,73 @@
+//! The meshes of a container: each column is a section, written from the scene and read into it without a detour.
+
+use super::columns::Stock;
+use super::section::{Body, Content, Element, Section};
+use crate::ir::{Column, Mesh};
+use serde::{Deserialize, Serialize};
+
+/// A mesh, with the section of each column in place of its numbers; none where the column is empty.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Stored {
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    name: String,
+    positions: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    normals: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    uvs: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    second_uvs: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    tangents: Option<usize>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    colors: Option<usize>,
+    triangles: usize,
+}
+
+/// Puts the columns of a mesh into sections.
+pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
+    let Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh;
+    Stored {
+        name: name.clone(),
+        positions: put(positions, body),
+        normals: put(normals, body),
+        uvs: put(uvs, body),
+        second_uvs: put(second_uvs, body),
+        tangents: put(tangents, body),
+        colors: put(colors, body),
+        triangles: body.push(Element::U32, 3, Content::Whole(triangles.as_flattened())),
+    }
+}
+
+fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut Body<'s>) -> Option<usize> {
+    match column {
+        _ if column.is_empty() => None,
+        Column::Single(vectors) => Some(body.push(Element::F32, N, Content::Single(vectors.as_flattened()))),
+        Column::Double(vectors) => Some(body.push(Element::F64, N, Content::Double(vectors.as_flattened()))),
+    }
+}
+
+impl Stored {
+    /// The mesh; none if a section is not there, is of another kind, or was taken before.
+    pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Mesh> {
+        let triangles = stock.take(self.triangles)?;
+        Some(Mesh {
+            name: self.name.clone(),
+            positions: column(self.positions, stock)?,
+            normals: column(self.normals, stock)?,
+            uvs: column(self.uvs, stock)?,
+            second_uvs: column(self.second_uvs, stock)?,
+            tangents: column(self.tangents, stock)?,
+            colors: column(self.colors, stock)?,
+            triangles: triangles.vectors(Element::U32, u32::from_le_bytes)?.into(),
+        })
+    }
+}
+
+fn column<const N: usize>(section: Option<usize>, stock: &mut Stock<'_>) -> Option<Column<N>> {
+    let Some(section) = section else { return Some(Column::default()) };
+    let section: &Section<'_> = stock.take(section)?;
+    let single = || section.vectors(Element::F32, f32::from_le_bytes).map(Column::from);
+    single().or_else(|| section.vectors(Element::F64, f64::from_le_bytes).map(Column::from))
+}
