@@ -15,6 +15,7 @@ mod geometry;
 mod instance;
 mod interval;
 mod kernel;
+mod lanes;
 mod material;
 mod optics;
 mod path;
@@ -33,6 +34,7 @@ mod torus;
 mod triangle;
 mod verify;
 mod whitted;
+mod wide;
 mod world;
 
 pub use basic::Basic;

@@ -4,6 +4,7 @@
 
 mod agreement;
 mod closed;
+mod hierarchy;
 mod surfaces;
 
 use rtc::diag::Sink;
