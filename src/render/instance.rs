@@ -23,7 +23,7 @@ impl PreparedMesh {
     /// Prepares a mesh.
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let corners = |t: &[u32; 3]| Triangle::new(t.map(|corner| mesh.position(corner)));
+        let corners = |t: &[u32; 3]| Triangle::new(mesh.corners(*t));
         let prepared = (0_u32..).zip(mesh.triangles.iter()).filter_map(|(index, t)| Some((corners(t)?, index)));
         let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
         let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
@@ -158,7 +158,7 @@ impl Instance {
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
         let normal = (!mesh.normals.is_empty()).then(|| {
-            let [a, b, c] = corners.map(|corner| mesh.normal(corner));
+            let [a, b, c] = [mesh.normal(corners[0]), mesh.normal(corners[1]), mesh.normal(corners[2])];
             let is_even = a == b && a == c;
             self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
         });
@@ -216,8 +216,8 @@ fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
 }
 
 /// What a column says of three corners.
-fn at<const N: usize>(column: &Column<N>, corners: [u32; 3]) -> [[f64; N]; 3] {
-    corners.map(|corner| column.at(corner as usize))
+fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> [[f64; N]; 3] {
+    [column.at(a as usize), column.at(b as usize), column.at(c as usize)]
 }
 
 /// The mean with these weights of the corners.
