@@ -24,7 +24,7 @@ impl PreparedMesh {
     /// Prepares a mesh.
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let corners = |t: &[u32; 3]| Triangle::new(t.map(|corner| mesh.position(corner)));
+        let corners = |t: &[u32; 3]| Triangle::new(mesh.corners(*t));
         let prepared = (0_u32..).zip(mesh.triangles.iter()).filter_map(|(index, t)| Some((corners(t)?, index)));
         let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
         Self { mesh: Arc::clone(mesh), triangles, indices, hierarchy: OnceLock::new() }
@@ -180,7 +180,10 @@ impl Instance {
         let local = self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin;
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
-        let normals = (!mesh.normals.is_empty()).then(|| corners.map(|corner| mesh.normal(corner)));
+        let normals = (!mesh.normals.is_empty()).then(|| {
+            let [a, b, c] = corners;
+            [mesh.normal(a), mesh.normal(b), mesh.normal(c)]
+        });
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let weights = if is_even && is_plain(mesh) { [1.0, 0.0, 0.0] } else { triangle.weights(local) };
         let normal = normals.map(|[a, b, c]| {
@@ -252,8 +255,8 @@ fn is_plain(mesh: &Mesh) -> bool {
 
 /// What a column, which may be empty, says of three corners.
 #[inline]
-fn at<const N: usize>(column: &Column<N>, corners: [u32; 3]) -> Option<[[f64; N]; 3]> {
-    (!column.is_empty()).then(|| corners.map(|corner| column.at(corner as usize)))
+fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
+    (!column.is_empty()).then(|| [column.at(a as usize), column.at(b as usize), column.at(c as usize)])
 }
 
 /// The mean with these weights of the corners.
