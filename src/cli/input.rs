@@ -89,7 +89,9 @@ impl Input {
         let name = path.display().to_string();
         let bytes = Loader.bytes(path, MAX_ENVIRONMENT);
         let bytes = bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
-        let picture = assets::environment(&name, &bytes);
+        // Where the file lies is no part of the scene.
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let picture = assets::environment(&file, &bytes);
         Ok(picture.map_err(|fault| self.push(assets::refusal(&fault, &name))).map(Surroundings::Picture).ok())
     }
 

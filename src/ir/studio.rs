@@ -6,8 +6,6 @@
 use super::{Environment, Image, Light, Material, Pixels, Scene, Shape, Texture};
 use crate::color::srgb_decoded;
 use crate::math::{Vec3, acos, atan2, cos, sin};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 use glam::DAffine3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -76,7 +74,7 @@ fn picture() -> Image {
     #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float")]
     let bytes: Vec<u8> =
         pixels.flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat()).collect();
-    Image { name: String::new(), width: SIZE[0], height: SIZE[1], kind: Pixels::Rgb32f, pixels: STANDARD.encode(bytes) }
+    Image { name: String::new(), width: SIZE[0], height: SIZE[1], kind: Pixels::Rgb32f, pixels: bytes.into() }
 }
 
 impl Scene {
@@ -161,7 +159,7 @@ const FAINT: f64 = 0.05;
 /// The mean of an image that codes light in sRGB, by the strongest channel of each pixel.
 fn brightness(image: &Image) -> f64 {
     let size = image.kind.bytes();
-    let Ok(bytes) = STANDARD.decode(&image.pixels) else { return 0.0 };
+    let bytes: &[u8] = &image.pixels;
     if image.kind == Pixels::Rgb32f || bytes.len() < size {
         return 1.0;
     }

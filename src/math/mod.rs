@@ -15,6 +15,7 @@ pub use double::Double;
 pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum, unit_scale};
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};
 pub use glam::DVec3 as Vec3;
+pub use glam::Vec4 as Lanes;
 pub use number::{NonNegative, Positive};
 pub use onb::Basis;
 pub use turns::{cos_sin_turns, golden_turns};

@@ -42,6 +42,12 @@ impl Bounds {
         Self::around(center - reach, 0.0).union(Self::around(center + reach, 0.0))
     }
 
+    /// The box with all points nearer to it than a distance along an axis, rounded outward; the same box for 0.
+    #[must_use]
+    pub fn grown(self, by: f64) -> Self {
+        if by > 0.0 { Self::around(self.min, by).union(Self::around(self.max, by)) } else { self }
+    }
+
     /// The smallest box that holds both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {

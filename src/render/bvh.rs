@@ -89,10 +89,11 @@ impl Bvh {
     }
 }
 
+/// What a hierarchy is built of.
 #[derive(Clone, Copy)]
-struct Item {
-    index: u32,
-    bounds: Bounds,
+pub(super) struct Item {
+    pub(super) index: u32,
+    pub(super) bounds: Bounds,
 }
 
 struct Builder {
@@ -112,7 +113,7 @@ impl Builder {
         if items.len() <= few {
             return;
         }
-        let (axis, middle) = split(items, depth);
+        let (axis, middle) = split(items, 1, depth < HEURISTIC_DEPTH);
         self.node(start, start + middle, depth + 1);
         let second = to_u32(self.nodes.len());
         self.node(start + middle, end, depth + 1);
@@ -121,44 +122,53 @@ impl Builder {
     }
 }
 
-/// Orders the items into two groups and returns the axis and the size of the first, neither group empty.
-fn split(items: &mut [Item], depth: usize) -> (usize, usize) {
-    let centers = items.iter().map(|item| item.bounds.center()).collect::<Vec<_>>();
-    let spread = Bounds::of(&centers);
+/// Orders the items, at least two, into two groups and returns the axis and the size of the first, neither group empty:
+/// by the heuristic where it is asked for and finds a border, else in the middle. So many items are tested `at_once`.
+pub(super) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (usize, usize) {
+    let center = |bounds: Bounds, item: &Item| {
+        let center = item.bounds.center();
+        Bounds { min: bounds.min.min(center), max: bounds.max.max(center) }
+    };
+    let spread = items.iter().fold(Bounds::EMPTY, center);
     let size = spread.max - spread.min;
-    let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
-    let middle = items.len() / 2;
-    let even = size[axis] > 0.0 && size[axis].is_finite();
-    if depth < HEURISTIC_DEPTH && even {
-        let bin = |item: &Item| {
-            let place = (item.bounds.center()[axis] - spread.min[axis]) / size[axis] * BINS as f64;
-            (place as usize).min(BINS - 1)
-        };
-        if let Some(border) = cheapest_border(items, bin) {
-            let first = partition(items, |item| bin(item) < border);
+    let scale = size.recip() * BINS as f64;
+    let bin = |item: &Item, axis: usize| {
+        let place = (item.bounds.center()[axis] - spread.min[axis]) * scale[axis];
+        (place as usize).min(BINS - 1)
+    };
+    if by_heuristic {
+        let wide = (0..3).filter(|axis| size[*axis] > 0.0 && scale[*axis].is_finite());
+        let borders =
+            wide.filter_map(|axis| cheapest_border(items, at_once, |item| bin(item, axis)).map(|cut| (axis, cut)));
+        if let Some((axis, (border, _))) = borders.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
+            let first = partition(items, |item| bin(item, axis) < border);
             return (axis, first);
         }
     }
+    let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
+    let middle = items.len() / 2;
     items.sort_by(|a, b| a.bounds.center()[axis].total_cmp(&b.bounds.center()[axis]).then(a.index.cmp(&b.index)));
     (axis, middle)
 }
 
-/// The border between bins with the least expected work on both sides, if any has items on both.
-fn cheapest_border(items: &[Item], bin: impl Fn(&Item) -> usize) -> Option<usize> {
+/// The border between bins with the least expected work on both sides, and that work, if any has items on both.
+fn cheapest_border(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -> Option<(usize, f64)> {
     let mut bins = [(Bounds::EMPTY, 0_u32); BINS];
     for item in items {
         let (bounds, count) = &mut bins[bin(item)];
         *bounds = bounds.union(item.bounds);
         *count += 1;
     }
-    let work = |bins: &[(Bounds, u32)]| {
-        let (bounds, count) =
-            bins.iter().fold((Bounds::EMPTY, 0), |(bounds, count), bin| (bounds.union(bin.0), count + bin.1));
-        (count > 0).then(|| bounds.half_area() * f64::from(count))
+    let add = |sum: &mut (Bounds, u32), bin: &(Bounds, u32)| {
+        *sum = (sum.0.union(bin.0), sum.1 + bin.1);
+        Some(if sum.1 > 0 { sum.0.half_area() * f64::from(sum.1.div_ceil(at_once)) } else { f64::NAN })
     };
-    let cost = |border: usize| Some(work(&bins[..border])? + work(&bins[border..])?);
-    let borders = (1..BINS).filter_map(|border| cost(border).map(|cost| (border, cost)));
-    borders.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(border, _)| border)
+    let mut above = [f64::NAN; BINS];
+    let works = bins.iter().rev().scan((Bounds::EMPTY, 0), add);
+    above.iter_mut().rev().zip(works).for_each(|(above, work)| *above = work);
+    let below = bins.iter().scan((Bounds::EMPTY, 0), add);
+    let works = below.zip(&above[1..]).map(|(below, above)| below + above);
+    (1..BINS).zip(works).filter(|(_, work)| !work.is_nan()).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Moves the items that belong first to the front, keeping the order within both groups.
@@ -169,7 +179,7 @@ fn partition(items: &mut [Item], first: impl Fn(&Item) -> bool) -> usize {
     front.len()
 }
 
-fn to_u32(count: usize) -> u32 {
+pub(super) fn to_u32(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(u32::MAX)
 }
 

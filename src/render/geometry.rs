@@ -54,6 +54,18 @@ pub trait Geometry: Sized + Send + Sync {
         None
     }
 
+    /// How far rounding may have moved those corners.
+    #[must_use]
+    fn blur(&self) -> f64 {
+        0.0
+    }
+
+    /// The root above 0 of such a part alone.
+    #[must_use]
+    fn intersect_part(&self, _ray: &Ray, _part: u32) -> Option<f64> {
+        None
+    }
+
     /// A box around it, for shapes that have an end.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;

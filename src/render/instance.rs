@@ -1,12 +1,12 @@
 //! A mesh, placed: rays are taken to its own space, where all its instances share triangles and hierarchy.
 
 use super::bounds::Bounds;
-use super::bvh::Bvh;
 use super::ray::{Interaction, Ray};
 use super::triangle::{Shear, Triangle};
+use super::wide::Wide;
 use crate::math::{Vec3, cross};
 use crate::valid::{Column, Mesh};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A mesh ready to be hit, in object coordinates.
 #[derive(Debug)]
@@ -16,18 +16,18 @@ pub struct PreparedMesh {
     triangles: Vec<Triangle>,
     /// The index in the mesh of each triangle.
     indices: Vec<u32>,
-    bvh: Bvh,
+    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their world.
+    hierarchy: OnceLock<Option<Wide>>,
 }
 
 impl PreparedMesh {
     /// Prepares a mesh.
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let corners = |t: &[u32; 3]| Triangle::new(t.map(|corner| mesh.position(corner)));
+        let corners = |t: &[u32; 3]| Triangle::new(mesh.corners(*t));
         let prepared = (0_u32..).zip(mesh.triangles.iter()).filter_map(|(index, t)| Some((corners(t)?, index)));
         let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
-        let boxes = triangles.iter().map(|triangle| Bounds::of(triangle.vertices())).collect::<Vec<_>>();
-        Self { mesh: Arc::clone(mesh), bvh: Bvh::build(&boxes), triangles, indices }
+        Self { mesh: Arc::clone(mesh), triangles, indices, hierarchy: OnceLock::new() }
     }
 
     /// The triangles that have an area.
@@ -35,9 +35,10 @@ impl PreparedMesh {
         &self.triangles
     }
 
-    /// The hierarchy of the triangles.
-    pub(super) fn bvh(&self) -> &Bvh {
-        &self.bvh
+    /// The hierarchy of the triangles, if there are any.
+    pub(super) fn hierarchy(&self) -> Option<&Wide> {
+        let corners = |item: u32| *self.triangles[item as usize].vertices();
+        self.hierarchy.get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners)).as_ref()
     }
 }
 
@@ -53,6 +54,8 @@ pub struct Instance {
     /// Whether the map turns left hands into right ones.
     mirrors: bool,
     bounds: Bounds,
+    /// How far rounding may move a corner on its way to the world.
+    blur: f64,
 }
 
 impl Instance {
@@ -62,12 +65,16 @@ impl Instance {
         let volume = cross(x, y).dot(z);
         let inverse = [cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume];
         let (axes, mirrors) = ([x, y, z], volume < 0.0);
-        let mut instance = Self { mesh: Arc::clone(mesh), axes, origin, inverse, mirrors, bounds: Bounds::EMPTY };
+        let (mesh, bounds) = (Arc::clone(mesh), Bounds::EMPTY);
+        let mut instance = Self { mesh, axes, origin, inverse, mirrors, bounds, blur: 0.0 };
+        let mesh = Arc::clone(&instance.mesh);
         let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices());
         for corner in corners {
             let point = instance.to_world(*corner);
             // The map rounds; the box must hold what the ray in object space may hit.
-            instance.bounds = instance.bounds.union(Bounds::around(point, instance.rounding(*corner)));
+            let rounding = instance.rounding(*corner);
+            instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
+            instance.blur = instance.blur.max(rounding);
         }
         instance
     }
@@ -79,23 +86,33 @@ impl Instance {
 
     /// How far rounding may move a point between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
-        let [x, y, z] = self.axes.map(|axis| axis.abs().element_sum());
+        let [x, y, z] = self.sizes();
         16.0 * crate::math::U * (Vec3::new(x, y, z).dot(local.abs()) + self.origin.abs().element_sum())
     }
 
+    /// The sums of the coordinates of the axes, all counted positive.
+    fn sizes(&self) -> [f64; 3] {
+        let [x, y, z] = &self.axes;
+        [x.abs().element_sum(), y.abs().element_sum(), z.abs().element_sum()]
+    }
+
+    #[inline]
     fn to_world(&self, p: Vec3) -> Vec3 {
         self.vector_to_world(p) + self.origin
     }
 
+    #[inline]
     fn vector_to_world(&self, v: Vec3) -> Vec3 {
         self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
     }
 
+    #[inline]
     fn normal_to_world(&self, n: Vec3) -> Vec3 {
         (self.inverse[0] * n.x + self.inverse[1] * n.y + self.inverse[2] * n.z).normalize_or_zero()
     }
 
     /// The ray in object space; its `t` are those of the world.
+    #[inline]
     fn to_object(&self, ray: &Ray) -> Ray {
         let rows = |v: Vec3| Vec3::new(self.inverse[0].dot(v), self.inverse[1].dot(v), self.inverse[2].dot(v));
         Ray { origin: rows(ray.origin - self.origin), direction: rows(ray.direction) }
@@ -107,7 +124,7 @@ impl Instance {
         let ray = self.to_object(ray);
         let shear = Shear::new(&ray);
         let mut best = (t_max, u32::MAX);
-        self.mesh.bvh.walk(&ray, t_max, |item, _| {
+        self.mesh.hierarchy()?.walk::<true>(&ray, t_max, |item| {
             if let Some(t) = self.mesh.triangles[item as usize].intersect(&ray, &shear)
                 && (t < best.0 || (t == best.0 && item < best.1))
             {
@@ -118,13 +135,20 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
+    /// The root above 0 of triangle `part`.
+    #[inline]
+    pub(super) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+        let ray = self.to_object(ray);
+        self.mesh.triangles[part as usize].intersect(&ray, &Shear::new(&ray))
+    }
+
     /// The point at `t` on triangle `part`.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
         let local_ray = self.to_object(ray);
         let local = self.mesh.triangles[part as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
-        let [x, y, z] = self.axes.map(|axis| axis.abs().element_sum());
+        let [x, y, z] = self.sizes();
         let reach = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * Vec3::new(x, y, z).dot(reach);
         Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
@@ -154,35 +178,44 @@ impl Instance {
     pub(super) fn details(&self, point: Vec3, part: u32) -> Details {
         let triangle = &self.mesh.triangles[part as usize];
         let local = self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin;
-        let weights = triangle.weights(local);
         let mesh = &self.mesh.mesh;
         let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
-        let normal = (!mesh.normals.is_empty()).then(|| {
-            let [a, b, c] = corners.map(|corner| mesh.normal(corner));
-            let is_even = a == b && a == c;
+        let normals = (!mesh.normals.is_empty()).then(|| {
+            let [a, b, c] = corners;
+            [mesh.normal(a), mesh.normal(b), mesh.normal(c)]
+        });
+        let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
+        let weights = if is_even && is_plain(mesh) { [1.0, 0.0, 0.0] } else { triangle.weights(local) };
+        let normal = normals.map(|[a, b, c]| {
             self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
         });
-        let uvs = (!mesh.uvs.is_empty()).then(|| at(&mesh.uvs, corners));
+        let uvs = at(&mesh.uvs, corners);
         let uv = uvs.map(|uvs| interpolate(uvs, weights));
-        let (tangent, side) = if mesh.tangents.is_empty() {
-            (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness))
-        } else {
-            let [x, y, z, w] = blend(at(&mesh.tangents, corners), weights);
-            (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
+        let (tangent, side) = match at(&mesh.tangents, corners) {
+            None => (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness)),
+            Some(tangents) => {
+                let [x, y, z, w] = blend(tangents, weights);
+                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
+            }
         };
         Details {
             normal: normal.filter(|normal| *normal != Vec3::ZERO),
             uv,
             tangent: tangent.map(|tangent| self.vector_to_world(tangent)),
             side: if self.mirrors { -side } else { side },
-            second_uv: (!mesh.second_uvs.is_empty()).then(|| interpolate(at(&mesh.second_uvs, corners), weights)),
-            color: (!mesh.colors.is_empty()).then(|| blend(at(&mesh.colors, corners), weights)),
+            second_uv: at(&mesh.second_uvs, corners).map(|uvs| interpolate(uvs, weights)),
+            color: at(&mesh.colors, corners).map(|colors| blend(colors, weights)),
         }
     }
 
     /// A box around it.
     pub(super) fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// How far rounding may have moved its corners.
+    pub(super) fn blur(&self) -> f64 {
+        self.blur
     }
 }
 
@@ -215,17 +248,27 @@ fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     -1.0_f64.copysign(area)
 }
 
-/// What a column says of three corners.
-fn at<const N: usize>(column: &Column<N>, corners: [u32; 3]) -> [[f64; N]; 3] {
-    corners.map(|corner| column.at(corner as usize))
+/// Whether nothing differs from corner to corner, but perhaps the normals.
+fn is_plain(mesh: &Mesh) -> bool {
+    mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty() && mesh.colors.is_empty()
+}
+
+/// What a column, which may be empty, says of three corners.
+#[inline]
+fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
+    (!column.is_empty()).then(|| [column.at(a as usize), column.at(b as usize), column.at(c as usize)])
 }
 
 /// The mean with these weights of the corners.
-fn blend(values: [[f64; 4]; 3], weights: [f64; 3]) -> [f64; 4] {
-    [0, 1, 2, 3].map(|axis| (0..3).map(|k| weights[k] * values[k][axis]).sum())
+#[inline]
+fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
+    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
+    [mean(0), mean(1), mean(2), mean(3)]
 }
 
 /// The uv at a point with these weights of the corners.
-pub(super) fn interpolate(uvs: [[f64; 2]; 3], weights: [f64; 3]) -> [f64; 2] {
-    [0, 1].map(|axis| (0..3).map(|k| weights[k] * uvs[k][axis]).sum())
+#[inline]
+pub(super) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
+    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
+    [mean(0), mean(1)]
 }

@@ -16,6 +16,7 @@ mod geometry;
 mod instance;
 mod interval;
 mod kernel;
+mod lanes;
 mod material;
 mod optics;
 mod path;
@@ -34,6 +35,7 @@ mod torus;
 mod triangle;
 mod verify;
 mod whitted;
+mod wide;
 mod world;
 
 pub use aov::{Aov, layers};

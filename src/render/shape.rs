@@ -174,6 +174,15 @@ impl Geometry for Shape {
         }
     }
 
+    fn blur(&self) -> f64 {
+        if let Self::Instance(instance) = self { instance.blur() } else { 0.0 }
+    }
+
+    #[inline]
+    fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+        if let Self::Instance(instance) = self { instance.intersect_part(ray, part) } else { None }
+    }
+
     fn bounds(&self) -> Option<Bounds> {
         match self {
             Self::Sphere(sphere, _) => Some(Bounds::around(sphere.center, sphere.radius)),

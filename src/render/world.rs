@@ -7,6 +7,7 @@ use super::ray::Ray;
 use super::shape::Shape;
 use super::triangle::Shear;
 use super::verify::Verify;
+use super::wide::Wide;
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::valid::{self, Phong, ValidScene};
@@ -49,7 +50,21 @@ pub struct World<S = Shape> {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
+    merged: Option<Merged>,
 }
+
+/// The triangles of meshes that stand in the world one by one.
+struct Merged {
+    /// The surface of each, and the part of it.
+    parts: Vec<[u32; 2]>,
+    hierarchy: Wide,
+}
+
+/// The part of no surface.
+pub(super) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
+
+/// A mesh that stands several times is merged into the world if all its triangles are no more than this.
+const MERGED: usize = 1 << 18;
 
 impl<S: Geometry> World<S> {
     /// Prepares a scene: planes of shapes, the BVH.
@@ -63,9 +78,11 @@ impl<S: Geometry> World<S> {
         };
         let planned = scene.surfaces().iter().enumerate().filter(|(index, _)| plan.surfaces[*index]);
         let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
-        let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut unbounded, mut bounded, mut boxes, mut apart) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let merges = merging(scene);
         for (index, surface) in (0_u32..).zip(&surfaces) {
             match surface.shape.bounds() {
+                _ if merges[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
                 Some(bounds) => {
                     bounded.push(index);
                     boxes.push(bounds);
@@ -73,14 +90,20 @@ impl<S: Geometry> World<S> {
                 None => unbounded.push(index),
             }
         }
-        let bvh = Bvh::build(&boxes);
-        let materials = materials.all;
-        Self { scene: scene.clone(), plan: plan.clone(), materials, surfaces, verify: None, unbounded, bounded, bvh }
+        let (bvh, merged) = (Bvh::build(&boxes), Merged::new(&surfaces, &apart));
+        let (scene, plan, materials) = (scene.clone(), plan.clone(), materials.all);
+        Self { scene, plan, materials, surfaces, verify: None, unbounded, bounded, bvh, merged }
     }
 
     /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        self.nearest_from(ray, NOWHERE)
+    }
+
+    /// As [`World::nearest`], for a ray that starts at a part of a surface: if that is a merged triangle, it is flat, so
+    /// the ray can't come back to it.
+    pub(super) fn nearest_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit all there is.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
@@ -101,6 +124,19 @@ impl<S: Geometry> World<S> {
             visit(*surface);
         }
         self.bvh.walk(&ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
+            hierarchy.walk::<true>(&ray, best.t, |item| {
+                let [surface, part] = parts[item as usize];
+                let surface = surface as usize;
+                if (surface, part) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
+                    && (t < best.t || (t == best.t && (surface, part) < (best.surface, best.part)))
+                {
+                    best = Hit { t, surface, part };
+                }
+                best.t
+            });
+        }
         (best.surface != usize::MAX).then_some(Hit { t: best.t * unit, ..best })
     }
 
@@ -110,34 +146,94 @@ impl<S: Geometry> World<S> {
     /// a light on a surface is not hidden by it.
     #[must_use]
     pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
-        /// The end of the segment is known to this many units of its size.
-        const END: f64 = 16.0 * crate::math::U;
-        let direction = to - from;
-        let size = (from.abs() + to.abs()).element_sum();
-        let length = direction.length();
-        let t_max = 1.0 - END * (1.0 + size / length);
-        if t_max.is_nan() || t_max <= 0.0 {
-            return false;
-        }
-        self.any(&Ray { origin: from, direction }, t_max)
+        segment(from, to).is_some_and(|(ray, t_max)| self.any(&ray, t_max))
     }
 
     /// Whether anything is hit with 0 < t < `t_max`.
     pub(super) fn any(&self, ray: &Ray, t_max: f64) -> bool {
-        const FOUND: f64 = -1.0;
+        self.passing(ray, t_max, NOWHERE, |_| 0.0) == 0.0
+    }
+
+    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no more is asked once that
+    /// is 0. Only triangles of meshes that are [`World::is_merged`] are asked about: all else lets nothing pass. The ray
+    /// starts at the part of a surface given.
+    pub(super) fn passing(&self, ray: &Ray, t_max: f64, from: (usize, u32), mut pass: impl FnMut(Hit) -> f64) -> f64 {
+        const OVER: f64 = -1.0;
         let shear = Shear::new(ray);
         let hits = |surface: u32| {
             let hit = self.surfaces[surface as usize].shape.intersect(ray, &shear, t_max);
             hit.is_some_and(|(t, _)| t < t_max)
         };
         if self.unbounded.iter().any(|surface| hits(*surface)) {
-            return true;
+            return 0.0;
         }
-        let mut found = false;
+        let mut share = 1.0;
         self.bvh.walk(ray, t_max, |item, t_max| {
-            found = found || hits(self.bounded[item as usize]);
-            if found { FOUND } else { t_max }
+            if share == 0.0 || hits(self.bounded[item as usize]) {
+                share = 0.0;
+                return OVER;
+            }
+            t_max
         });
-        found
+        if let Some(Merged { parts, hierarchy }) = self.merged.as_ref().filter(|_| share > 0.0) {
+            hierarchy.walk::<true>(ray, t_max, |item| {
+                let [surface, part] = parts[item as usize];
+                let surface = surface as usize;
+                if (surface, part) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(ray, part)
+                    && t < t_max
+                {
+                    share *= pass(Hit { t, surface, part });
+                }
+                if share > 0.0 { t_max } else { OVER }
+            });
+        }
+        share
     }
+
+    /// Whether the triangles of a surface stand in the world one by one.
+    pub(super) fn is_merged(&self, surface: usize) -> bool {
+        let parts = self.merged.as_ref().map_or(&[][..], |merged| &merged.parts);
+        let first = parts.partition_point(|[other, _]| (*other as usize) < surface);
+        parts.get(first).is_some_and(|[other, _]| *other as usize == surface)
+    }
+}
+
+/// The ray from one point to another, and the t before which nothing belongs to the other; `None` if they are as good as
+/// one.
+pub(super) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
+    /// The end of the segment is known to this many units of its size.
+    const END: f64 = 16.0 * crate::math::U;
+    let direction = to - from;
+    let size = (from.abs() + to.abs()).element_sum();
+    let length = direction.length();
+    let t_max = 1.0 - END * (1.0 + size / length);
+    (t_max > 0.0).then_some((Ray { origin: from, direction }, t_max))
+}
+
+impl Merged {
+    /// Those of the surfaces with these indices.
+    fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
+        let shape = |surface: u32| &surfaces[surface as usize].shape;
+        let parts_of = |surface: u32| (0..).take(shape(surface).triangles()).map(move |part| [surface, part]);
+        let parts = indices.iter().copied().flat_map(parts_of).collect::<Vec<_>>();
+        let blur = indices.iter().map(|surface| shape(*surface).blur()).fold(0.0, f64::max);
+        let corners = |item: u32| {
+            let [surface, part] = parts[item as usize];
+            shape(surface).corners(part).unwrap_or_default()
+        };
+        let hierarchy = Wide::build(parts.len(), blur, corners)?;
+        Some(Self { parts, hierarchy })
+    }
+}
+
+/// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
+fn merging(scene: &ValidScene) -> Vec<bool> {
+    let mut uses = vec![0_usize; scene.meshes().len()];
+    let mesh = |surface: &valid::Surface| {
+        if let valid::Shape::Instance(instance) = &surface.shape { Some(instance.mesh) } else { None }
+    };
+    scene.surfaces().iter().filter_map(mesh).for_each(|mesh| uses[mesh] += 1);
+    let merges = |mesh: usize| uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED;
+    scene.surfaces().iter().map(|surface| mesh(surface).is_some_and(merges)).collect()
 }

@@ -318,7 +318,7 @@ pub(super) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
 /// Whether two edges span an area that the plain cross product, off by at most 6 u of the product of their lengths,
 /// shows already: so do those of nearly all triangles, and the exact one takes far longer.
 fn surely_spans([first, second]: [Vec3; 2]) -> bool {
-    let [p, q] = [first, second].map(|edge| edge.abs().max_element());
+    let (p, q) = (first.abs().max_element(), second.abs().max_element());
     p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
 }
 

@@ -270,3 +270,20 @@ fn an_angle_in_a_scene_is_that_of_the_command_line() {
     assert_eq!(picture(folder.path(), "wide.yaml"), expected);
     assert_eq!(picture(folder.path(), "ball.yaml --eye 7,4,8 --yfov 50"), expected);
 }
+
+/// The sky is bright towards −x; turned by a quarter about y it is bright towards the camera, or away from it.
+#[test]
+fn an_environment_is_turned_as_a_shape_is() {
+    let folder = folder();
+    let sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x00\x00\x00\x00";
+    fs::write(folder.path().join("half.hdr"), sky).unwrap();
+    let front = |rotation: &str| {
+        let ball =
+            "{type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}";
+        let rest = format!("Environment: {{file: half.hdr, rotation: {rotation}}}\nObjects:\n- {ball}\n");
+        fs::write(folder.path().join("turned.yaml"), holding("[0, 0, 9]", "[0, 0, 0]", &rest)).unwrap();
+        values(folder.path(), "turned.yaml --spp 64")[3 * (4 * 8 + 4)]
+    };
+    let (bright, side, dark) = (front("[0, 1.5708, 0]"), front("[0, 0, 0]"), front("[0, -1.5708, 0]"));
+    assert!(bright > side + 20 && side > dark + 20, "{bright} {side} {dark}");
+}

@@ -5,6 +5,7 @@
 mod agreement;
 mod closed;
 mod coverage;
+mod hierarchy;
 mod layers;
 mod surfaces;
 

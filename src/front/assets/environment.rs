@@ -4,8 +4,6 @@ use super::{Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
 use crate::image::{DecodeError, Radiance, decode_radiance};
 use crate::ir::{Image, ImageId, Lowered, Pixels};
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
 
 /// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;
@@ -39,7 +37,7 @@ pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &
 pub fn environment(name: &str, bytes: &[u8]) -> Result<Image, DecodeError> {
     let Radiance { width, height, pixels } = decode_radiance(bytes)?;
     let bytes: Vec<u8> = pixels.as_flattened().iter().flat_map(|channel| channel.to_le_bytes()).collect();
-    Ok(Image { name: name.to_owned(), width, height, kind: Pixels::Rgb32f, pixels: STANDARD.encode(bytes) })
+    Ok(Image { name: name.to_owned(), width, height, kind: Pixels::Rgb32f, pixels: bytes.into() })
 }
 
 /// What to say of such a file that can't be read.

@@ -12,8 +12,8 @@ pub(super) const UV: &str = "UV";
 /// One white pixel.
 const PLACEHOLDER: [u8; 3] = [255; 3];
 
-/// One black pixel of floats, in Base64.
-const DARK: &str = "AAAAAAAAAAAAAAAA";
+/// One black pixel: three floats of four bytes.
+const DARK: [u8; 12] = [0; 12];
 
 /// What a scene has named so far.
 #[derive(Default)]
@@ -58,7 +58,7 @@ impl Files {
 
     /// The image of an environment, of one dark pixel until its file is there.
     pub(super) fn environment(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> ImageId {
-        let (name, pixels) = (file.value.0.replace('\\', "/"), DARK.to_owned());
+        let (name, pixels) = (file.value.0.replace('\\', "/"), DARK.to_vec().into());
         let image = Image { name, width: 1, height: 1, kind: Pixels::Rgb32f, pixels };
         let image = add(&mut scene.images, image, ImageId);
         self.want(Asset::Environment(image), file);

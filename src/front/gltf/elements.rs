@@ -96,7 +96,11 @@ impl<'d> Elements<'d> {
     /// All elements, of `N` components; integers as the fractions they stand for, if they are normalised.
     pub(super) fn vectors<const N: usize>(&self) -> Vec<[f64; N]> {
         let mut vectors = Vec::with_capacity(self.count);
-        self.each(|_, element| vectors.push(self.vector(element)));
+        self.each(|_, element| {
+            let mut vector = [0.0; N];
+            vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from));
+            vectors.push(vector);
+        });
         vectors
     }
 
@@ -104,14 +108,12 @@ impl<'d> Elements<'d> {
     pub(super) fn column<const N: usize>(&self) -> Column<N> {
         let mut vectors = Vec::with_capacity(self.count);
         #[expect(clippy::cast_possible_truncation, reason = "components are of 32 bits or are rounded to them")]
-        self.each(|_, element| vectors.push(self.vector(element).map(|number: f64| number as f32)));
+        self.each(|_, element| {
+            let mut vector = [0.0; N];
+            vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from) as f32);
+            vectors.push(vector);
+        });
         vectors.into()
-    }
-
-    fn vector<const N: usize>(&self, element: &[f64]) -> [f64; N] {
-        let mut vector = [0.0; N];
-        vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from));
-        vector
     }
 
     /// All components as whole numbers, of elements that are indices.

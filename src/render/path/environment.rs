@@ -73,7 +73,8 @@ impl<'world> Environment<'world> {
 
     /// The place in the image of a direction: its middle towards −z, +y up, longitude growing towards +x.
     fn place(&self, direction: Vec3) -> [f64; 2] {
-        let [x, y, z] = self.image_from_world.map(|row| row.dot(direction));
+        let [x, y, z] = &self.image_from_world;
+        let (x, y, z) = (x.dot(direction), y.dot(direction), z.dot(direction));
         [0.5 + atan2(x, -z) / TAU, acos(y.clamp(-1.0, 1.0)) / PI]
     }
 }

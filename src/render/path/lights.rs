@@ -123,21 +123,21 @@ impl<'world, S: Geometry> Lights<'world, S> {
         Point::new(&self.world.scene, surface.material, &details).emission()
     }
 
-    /// Light for a point, from a light chosen by `choice` and a place on it by `u`.
-    pub(super) fn sample(&self, from: Vec3, choice: f64, u: [f64; 2]) -> Option<Incident> {
+    /// Light for a point, from a light chosen by `choice` and a place on it, if it has several, by `u`.
+    pub(super) fn sample(&self, from: Vec3, choice: f64, u: impl FnOnce() -> [f64; 2]) -> Option<Incident> {
         let (index, _) = self.choice.choose(choice)?;
         let probability = self.choice.probability(index);
         match &self.lights[index] {
             Light::Punctual(light) => punctual(light, from, probability),
             Light::Triangle { surface, part, corners } => {
-                let point = point_of_triangle(corners, u);
+                let point = point_of_triangle(corners, u());
                 let wi = (point - from).try_normalize()?;
                 let pdf = probability * pdf_of_triangle(corners, wi, point.distance_squared(from));
                 let radiance = self.emission(*surface, *part, point, *corners) / pdf;
                 (pdf > 0.0 && pdf.is_finite()).then_some(Incident { wi, radiance, pdf: Some(pdf), place: Some(point) })
             }
             Light::Environment => {
-                let wi = self.environment.sample(u);
+                let wi = self.environment.sample(u());
                 let pdf = probability * self.environment.pdf(wi);
                 let radiance = self.environment.radiance(wi) / pdf;
                 (pdf > 0.0).then_some(Incident { wi, radiance, pdf: Some(pdf), place: None })

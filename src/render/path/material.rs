@@ -31,7 +31,8 @@ impl<'world> Point<'world> {
         let mut point = Self { scene, material, places, base: material.base_color };
         let texture = point.show(material.base_color_map.as_ref(), Content::Color);
         let corners = details.color.unwrap_or([1.0; 4]);
-        point.base = [0, 1, 2, 3].map(|k| material.base_color[k] * texture[k] * corners[k]);
+        let base = |k: usize| material.base_color[k] * texture[k] * corners[k];
+        point.base = [base(0), base(1), base(2), base(3)];
         point
     }
 
@@ -41,6 +42,7 @@ impl<'world> Point<'world> {
     }
 
     /// What a map shows; ones where there is none.
+    #[inline]
     fn show(&self, map: Option<&Map>, content: Content) -> [f64; 4] {
         map.and_then(|map| look_up(self.scene, map, &self.places, content)).unwrap_or([1.0; 4])
     }

@@ -44,7 +44,7 @@ impl Sobol {
         let index = scrambled(self.index.reverse_bits(), low).reverse_bits();
         let first = scrambled(index, high).reverse_bits();
         let second = scrambled(pascal(index), low.rotate_left(16) ^ high).reverse_bits();
-        [first, second].map(|bits| f64::from(bits) / 4_294_967_296.0)
+        [f64::from(first) / 4_294_967_296.0, f64::from(second) / 4_294_967_296.0]
     }
 
     /// A number in [0, 1) for what is outside of the sequence, as how often a path goes through a veil.

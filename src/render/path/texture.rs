@@ -1,6 +1,7 @@
 //! Textures as glTF samples them: wrapping, filtering, and which of them hold colours.
 
 use crate::color::srgb_decoded;
+use crate::math::Lanes;
 use crate::valid::{Filter, Image, Map, Texels, Texture, ValidScene, Wrap};
 use std::sync::LazyLock;
 
@@ -21,7 +22,7 @@ pub(super) fn look_up(scene: &ValidScene, map: &Map, places: &Places, content: C
     let [u, v] = places[map.set as usize]?;
     let uv = match map.texture_from_surface {
         None => [u, v],
-        Some(rows) => rows.map(|[a, b, c]| a * u + b * v + c),
+        Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
     };
     let value = match &scene.textures()[map.texture.0 as usize] {
         Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
@@ -40,31 +41,30 @@ pub(super) fn look_up(scene: &ValidScene, map: &Map, places: &Places, content: C
 
 /// The texel or the mean of the four around a place, v = 0 at the top, texel middles half a texel inside.
 pub(super) fn sample(image: &Image, uv: [f64; 2], wrap: [Wrap; 2], filter: Filter, content: Content) -> [f64; 4] {
-    let size = [image.width, image.height];
-    let place = [0, 1].map(|axis| within(uv[axis], wrap[axis]) * f64::from(size[axis]));
-    let at = |[x, y]: [i64; 2]| {
-        let [column, row] = [wrapped(x, size[0], wrap[0]), wrapped(y, size[1], wrap[1])];
-        texel(&image.pixels, row * size[0] as usize + column, content)
+    let places = |axis: usize, size: u32| {
+        let place = within(uv[axis], wrap[axis]) * f64::from(size);
+        let corner = floor(if filter == Filter::Nearest { place } else { place - 0.5 });
+        let first = whole(corner);
+        (wrapped(first, size, wrap[axis]), wrapped(first + 1, size, wrap[axis]), single(place - 0.5 - corner))
     };
-    if filter == Filter::Nearest {
-        return at(place.map(|place| whole(place.floor())));
-    }
-    let corner = place.map(|place| (place - 0.5).floor());
-    let [x, y] = corner.map(whole);
-    let [s, t] = [0, 1].map(|axis| place[axis] - 0.5 - corner[axis]);
-    let (a, b, c, d) = (at([x, y]), at([x + 1, y]), at([x, y + 1]), at([x + 1, y + 1]));
-    let blend = |k: usize| {
-        let (top, bottom) = (a[k] + (b[k] - a[k]) * s, c[k] + (d[k] - c[k]) * s);
+    let (left, right, s) = places(0, image.width);
+    let (top, bottom, t) = places(1, image.height);
+    let at = |column: usize, row: usize| texel(&image.pixels, row * image.width as usize + column, content);
+    let value = if filter == Filter::Nearest {
+        at(left, top)
+    } else {
+        let (a, b, c, d) = (at(left, top), at(right, top), at(left, bottom), at(right, bottom));
+        let (top, bottom) = (a + (b - a) * s, c + (d - c) * s);
         top + (bottom - top) * t
     };
-    [blend(0), blend(1), blend(2), blend(3)]
+    value.as_dvec4().to_array()
 }
 
 /// The coordinate brought near the unit interval, or to [0, 2] where each other image is mirrored.
 fn within(coordinate: f64, wrap: Wrap) -> f64 {
     match wrap {
-        Wrap::Repeat => coordinate - coordinate.floor(),
-        Wrap::Mirror => coordinate - 2.0 * (coordinate * 0.5).floor(),
+        Wrap::Repeat => coordinate - floor(coordinate),
+        Wrap::Mirror => coordinate - 2.0 * floor(coordinate * 0.5),
         Wrap::Clamp => coordinate.clamp(-1.0, 2.0),
     }
 }
@@ -82,42 +82,69 @@ fn wrapped(texel: i64, count: u32, wrap: Wrap) -> usize {
     inside.clamp(0, count - 1) as usize
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "an image has at most 2³² columns")]
+/// The largest integer not above a number, without a call where the machine has no instruction for it.
+#[inline]
+fn floor(x: f64) -> f64 {
+    /// 2⁵², from which on all numbers are integers.
+    const INTEGERS: f64 = 4_503_599_627_370_496.0;
+    if x.abs() >= INTEGERS {
+        return x;
+    }
+    let towards_zero = whole(x) as f64;
+    if towards_zero > x { towards_zero - 1.0 } else { towards_zero }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "columns, of which an image has at most 2³², or a number below 2⁵²"
+)]
 fn whole(place: f64) -> i64 {
     place as i64
 }
 
-fn texel(pixels: &Texels, index: usize, content: Content) -> [f64; 4] {
-    let byte = |byte: u8| match content {
-        Content::Color => decoded()[usize::from(byte)],
-        Content::Linear => f64::from(byte) / 255.0,
-    };
-    match pixels {
-        Texels::Rgb8(pixels) => {
-            let [r, g, b] = pixels[index].map(byte);
-            [r, g, b, 1.0]
-        }
+#[expect(clippy::cast_possible_truncation, reason = "a share, of which 24 bits are enough")]
+fn single(share: f64) -> f32 {
+    share as f32
+}
+
+/// Red, green, blue and alpha.
+#[inline]
+fn texel(pixels: &Texels, index: usize, content: Content) -> Lanes {
+    let ([r, g, b], alpha) = match pixels {
+        Texels::Rgb8(pixels) => (pixels[index], 255),
         Texels::Rgba8(pixels) => {
             let [r, g, b, a] = pixels[index];
-            [byte(r), byte(g), byte(b), f64::from(a) / 255.0]
+            ([r, g, b], a)
         }
         Texels::Rgb32f(pixels) => {
-            let [r, g, b] = pixels[index].map(f64::from);
-            [r, g, b, 1.0]
+            let [r, g, b] = pixels[index];
+            return Lanes::new(r, g, b, 1.0);
         }
+    };
+    let alpha = f32::from(alpha) / 255.0;
+    match content {
+        Content::Color => {
+            let decoded: &[f32; 256] = &DECODED;
+            Lanes::new(decoded[usize::from(r)], decoded[usize::from(g)], decoded[usize::from(b)], alpha)
+        }
+        Content::Linear => (Lanes::new(f32::from(r), f32::from(g), f32::from(b), 0.0) / 255.0).with_w(alpha),
     }
 }
 
 /// The linear value of each byte of sRGB.
-fn decoded() -> &'static [f64; 256] {
-    static DECODED: LazyLock<[f64; 256]> =
-        LazyLock::new(|| std::array::from_fn(|byte| srgb_decoded(byte as f64 / 255.0)));
-    &DECODED
-}
+static DECODED: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|byte| single(srgb_decoded(byte as f64 / 255.0))));
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_floor_is_that_of_std() {
+        for x in [0.0, 0.5, 1.0, -0.25, -1.0, -1.5, 4_503_599_627_370_495.5, -4_503_599_627_370_495.5, 1e60, -1e60] {
+            assert_eq!(floor(x), x.floor(), "{x}");
+        }
+    }
 
     fn row() -> Image {
         Image { width: 2, height: 1, pixels: Texels::Rgb8(vec![[255, 0, 0], [0, 255, 0]]) }
@@ -152,7 +179,7 @@ mod tests {
         let image = Image { width: 1, height: 1, pixels: Texels::Rgba8(vec![[128; 4]]) };
         let value = |content| sample(&image, [0.5; 2], [Wrap::Repeat; 2], Filter::Linear, content);
         let [r, _, _, a] = value(Content::Color);
-        assert!((r - 0.215_860_5).abs() < 1e-6 && a == 128.0 / 255.0);
-        assert_eq!(value(Content::Linear), [128.0 / 255.0; 4]);
+        assert!((r - 0.215_860_5).abs() < 1e-6 && a == f64::from(128.0_f32 / 255.0));
+        assert_eq!(value(Content::Linear), [f64::from(128.0_f32 / 255.0); 4]);
     }
 }

@@ -6,7 +6,7 @@ use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
 use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
-use super::super::world::{Hit, World};
+use super::super::world::{Hit, NOWHERE, World, segment};
 use super::Strategy;
 use super::lights::{Incident, Lights};
 use super::material::{Frame, Point};
@@ -30,8 +30,7 @@ pub(super) struct Tracer<'world, S> {
     lights: &'world Lights<'world, S>,
     pub(super) path: Path,
     strategy: Strategy,
-    /// Whether any surface may be absent in part.
-    has_veils: bool,
+    veils: Veils,
     /// What a ray of the camera that meets nothing shows.
     behind: Behind,
     /// The rays traced so far.
@@ -41,6 +40,8 @@ pub(super) struct Tracer<'world, S> {
 /// A path under way.
 pub(super) struct Walk {
     pub(super) ray: Ray,
+    /// The part of a surface where it starts.
+    from: (usize, u32),
     /// The factor by which what the ray sees counts.
     beta: Vec3,
     /// The light found so far.
@@ -73,8 +74,15 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         path: Path,
         strategy: Strategy,
     ) -> Self {
-        let has_veils = world.surfaces.iter().any(|s| world.scene.standards()[s.material].alpha != Alpha::Opaque);
-        Self { world, lights, path, strategy, has_veils, behind: Behind::default(), counts: Counts::default() }
+        Self {
+            world,
+            lights,
+            path,
+            strategy,
+            veils: Veils::of(world),
+            behind: Behind::default(),
+            counts: Counts::default(),
+        }
     }
 
     /// The same, with something else behind all surfaces.
@@ -131,10 +139,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 
     /// The next surface that is there; veils let the ray on by chance.
+    #[inline(always)]
     pub(super) fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
         walk.travelled = 0.0;
         for veil in 0..VEILS {
-            let hit = self.world.nearest(&walk.ray)?;
+            let hit = self.world.nearest_from(&walk.ray, walk.from)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&walk.ray, hit.t, hit.part);
             let details = surface.shape.details(&walk.ray, &at, hit.part);
@@ -142,7 +151,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             walk.travelled += hit.t;
             let coverage = point.coverage();
             if coverage < 1.0 && walk.sobol.uniform(walk.corners, veil) >= coverage {
-                walk.ray = at.ray(walk.ray.direction);
+                (walk.ray, walk.from) = (at.ray(walk.ray.direction), (hit.surface, hit.part));
                 continue;
             }
             let (frame, coat) = point.frame(&at, &details, -walk.ray.direction);
@@ -209,7 +218,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         if through && point.bounds_a_volume() {
             walk.absorption = if wi.dot(at.normal) < 0.0 { point.absorption() } else { Vec3::ZERO };
         }
-        walk.ray = at.ray(wi);
+        (walk.ray, walk.from) = (at.ray(wi), (hit.surface, hit.part));
         *if through { &mut self.counts.refracted } else { &mut self.counts.mirror } += 1;
         walk.survives()
     }
@@ -217,7 +226,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The light that one light sends to a corner and on along the path.
     fn direct(&mut self, walk: &Walk, corner: &Corner<'world>, bsdf: &Bsdf, choice: f64) -> Vec3 {
         let Corner { at, frame, .. } = corner;
-        let Some(Incident { wi, radiance, pdf, place }) = self.lights.sample(at.point, choice, walk.pair(2)) else {
+        let Some(Incident { wi, radiance, pdf, place }) = self.lights.sample(at.point, choice, || walk.pair(2)) else {
             return Vec3::ZERO;
         };
         let (local, wo) = (frame.to_local(wi), -walk.ray.direction);
@@ -231,38 +240,45 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             _ => 1.0,
         };
         let light = value.f * radiance * (local.z.abs() * weight);
-        if light == Vec3::ZERO { light } else { light * self.visibility(at, wi, place) }
+        if light == Vec3::ZERO { light } else { light * self.visibility(corner, wi, place) }
     }
 
     /// The share of light that comes through from a place, or from infinitely far away.
-    fn visibility(&mut self, at: &Interaction, wi: Vec3, place: Option<Vec3>) -> f64 {
+    fn visibility(&mut self, corner: &Corner<'world>, wi: Vec3, place: Option<Vec3>) -> f64 {
         self.counts.shadow += 1;
-        let mut ray = at.ray(wi);
-        if !self.has_veils {
-            let hidden = match place {
-                Some(place) => self.world.occluded(ray.origin, place),
-                None => self.world.any(&ray, f64::INFINITY),
-            };
-            return f64::from(u8::from(!hidden));
+        let ray = corner.at.ray(wi);
+        if self.veils == Veils::Solid {
+            return self.passing_one_by_one(ray, wi, place);
         }
+        let Some((ray, t_max)) = place.map_or(Some((ray, f64::INFINITY)), |place| segment(ray.origin, place)) else {
+            return 1.0;
+        };
+        let pass = |hit: Hit| if self.veils == Veils::None { 0.0 } else { self.passing(&ray, &hit).1 };
+        self.world.passing(&ray, t_max, (corner.hit.surface, corner.hit.part), pass)
+    }
+
+    /// Where a ray meets a surface, and the share of light that the surface lets through there.
+    fn passing(&self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
+        let surface = &self.world.surfaces[hit.surface];
+        if self.world.scene.standards()[surface.material].alpha == Alpha::Opaque {
+            return (None, 0.0);
+        }
+        let at = surface.shape.interaction(ray, hit.t, hit.part);
+        let details = surface.shape.details(ray, &at, hit.part);
+        (Some(at), 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage())
+    }
+
+    /// As [`Self::visibility`], for surfaces that a ray may cross more than once.
+    fn passing_one_by_one(&self, mut ray: Ray, wi: Vec3, place: Option<Vec3>) -> f64 {
         let mut share = 1.0;
         for _ in 0..VEILS {
-            if let Some(place) = place
-                && !self.world.occluded(ray.origin, place)
-            {
+            if place.is_some_and(|place| !self.world.occluded(ray.origin, place)) {
                 return share;
             }
             let Some(hit) = self.world.nearest(&ray) else { return share };
-            let surface = &self.world.surfaces[hit.surface];
-            if self.world.scene.standards()[surface.material].alpha == Alpha::Opaque {
-                return 0.0;
-            }
-            let at = surface.shape.interaction(&ray, hit.t, hit.part);
-            let details = surface.shape.details(&ray, &at, hit.part);
-            share *= 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage();
-            if share == 0.0 {
-                return 0.0;
-            }
+            let (at, passing) = self.passing(&ray, &hit);
+            share *= passing;
+            let Some(at) = at.filter(|_| share > 0.0) else { return 0.0 };
             ray = at.ray(wi);
         }
         0.0
@@ -281,11 +297,33 @@ impl<S: Geometry> Sampling for Tracer<'_, S> {
     }
 }
 
+/// What surfaces there are that may be absent in part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Veils {
+    None,
+    /// Triangles that stand in the world one by one.
+    Flat,
+    /// Others as well.
+    Solid,
+}
+
+impl Veils {
+    fn of<S: Geometry>(world: &World<S>) -> Self {
+        let is_veil = |material: usize| world.scene.standards()[material].alpha != Alpha::Opaque;
+        let veils = (0..world.surfaces.len()).filter(|surface| is_veil(world.surfaces[*surface].material));
+        veils.fold(Self::None, |veils, surface| match veils {
+            Self::None | Self::Flat if world.is_merged(surface) => Self::Flat,
+            Self::None | Self::Flat | Self::Solid => Self::Solid,
+        })
+    }
+}
+
 impl Walk {
     /// A path that begins with a ray.
     pub(super) fn new(ray: Ray, sobol: Sobol) -> Self {
         Self {
             ray,
+            from: NOWHERE,
             beta: Vec3::ONE,
             found: Vec3::ZERO,
             sobol,

@@ -49,7 +49,7 @@ impl<R: Real> Instance<R> {
         let line = self.to_object(line);
         let ray = Ray { origin: line.origin.wide(), direction: line.direction.wide() };
         let mut best = (t_max, u32::MAX);
-        self.mesh.twin.bvh().walk(&ray, t_max, |item, _| {
+        self.mesh.twin.hierarchy()?.walk::<false>(&ray, t_max, |item| {
             if let Some(t) = self.mesh.triangles[item as usize].intersect(&line).map(R::wide)
                 && (t < best.0 || (t == best.0 && item < best.1))
             {
