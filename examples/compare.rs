@@ -10,15 +10,14 @@
     reason = "a measurement stops at the first surprise, and reads what it compares with"
 )]
 
+mod setup;
+
 use cpu_time::ProcessTime;
 use exr::prelude::{ReadChannels as _, ReadLayers as _, read};
-use rtc::diag::Sink;
-use rtc::ir::{Camera, Emitter, Environment, Lens, Light, Lowered, Mode, Path as Paths, Projection, Punctual, Scene};
-use rtc::math::{Vec3, camera_basis};
-use rtc::pipeline::{self, Options};
+use rtc::math::Vec3;
+use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Values};
-use rtc::source::SourceMap;
 use serde_json::Value;
 use std::path::Path;
 
@@ -32,10 +31,9 @@ fn main() {
     let path = Path::new(&path);
     let setup: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
     let asset = path.parent().unwrap().join(setup["asset"].as_str().unwrap());
-    let (options, mut map, mut sink) = (Options::default(), SourceMap::default(), Sink::default());
-    let mut lowered = load(&asset, &mut map, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"));
-    set_up(&mut lowered.scene, &setup, samples);
-    let proof = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"));
+    let mut lowered = setup::load(&asset);
+    setup::set_up(&mut lowered.scene, &setup, samples);
+    let proof = setup::prove(&lowered);
     let plan = Plan::new(&proof, Rules::ALL);
     let job = Job { values: Values::Linear, ..Job::default() };
     let start = ProcessTime::now();
@@ -43,35 +41,6 @@ fn main() {
     let seconds = start.elapsed().as_secs_f64();
     let reference = reference(&path.with_extension("exr"));
     println!("{}", report(&film, &reference, seconds));
-}
-
-fn load(asset: &Path, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
-    let file = map.add(asset.to_str().unwrap(), std::fs::read(asset).unwrap());
-    pipeline::load(file, map, options, sink)
-}
-
-/// Camera, lights and surroundings of the set-up in place of those of the asset.
-fn set_up(scene: &mut Scene, setup: &Value, samples: u32) {
-    let triple = |value: &Value| [0, 1, 2].map(|k| value[k].as_f64().unwrap());
-    let (camera, lights) = (&setup["camera"], &setup["lights"]);
-    let size = [&setup["width"], &setup["height"]].map(|side| u32::try_from(side.as_u64().unwrap()).unwrap());
-    let [eye, center, up] = [&camera["position"], &camera["look_at"], &camera["up"]].map(triple);
-    let distance = Vec3::from_array(center).distance(Vec3::from_array(eye));
-    let half = libm::tan(camera["yfov_deg"].as_f64().unwrap().to_radians() / 2.0);
-    let pixel = Vec3::from_array(up) * (2.0 * half * distance / f64::from(size[1]));
-    let (right, up) = camera_basis(Vec3::from_array(eye), Vec3::from_array(center), pixel).unwrap();
-    let lens = Lens { radius: 0.0, samples: 1 };
-    let (right, up) = (right.to_array(), up.to_array());
-    scene.camera = Camera { eye, center, right, up, size, lens, projection: Projection::Perspective };
-    let radiance = triple(&lights["env_radiance"]);
-    scene.environment = Some(Environment { radiance, image: None, image_from_world: None });
-    let sun = |sun: &Value| {
-        let emitter = Emitter::Sun { direction: triple(&sun["direction_to_light"]) };
-        Light::Punctual(Punctual { emitter, intensity: triple(&sun["irradiance"]) })
-    };
-    scene.lights = lights["suns"].as_array().unwrap().iter().map(sun).collect();
-    scene.settings.mode = Mode::Path(Paths { samples, multiple_scattering: false });
-    scene.settings.max_depth = u32::try_from(setup["max_bounces"].as_u64().unwrap()).unwrap();
 }
 
 /// The pixels of an EXR.

@@ -81,6 +81,15 @@ fn rounded_down(x: f64) -> f32 {
     if f64::from(nearest) > x { nearest.next_down() } else { nearest }
 }
 
+/// Why there is no beam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NoBeam {
+    /// The ray misses the cube.
+    Missed,
+    /// The arithmetic can't tell: anything may be hit.
+    Untold,
+}
+
 /// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves along its main axis
 /// as fast as t.
 #[derive(Clone, Copy, Debug)]
@@ -104,11 +113,10 @@ pub(super) struct Beam {
 }
 
 impl Beam {
-    /// The part of a ray that may be inside a cube. `Err(true)` if the arithmetic can't tell, so that anything may be
-    /// hit; `Err(false)` if nothing is.
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is meant; errors are bounded")]
+    /// The part of a ray that may be inside a cube.
     #[inline(always)]
-    pub(super) fn new(cube: &Cube, ray: &Ray) -> Result<Self, bool> {
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is meant; errors are bounded")]
+    pub(super) fn new(cube: &Cube, ray: &Ray) -> Result<Self, NoBeam> {
         let size = ray.direction.abs();
         let speed = size.max_element();
         let main = if size.x == speed { 0 } else { 2 - usize::from(size.y == speed) };
@@ -118,7 +126,7 @@ impl Beam {
         let distance = far.abs().max_element();
         let rate = speed * cube.scale;
         if !(direction.is_finite() && distance < 1e30 && rate.is_normal()) {
-            return Err(true);
+            return Err(NoBeam::Untold);
         }
         // Points of the cube have t between the distance ∓ 1.
         let start = (distance - 2.0).max(0.0);
@@ -126,7 +134,7 @@ impl Beam {
         let reach = origin.abs().max_element();
         let base = FLOOR + 64.0 * U * (1.0 + distance);
         if reach > 5.0 + base {
-            return Err(false);
+            return Err(NoBeam::Missed);
         }
         let steep = direction.abs().max(Vec3::splat(STEEP)).copysign(direction);
         // Twice what rounding to f32 moves the origin by, once more for the sum.

@@ -5,7 +5,7 @@
 
 use super::bounds::Bounds;
 use super::bvh::{Item, split, to_u32};
-use super::lanes::{Beam, Boxes, Corners, Cube};
+use super::lanes::{Beam, Boxes, Corners, Cube, NoBeam};
 use super::ray::Ray;
 use crate::math::Vec3;
 
@@ -100,8 +100,8 @@ impl Wide {
     pub(super) fn walk<const CULL: bool>(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32) -> f64) {
         let beam = match Beam::new(&self.cube, ray) {
             Ok(beam) => beam,
-            Err(false) => return,
-            Err(true) => {
+            Err(NoBeam::Missed) => return,
+            Err(NoBeam::Untold) => {
                 let mut items = self.leaves.iter().flat_map(|leaf| leaf.items).filter(|item| *item != NONE);
                 while t_max >= 0.0
                     && let Some(item) = items.next()
