@@ -1,7 +1,7 @@
 //! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the right reason.
 //!
-//! The strength of this suite is measured by `cargo mutants -f 'src/plan/**' -- --test plan`: mutants of the rules that
-//! it does not kill want a test here. Scenes of the course and of the wild are read from `../shared`; where that is
+//! The strength of this suite is measured by `cargo mutants`, as `.cargo/mutants.toml` says: mutants of the
+//! rules that it does not kill want a test here. Scenes of the course and of the wild are read from `../shared`; where that is
 //! absent, the tests that need it say so and pass.
 
 #![expect(
@@ -10,6 +10,7 @@
     reason = "a test stops at the first surprise and says what it skips"
 )]
 
+mod approved;
 mod counters;
 mod dice;
 mod law;

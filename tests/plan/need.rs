@@ -5,7 +5,7 @@ use super::{fate, verdict};
 use rtc::diag::Sink;
 use rtc::ir::{Bump, Lowered, Mode, Origins, Scene};
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Effect, Plan, Rules, State};
+use rtc::plan::{Effect, Plan, Rules, Sight, State};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
@@ -218,6 +218,16 @@ fn too_many_surfaces_are_kept_without_asking() {
     assert!(plan.needs(Effect::Shadows));
     assert!(verdict(&plan, Effect::Shadows).because.contains("too many"));
     assert!(!plan.needs(Effect::Mirror) && plan.surfaces.iter().all(|kept| *kept));
+}
+
+/// The cells of a large picture are several pixels wide.
+#[test]
+fn a_large_picture_is_looked_at_in_coarse_cells() {
+    let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
+    (scene.camera.size, scene.camera.right, scene.camera.up) = ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
+    let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
+    let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
+    assert_eq!(sights, [Sight::Nothing, Sight::Anything, Sight::Nothing, Sight::Nothing]);
 }
 
 #[test]
