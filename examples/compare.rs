@@ -1,7 +1,7 @@
 //! Renders the set-up of a reference picture and says how far the two are apart: `compare REFERENCE.json [SAMPLES]`.
 //!
 //! The set-up names the asset, the camera and the lights; `REFERENCE.exr` beside it is the picture, linear. One line of
-//! JSON comes out: ratios of the means, and errors of the means of blocks of 8 × 8 pixels.
+//! JSON comes out: ratios of the means, the relative mean square error, and errors of the means of blocks of 8 × 8 pixels.
 
 #![expect(
     clippy::unwrap_used,
@@ -81,10 +81,15 @@ fn report(film: &Film, reference: &[[f64; 3]], seconds: f64) -> Value {
     let mut errors = ours.iter().zip(&theirs).map(error).enumerate().collect::<Vec<_>>();
     errors.sort_by(|a, b| a.1.total_cmp(&b.1));
     let at = |share: f64| errors[(share * (errors.len() - 1) as f64).round() as usize].1;
+    let square =
+        |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2) / (b[k] * b[k] + 0.01)).sum::<f64>();
+    let squares: f64 = film.image.pixels.iter().zip(reference).map(square).sum();
     let columns = width / BLOCK;
     let worst = errors.last().unwrap().0;
     serde_json::json!({
         "mean_ratio": ratio.to_array(),
+        "mean_off": (ratio - 1.0).abs().max_element(),
+        "rel_mse": squares / (3 * reference.len()) as f64,
         "block_median": at(0.5),
         "block_p95": at(0.95),
         "block_max": at(1.0),

@@ -4,7 +4,7 @@ use super::make;
 use rtc::codec::{self, Form};
 use rtc::diag::{Severity, Sink};
 use rtc::front;
-use rtc::ir::{Lowered, Mesh, Mode, Origins, Scene, Shape};
+use rtc::ir::{Environment, Lowered, Mesh, Origins, Overrides, Scene, Shape};
 use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
@@ -75,10 +75,7 @@ fn a_mesh_used_twice_is_made_once() {
 
 /// A few pixels of what a scene shows, to the bit.
 fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
-    scene.camera.size = [24, 24];
-    if let Mode::Path(path) = &mut scene.settings.mode {
-        path.samples = 4;
-    }
+    Overrides { size: Some([24, 24]), spp: Some(4), ..Overrides::default() }.apply(&mut scene);
     let lowered = Lowered { scene, origins: Origins::default() };
     let (options, mut sink) = (Options::default(), Sink::default());
     let proven = pipeline::prove(&lowered, &options, &mut sink).unwrap();
@@ -98,7 +95,9 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
     ];
     let (mut names, mut images, mut surroundings) = (0, 0, 0);
     for (bytes, options) in cases {
-        let scene = lower(bytes, options);
+        let mut scene = lower(bytes, options);
+        let sky = Environment { radiance: [1.0; 3], image: None, image_from_world: None };
+        scene.environment.get_or_insert(sky);
         names += scene.names.len();
         images += scene.images.len();
         surroundings += usize::from(scene.environment.is_some());

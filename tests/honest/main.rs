@@ -73,8 +73,8 @@ fn samples_go_where_the_noise_is() {
 #[test]
 fn a_picture_without_noise_ends_at_once() {
     let reached = render(&flat(), 0.01, 0);
-    assert_eq!((reached.error, reached.samples.most), (0.0, 8));
-    assert_eq!(reached.counts.camera, 8 * 32 * 24);
+    assert_eq!((reached.error, reached.samples.most), (0.0, 1));
+    assert!(reached.counts.camera <= 32 * 24);
 }
 
 /// The samples of a pixel are keyed by its place in the picture, not in the crop.
