@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # How near traced paths come to the references of `../shared/gltf/refs`, as Markdown: the mean in its worst channel, the
 # relative mean square error (over r² + 0.01), and the error of the means of blocks of 8 × 8 pixels at the 95th percentile.
-# 256 × 256 pixels, as many samples as the argument says, 512 without; fails where a gate is missed.
+# 256 × 256 pixels, as many samples as the argument says, 256 without; fails where a gate is missed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-refs=../shared/gltf/refs samples=${1:-512} failed=0
+refs=../shared/gltf/refs samples=${1:-256} failed=0
 [ -d "$refs" ] || { echo "no $refs here" >&2; exit 0; }
 cargo build --release --quiet --example compare
 

@@ -15,7 +15,8 @@
 mod setup;
 
 use cpu_time::ProcessTime;
-use rtc::ir::{Mode, Scene};
+use rtc::diag::Sink;
+use rtc::ir::{Mode, Scene, Stage};
 use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Seeds, Values};
@@ -40,7 +41,9 @@ fn main() {
             setup::set_up(&mut lowered.scene, &set_up, samples);
             lowered
         } else {
-            setup::load(path)
+            let mut lowered = setup::load(path);
+            pipeline::stage(&mut lowered, &Stage::default(), &mut Sink::default());
+            lowered
         };
         resize(&mut lowered.scene, samples);
         setup::prove(&lowered)

@@ -54,7 +54,7 @@ pub(super) enum Command {
 
 #[derive(Debug, Args)]
 pub(super) struct Check {
-    /// Scenes, as YAML or IR; `-` is standard input
+    /// Scenes, as YAML, glTF or IR; `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     #[command(flatten)]
@@ -65,7 +65,7 @@ pub(super) struct Check {
 
 #[derive(Debug, Args)]
 pub(super) struct Compile {
-    /// The scene, as YAML or IR; `-` is standard input
+    /// The scene, as YAML, glTF or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
     /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]
