@@ -80,20 +80,7 @@ fn one_wrong_pixel_is_counted() {
 fn earth() -> Scene {
     let (eye, center) = (Vec3::new(192_201.5, 0.0, 149_264_987.0), Vec3::new(0.0, 0.0, 149_597_890.0));
     let (right, up) = view_basis(center - eye, Vec3::new(0.0, 40.0, 0.0)).unwrap();
-    let phong = ir::Phong {
-        color: [1.0; 3],
-        ka: 0.2,
-        kd: 0.7,
-        ks: 0.0,
-        n: 1.0,
-        kt: 0.0,
-        eta: 1.0,
-        glossy_samples: 1,
-        color_map: None,
-        specular_map: None,
-        normal_map: None,
-        bump: None,
-    };
+    let phong = ir::Phong { ka: 0.2, kd: 0.7, ..ir::Phong::MATT };
     let sphere = ir::Sphere { center: center.to_array(), radius: 6378.1, texture_from_world: None };
     Scene {
         camera: ir::Camera {

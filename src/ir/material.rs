@@ -81,6 +81,24 @@ pub struct Phong {
     pub bump: Option<Bump>,
 }
 
+impl Phong {
+    /// White, matt and opaque, without ambient light.
+    pub const MATT: Self = Self {
+        color: [1.0; 3],
+        ka: 0.0,
+        kd: 1.0,
+        ks: 0.0,
+        n: 1.0,
+        kt: 0.0,
+        eta: 1.0,
+        glossy_samples: 1,
+        color_map: None,
+        specular_map: None,
+        normal_map: None,
+        bump: None,
+    };
+}
+
 /// A height field (Blinn, "Simulation of wrinkled surfaces", SIGGRAPH 1978).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]

@@ -108,17 +108,10 @@ pub(super) fn as_phong(material: &Standard) -> ir::Phong {
     let [r, g, b, _] = material.base_color;
     ir::Phong {
         color: [r, g, b],
-        ka: 0.0,
         kd: 1.0 - material.metallic,
         ks: material.metallic,
         n: 1.0 / (material.roughness * material.roughness).max(1e-4),
-        kt: 0.0,
-        eta: 1.0,
-        glossy_samples: 1,
-        color_map: None,
-        specular_map: None,
-        normal_map: None,
-        bump: None,
+        ..ir::Phong::MATT
     }
 }
 

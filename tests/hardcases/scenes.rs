@@ -10,20 +10,7 @@ use serde_json::Value;
 
 /// A white Phong material that is lit, shines and mirrors.
 pub(crate) fn white() -> ir::Material {
-    ir::Material::Phong(ir::Phong {
-        color: [1.0; 3],
-        ka: 0.0,
-        kd: 1.0,
-        ks: 0.0,
-        n: 1.0,
-        kt: 0.0,
-        eta: 1.0,
-        glossy_samples: 1,
-        color_map: None,
-        specular_map: None,
-        normal_map: None,
-        bump: None,
-    })
+    ir::Material::Phong(ir::Phong::MATT)
 }
 
 /// A scene of shapes, each white, seen from afar.

@@ -40,25 +40,8 @@ fn phong() -> Scene {
     scene.settings.mode = Mode::Phong;
     scene.environment = None;
     let colors = [[0.25, 0.5, 0.75], [0.9, 0.1, 0.2]];
-    scene.materials = colors.map(|color| Material::Phong(Phong { color, kd: 0.5, ..ir_phong() })).into();
+    scene.materials = colors.map(|color| Material::Phong(Phong { color, kd: 0.5, ka: 0.1, ..Phong::MATT })).into();
     scene
-}
-
-fn ir_phong() -> Phong {
-    Phong {
-        color: [0.0; 3],
-        ka: 0.1,
-        kd: 1.0,
-        ks: 0.0,
-        n: 1.0,
-        kt: 0.0,
-        eta: 1.0,
-        glossy_samples: 1,
-        color_map: None,
-        specular_map: None,
-        normal_map: None,
-        bump: None,
-    }
 }
 
 #[test]

@@ -40,20 +40,7 @@ record! {
 }
 
 /// The material of a mesh for which none was written.
-const GREY: ir::Phong = ir::Phong {
-    color: [0.7; 3],
-    ka: 0.2,
-    kd: 0.8,
-    ks: 0.0,
-    n: 1.0,
-    kt: 0.0,
-    eta: 1.0,
-    glossy_samples: 1,
-    color_map: None,
-    specular_map: None,
-    normal_map: None,
-    bump: None,
-};
+const GREY: ir::Phong = ir::Phong { color: [0.7; 3], ka: 0.2, kd: 0.8, ..ir::Phong::MATT };
 
 impl Lowering {
     /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
