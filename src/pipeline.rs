@@ -73,8 +73,7 @@ pub fn approach(
     threads: usize,
     watch: &Watch<'_>,
 ) -> Result<Result<Reached, Stopped>, rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| study::approach(scene, order, watch)))
+    on(threads, || study::approach(scene, order, watch))
 }
 
 /// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
@@ -90,8 +89,7 @@ pub fn render(
     threads: usize,
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| render::render(scene, plan, job, proceed)))
+    on(threads, || render::render(scene, plan, job, proceed))
 }
 
 /// Renders layers of a part of a picture on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
@@ -105,8 +103,7 @@ pub fn layers(
     threads: usize,
     proceed: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Layers>, rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| render::layers(scene, arithmetic, wanted, crop, proceed)))
+    on(threads, || render::layers(scene, arithmetic, wanted, crop, proceed))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
@@ -120,6 +117,10 @@ pub fn verify(
     threads: usize,
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    Ok(pool.install(|| render::verify(scene, plan, job, proceed)))
+    on(threads, || render::verify(scene, plan, job, proceed))
+}
+
+/// Does the work on `threads` threads, 0 for one per core.
+fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, rayon::ThreadPoolBuildError> {
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
 }
