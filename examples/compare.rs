@@ -29,10 +29,7 @@ fn main() {
     let path = arguments.next().expect("usage: compare REFERENCE.json [SAMPLES]");
     let samples = arguments.next().map_or(256, |samples| samples.parse().unwrap());
     let path = Path::new(&path);
-    let setup: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
-    let asset = path.parent().unwrap().join(setup["asset"].as_str().unwrap());
-    let mut lowered = setup::load(&asset);
-    setup::set_up(&mut lowered.scene, &setup, samples);
+    let lowered = setup::load_set_up(path, samples);
     let proof = setup::prove(&lowered);
     let plan = Plan::new(&proof, Rules::ALL);
     let job = Job { values: Values::Linear, ..Job::default() };

@@ -21,7 +21,6 @@ use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Seeds, Values};
 use rtc::valid::{Shape, Surface, ValidScene};
-use serde_json::Value;
 use std::path::Path;
 
 /// Pixels along each side.
@@ -36,10 +35,7 @@ fn main() {
     let path = Path::new(&path);
     let proof = {
         let mut lowered = if path.extension().is_some_and(|extension| extension == "json") {
-            let set_up: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
-            let mut lowered = setup::load(&path.parent().unwrap().join(set_up["asset"].as_str().unwrap()));
-            setup::set_up(&mut lowered.scene, &set_up, samples);
-            lowered
+            setup::load_set_up(path, samples)
         } else {
             let mut lowered = setup::load(path);
             pipeline::stage(&mut lowered, &Stage::default(), &mut Sink::default());

@@ -24,6 +24,14 @@ pub(crate) fn load(asset: &Path) -> Lowered {
     pipeline::load(file, &mut map, &options, &mut sink).unwrap_or_else(|| panic!("{sink:?}"))
 }
 
+/// The scene of a set-up, by the file of that, with so many paths a pixel.
+pub(crate) fn load_set_up(path: &Path, samples: u32) -> Lowered {
+    let set_up: Value = serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap();
+    let mut lowered = load(&path.parent().unwrap().join(set_up["asset"].as_str().unwrap()));
+    put_up(&mut lowered.scene, &set_up, samples);
+    lowered
+}
+
 /// The scene, proven.
 pub(crate) fn prove(lowered: &Lowered) -> ValidScene {
     let mut sink = Sink::default();
@@ -31,7 +39,7 @@ pub(crate) fn prove(lowered: &Lowered) -> ValidScene {
 }
 
 /// Camera, lights and surroundings of the set-up in place of those of the asset.
-pub(crate) fn set_up(scene: &mut Scene, setup: &Value, samples: u32) {
+fn put_up(scene: &mut Scene, setup: &Value, samples: u32) {
     let triple = |value: &Value| [0, 1, 2].map(|k| value[k].as_f64().unwrap());
     let (camera, lights) = (&setup["camera"], &setup["lights"]);
     let size = [&setup["width"], &setup["height"]].map(|side| u32::try_from(side.as_u64().unwrap()).unwrap());
