@@ -133,18 +133,41 @@ impl Patch {
             let v = cross(normal, from).dot(d) / normal.dot(normal);
             // Meet it with the tangent plane there: t then errs by no more than rounding of a point, even where the ray
             // runs along the line.
-            let tangent_plane = cross((q10 - q00).lerp(q11 - q01, v), line);
+            let tangent_plane = cross(self.tangents([u, v])[0], line);
             let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
         };
         candidates.into_iter().filter_map(along).min_by(|first, second| first.0.total_cmp(&second.0))
     }
 
-    fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+    fn at(&self, [u, v]: [f64; 2]) -> Vec3 {
         let [q00, q10, q11, q01] = self.vertices;
-        let [u, v] = self.crossing(ray).map_or([0.5; 2], |(_, uv)| uv);
-        let point = q00.lerp(q10, u).lerp(q01.lerp(q11, u), v);
-        let (across, upward) = ((q10 - q00).lerp(q11 - q01, v), (q01 - q00).lerp(q11 - q10, u));
+        q00.lerp(q10, u).lerp(q01.lerp(q11, u), v)
+    }
+
+    /// The derivatives along u and v.
+    fn tangents(&self, [u, v]: [f64; 2]) -> [Vec3; 2] {
+        let [q00, q10, q11, q01] = self.vertices;
+        [(q10 - q00).lerp(q11 - q01, v), (q01 - q00).lerp(q11 - q10, u)]
+    }
+
+    /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`. Where a ray grazes, t is
+    /// well known, but u and v err along the ray by the root of a rounding error.
+    fn nearest(&self, point: Vec3, uv: [f64; 2]) -> [f64; 2] {
+        let rest = point - self.at(uv);
+        let [across, upward] = self.tangents(uv);
+        let normal = cross(across, upward);
+        let step = [cross(rest, upward), cross(across, rest)].map(|area| area.dot(normal) / normal.dot(normal));
+        let moved = [uv[0] + step[0], uv[1] + step[1]];
+        if moved.iter().all(|w| (0.0..=1.0).contains(w)) { moved } else { uv }
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let q00 = self.vertices[0];
+        let uv = self.crossing(ray).map_or([0.5; 2], |(_, uv)| uv);
+        let [u, v] = self.nearest(ray.origin + ray.direction * t, uv);
+        let point = self.at([u, v]);
+        let [across, upward] = self.tangents([u, v]);
         let normal = cross(across, upward).normalize_or(-ray.direction.normalize());
         let extent = self.vertices.iter().map(|vertex| vertex.abs().element_sum()).sum::<f64>();
         let reach = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
