@@ -1,6 +1,7 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// Names one file of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,7 +46,8 @@ struct SourceFile {
     /// Where it was read from, unless it came through a stream.
     path: Option<PathBuf>,
     bytes: Vec<u8>,
-    line_starts: Vec<u32>,
+    /// Found when a line is first asked for: most files are never pointed at, and some are large and binary.
+    line_starts: OnceLock<Vec<u32>>,
 }
 
 /// All files of one run, with their names as the user gave them.
@@ -74,7 +76,7 @@ impl SourceMap {
     fn push(&mut self, name: String, path: Option<PathBuf>, bytes: Vec<u8>) -> FileId {
         assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(SourceFile { name, path, line_starts: line_starts(&bytes), bytes });
+        self.files.push(SourceFile { name, path, bytes, line_starts: OnceLock::new() });
         id
     }
 
@@ -115,8 +117,9 @@ impl SourceMap {
     #[must_use]
     pub fn line_column(&self, file: FileId, offset: u32) -> LineColumn {
         let source = self.file(file);
-        let line = source.line_starts.partition_point(|&start| start <= offset).max(1);
-        let start = source.line_starts.get(line - 1).copied().unwrap_or(0);
+        let starts = source.line_starts();
+        let line = starts.partition_point(|&start| start <= offset).max(1);
+        let start = starts.get(line - 1).copied().unwrap_or(0);
         let span = Span::new(file, start, offset);
         let column = self.slice(span).chars().count() + 1;
         LineColumn { line: to_u32(line), column: to_u32(column) }
@@ -127,7 +130,7 @@ impl SourceMap {
     pub fn lines(&self, file: FileId, first: u32, last: u32) -> Span {
         let source = self.file(file);
         let end = to_u32(source.bytes.len());
-        let at = |line: u32| source.line_starts.get(line as usize).copied().unwrap_or(end);
+        let at = |line: u32| source.line_starts().get(line as usize).copied().unwrap_or(end);
         Span::new(file, at(first.saturating_sub(1)), at(last))
     }
 
@@ -136,8 +139,11 @@ impl SourceMap {
     }
 }
 
-fn line_starts(bytes: &[u8]) -> Vec<u32> {
-    std::iter::once(0).chain(memchr::memchr_iter(b'\n', bytes).map(|index| to_u32(index + 1))).collect()
+impl SourceFile {
+    fn line_starts(&self) -> &[u32] {
+        let newlines = || memchr::memchr_iter(b'\n', &self.bytes).map(|index| to_u32(index + 1));
+        self.line_starts.get_or_init(|| std::iter::once(0).chain(newlines()).collect())
+    }
 }
 
 fn to_u32(count: usize) -> u32 {
