@@ -27,11 +27,16 @@ pub struct Torus {
     minor: f64,
 }
 
-/// A ray near the torus, in units of about its outer radius.
+/// A ray near the torus, in units of about its outer radius, as seen from the axis.
 struct Line {
-    from: Vec3,
-    step: Vec3,
-    axis: Vec3,
+    /// Of the point nearest to the centre: the square of its distance, its height along the axis, and its cross product with
+    /// the axis, as long as it is off the axis.
+    square: f64,
+    height: f64,
+    off: Vec3,
+    /// The height and the cross product a step adds.
+    rise: f64,
+    turn: Vec3,
     major: f64,
     minor: f64,
 }
@@ -40,20 +45,19 @@ impl Line {
     /// The signed distance of the point at `s` from the surface, from the factored difference of squares: its digits
     /// survive where the ray only grazes.
     fn distance(&self, s: f64) -> f64 {
-        let p = self.from + self.step * s;
-        let z = p.dot(self.axis).abs();
-        let off = (cross(p, self.axis).length() - self.major).abs();
+        let z = (self.height + self.rise * s).abs();
+        let off = ((self.off + self.turn * s).length() - self.major).abs();
         let (large, small) = if z > off { (z, off) } else { (off, z) };
         let square = small * small + (large - self.minor) * (large + self.minor);
         square / ((off * off + z * z).sqrt() + self.minor)
     }
 
     /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no square term, as
-    /// `step` has length 1 and is at a right angle to `from`.
+    /// a step has length 1 and is at a right angle to the way from the centre.
     fn derivative(&self) -> (f64, f64) {
         // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
-        let (w, x) = (cross(self.from, self.axis), cross(self.step, self.axis));
-        let k = self.from.dot(self.from) + (self.major - self.minor) * (self.major + self.minor);
+        let (w, x) = (self.off, self.turn);
+        let k = self.square + (self.major - self.minor) * (self.major + self.minor);
         let square = 2.0 * self.major * self.major;
         (k - square * x.dot(x), -square * w.dot(x))
     }
@@ -176,10 +180,13 @@ impl Torus {
         // Measure in a power of two near the outer radius: that rounds nothing.
         let unit = ldexp(1.0, libm::ilogb(outer));
         let length = length2.sqrt();
+        let (from, step) = (foot / unit, d / length);
         let line = Line {
-            from: foot / unit,
-            step: d / length,
-            axis: self.axis,
+            square: from.dot(from),
+            height: from.dot(self.axis),
+            off: cross(from, self.axis),
+            rise: step.dot(self.axis),
+            turn: cross(step, self.axis),
             major: self.major / unit,
             minor: self.minor / unit,
         };
