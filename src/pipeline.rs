@@ -3,7 +3,7 @@
 pub mod trial;
 
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{assets, course, gltf};
+use crate::front::{Asset, assets, course, gltf};
 use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
@@ -28,6 +28,7 @@ pub struct Options {
 pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
+            refuse_choices(&options.front, false, sink);
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
@@ -35,9 +36,22 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;
             let wanted = std::mem::take(&mut draft.wanted);
+            let has_assets = wanted.iter().any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+            refuse_choices(&options.front, has_assets, sink);
             assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
             Some(draft.finish())
         }
+    }
+}
+
+/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may hold some.
+fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
+    let front::Options { camera, animation, variant, .. } = options;
+    let parts = [("animation", animation), ("variant", variant)].into_iter().filter(|_| !has_assets);
+    for (noun, name) in parts.chain([("camera", camera)]) {
+        let Some(name) = name else { continue };
+        let fault = Diagnostic::new(&codes::GLTF_CHOSEN, format!("the scene has no {noun} called `{name}`"));
+        sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }
 
