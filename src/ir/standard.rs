@@ -66,7 +66,7 @@ pub struct Standard {
     pub normal_scale: f64,
     #[serde(skip_serializing_if = "is_default")]
     pub alpha: Alpha,
-    /// Whether the camera sees the back. It does see that of what transmits, and all other rays meet the back in any case.
+    /// Whether the camera sees the back where paths are traced. It sees that of what transmits, and all other rays meet it.
     #[serde(skip_serializing_if = "is_default")]
     pub double_sided: bool,
     #[serde(skip_serializing_if = "is_default")]

@@ -2,8 +2,7 @@
 
 use super::*;
 use rtc::ir::{Instance, Mesh, MeshId};
-use rtc::plan::Arithmetic;
-use rtc::render::{Aov, Crop};
+use rtc::render::{AnyWorld, Aov, Crop};
 
 const RED: Vec3 = Vec3::X;
 const GREEN: Vec3 = Vec3::Y;
@@ -47,7 +46,8 @@ fn coverage_and_layers_go_by_what_is_seen() {
     let proof = prove(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
     let crop = Crop { x: 0, y: 0, width: 16, height: 16 };
     let wanted = [Aov::Instance, Aov::Depth];
-    let layers = rtc::render::layers(&proof, Arithmetic::Robust, &wanted, crop, &|| true).unwrap();
+    let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
+    let layers = world.layers(&wanted, crop, &|| true).unwrap();
     assert!(layers.values.chunks(2).all(|pixel| pixel[0] >= 3.0 && (pixel[1] - 5.0).abs() < 1e-5));
 }
 
