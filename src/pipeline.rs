@@ -3,16 +3,17 @@
 pub mod trial;
 
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{assets, course, gltf};
+use crate::front::{Asset, assets, course, gltf};
 use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
-use crate::plan::{Arithmetic, Plan};
-use crate::render::{self, Aov, Crop, Fault, Film, Job};
+use crate::plan::Plan;
+use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
 use crate::{codec, front};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// How strict the check is.
 #[derive(Clone, Debug, Default)]
@@ -28,6 +29,7 @@ pub struct Options {
 pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
+            refuse_choices(&options.front, false, sink);
             let scene = codec::decode(form, file, map, sink)?;
             Some(Lowered { scene, origins: Origins::default() })
         }
@@ -35,9 +37,22 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;
             let wanted = std::mem::take(&mut draft.wanted);
+            let has_assets = wanted.iter().any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+            refuse_choices(&options.front, has_assets, sink);
             assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
             Some(draft.finish())
         }
+    }
+}
+
+/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may hold some.
+fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
+    let front::Options { camera, animation, variant, .. } = options;
+    let parts = [("animation", animation), ("variant", variant)].into_iter().filter(|_| !has_assets);
+    for (noun, name) in parts.chain([("camera", camera)]) {
+        let Some(name) = name else { continue };
+        let fault = Diagnostic::new(&codes::GLTF_CHOSEN, format!("the scene has no {noun} called `{name}`"));
+        sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }
 
@@ -63,22 +78,51 @@ pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Va
     proof.filter(|_| !sink.has_errors())
 }
 
-/// Renders a proven scene until a goal is reached, on `threads` threads, 0 for one per core.
-///
-/// # Errors
-/// If the system gives no threads; inside, if someone said stop.
-pub fn approach(
-    scene: &Scene,
-    order: &Order,
-    threads: usize,
-    watch: &Watch<'_>,
-) -> Result<Result<Reached, Stopped>, rayon::ThreadPoolBuildError> {
-    on(threads, || study::approach(scene, order, watch))
+/// A scene prepared as planned, and the threads that render it.
+pub struct Renderer {
+    world: AnyWorld,
+    pool: ThreadPool,
 }
 
-/// Renders on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
-///
-/// `proceed` is called from all threads after each pixel with the number of rays it took.
+impl Renderer {
+    /// Prepares a proven scene, for `threads` threads, 0 for one per core.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn new(scene: &ValidScene, plan: &Plan, threads: usize) -> Result<Self, ThreadPoolBuildError> {
+        Ok(Self { pool: pool(threads)?, world: AnyWorld::prepare(scene, plan) })
+    }
+
+    /// Shows another scene, which differs from the one before in its camera and settings alone.
+    pub fn change(&mut self, scene: ValidScene) {
+        self.world.change(scene);
+    }
+
+    /// Renders a picture. `None` if `proceed` said stop.
+    ///
+    /// `proceed` is called from all threads after each pixel with the number of rays it took.
+    #[must_use]
+    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+        self.pool.install(|| self.world.render(job, proceed))
+    }
+
+    /// Renders the scene that it was made of until a goal is reached.
+    ///
+    /// # Errors
+    /// If someone said stop.
+    pub fn approach(&mut self, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+        let Self { world, pool } = self;
+        pool.install(|| study::approach(world, scene, order, watch))
+    }
+
+    /// Renders layers of a part of the picture. `None` if `proceed` said stop.
+    #[must_use]
+    pub fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
+        self.pool.install(|| self.world.layers(wanted, crop, proceed))
+    }
+}
+
+/// Renders one picture of a proven scene; see [`Renderer::render`].
 ///
 /// # Errors
 /// If the system gives no threads.
@@ -88,22 +132,8 @@ pub fn render(
     job: &Job,
     threads: usize,
     proceed: &(dyn Fn(u64) -> bool + Sync),
-) -> Result<Option<Film>, rayon::ThreadPoolBuildError> {
-    on(threads, || render::render(scene, plan, job, proceed))
-}
-
-/// Renders layers of a part of a picture on `threads` threads, 0 for one per core. `None` if `proceed` said stop.
-///
-/// # Errors
-/// If the system gives no threads.
-pub fn layers(
-    scene: &ValidScene,
-    arithmetic: Arithmetic,
-    (wanted, crop): (&[Aov], Crop),
-    threads: usize,
-    proceed: &(dyn Fn() -> bool + Sync),
-) -> Result<Option<Layers>, rayon::ThreadPoolBuildError> {
-    on(threads, || render::layers(scene, arithmetic, wanted, crop, proceed))
+) -> Result<Option<Film>, ThreadPoolBuildError> {
+    Ok(Renderer::new(scene, plan, threads)?.render(job, proceed))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
@@ -116,11 +146,11 @@ pub fn verify(
     job: &Job,
     threads: usize,
     proceed: &(dyn Fn(u64) -> bool + Sync),
-) -> Result<Option<Result<Film, Fault>>, rayon::ThreadPoolBuildError> {
-    on(threads, || render::verify(scene, plan, job, proceed))
+) -> Result<Option<Result<Film, Fault>>, ThreadPoolBuildError> {
+    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, proceed)))
 }
 
-/// Does the work on `threads` threads, 0 for one per core.
-fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> Result<T, rayon::ThreadPoolBuildError> {
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?.install(work))
+/// So many threads, 0 for one per core.
+fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
+    ThreadPoolBuilder::new().num_threads(threads).build()
 }

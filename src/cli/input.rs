@@ -12,7 +12,6 @@ use crate::valid::ValidScene;
 use crate::{codec, front, valid};
 use std::io;
 use std::path::Path;
-use xxhash_rust::xxh3::xxh3_128;
 
 /// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every pixel allowed.
 const MAX_ENVIRONMENT: u64 = 1 << 29;
@@ -147,8 +146,8 @@ pub(super) fn require(
 
 /// The hash of a proven scene's IR, by which a picture or a report says what it is of.
 pub(super) fn hash(scene: &Scene) -> String {
-    let bytes = codec::encode(codec::Form::Text, scene).expect("a proven scene holds finite numbers only");
-    format!("xxh3:{:032x}", xxh3_128(&bytes))
+    let hash = codec::hash(scene).expect("a proven scene holds finite numbers only");
+    format!("xxh3:{hash:032x}")
 }
 
 fn unreadable(name: &str, error: &LoadError) -> Diagnostic {

@@ -12,10 +12,11 @@ use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
 use crate::image::{Image, Layers, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
-use crate::pipeline;
+use crate::pipeline::{self, Renderer};
 use crate::plan::{self, Rule, Rules, Symptom};
 use crate::render::{Counts, Crop, Fault, Film, Job};
 use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
+use crate::valid::ValidScene;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -34,6 +35,12 @@ struct Plan {
     /// Views around the scene, if more than its own.
     turntable: Option<u32>,
     up: Option<[f64; 3]>,
+}
+
+/// What pictures are taken of: a proven scene, and its renderer from the first picture on.
+struct Subject {
+    proven: Proven,
+    renderer: Option<Renderer>,
 }
 
 /// What was rendered, and what is said of it.
@@ -65,6 +72,7 @@ impl Plan {
             return Err(Failure::Trouble("a turntable is many pictures; give `-o NAME-%04d.png`".to_owned()));
         }
         output::refuse_terminal(&output)?;
+        let goal = Goal { error: args.target_error, time: args.time_budget };
         Ok(Self {
             look: Look::new(&args.look, &output)?,
             output,
@@ -80,9 +88,9 @@ impl Plan {
             set: args.set.clone(),
             arithmetic: args.arithmetic.into(),
             crop: args.crop,
-            goal: Goal { error: args.target_error, time: args.time_budget },
+            goal,
             threads: args.threads.map_or(0, usize::from),
-            rules: rules(&args.pruning),
+            rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
             turntable: args.turntable,
             up: args.stage.up,
@@ -91,7 +99,7 @@ impl Plan {
 
     fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let mut set = Ok(());
-        let mut proven = input::require(input, talk, |lowered| {
+        let proven = input::require(input, talk, |lowered| {
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
         })?;
@@ -102,11 +110,17 @@ impl Plan {
             input.tell(talk)?;
         }
         let interrupt = Interrupt::listen()?;
-        let Some(count) = self.turntable else { return self.shoot(&proven, &self.output, input, talk, &interrupt) };
-        let table = Turntable::new(&proven.lowered.scene, self.up, count);
+        let mut subject = Subject { proven, renderer: None };
+        let Some(count) = self.turntable else {
+            return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
+        };
+        let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
         for frame in 0..count {
-            table.turn(&mut proven, frame)?;
-            self.shoot(&proven, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
+            table.turn(&mut subject.proven, frame)?;
+            if let Some(renderer) = &mut subject.renderer {
+                renderer.change(subject.proven.scene.clone());
+            }
+            self.shoot(&mut subject, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
         }
         Ok(())
     }
@@ -114,27 +128,27 @@ impl Plan {
     /// Renders one picture and writes it.
     fn shoot(
         &self,
-        proven: &Proven,
+        subject: &mut Subject,
         path: &Path,
         input: &mut Input,
         talk: &mut Talk,
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
-        let window = self.window(&proven.lowered.scene)?;
+        let window = self.window(&subject.proven.lowered.scene)?;
         let output = Output::open(path, interrupt)?;
         let quiet = talk.is_quiet();
         let shot = match self.goal {
-            Goal { error: None, time: None } => self.trace(proven, window, interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(proven, window, interrupt, quiet)?,
+            Goal { error: None, time: None } => self.trace(subject, window, interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(subject, window, interrupt, quiet)?,
         };
         if self.crop.is_none() && shot.counts.hits == 0 {
-            input.push(nothing_in_view(proven));
+            input.push(nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
         let summary = self.summary(path, &shot);
-        let mut picture = self.look.develop(shot.image, shot.coverage, &proven.scene.settings().mode);
-        picture.layers = self.layers(proven, window, interrupt)?;
-        let bytes = self.look.encode(&picture, || self.origin(&proven.lowered.scene))?;
+        let mut picture = self.look.develop(shot.image, shot.coverage, &subject.proven.scene.settings().mode);
+        picture.layers = self.layers(subject, window, interrupt)?;
+        let bytes = self.look.encode(&picture, || self.origin(&subject.proven.lowered.scene))?;
         output.commit(&bytes, interrupt)?;
         if !quiet {
             talk::say(&summary);
@@ -153,19 +167,19 @@ impl Plan {
     }
 
     /// The picture in the setting of the scene.
-    fn trace(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
-        let values = self.look.values(&proven.scene.settings().mode);
+    fn trace(&self, subject: &mut Subject, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
+        let scene = &subject.proven.scene;
+        let values = self.look.values(&scene.settings().mode);
         let job = Job { crop: Some(window), values, behind: self.look.behind(), ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let proceed = |rays| {
             progress.pixel(rays);
             !interrupt.is_raised()
         };
-        let plan = plan::Plan::by(self.arithmetic, &proven.scene, self.rules);
         let film = if self.verify {
-            pipeline::verify(&proven.scene, &plan, &job, self.threads, &proceed)
+            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
         } else {
-            pipeline::render(&proven.scene, &plan, &job, self.threads, &proceed).map(|film| film.map(Ok))
+            self.renderer(subject).map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
         };
         let elapsed = progress.finish();
         let film = film.map_err(no_threads)?.ok_or(Failure::Interrupted)?;
@@ -174,13 +188,18 @@ impl Plan {
     }
 
     /// The picture with the samples that its goal takes.
-    fn approach(&self, proven: &Proven, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
+    fn approach(
+        &self,
+        subject: &mut Subject,
+        window: Crop,
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Shot, Failure> {
         let order = Order {
             goal: self.goal,
-            arithmetic: self.arithmetic,
             crop: window,
             behind: self.look.behind(),
-            values: self.look.values(&proven.scene.settings().mode),
+            values: self.look.values(&subject.proven.scene.settings().mode),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
         };
@@ -193,7 +212,8 @@ impl Plan {
             elapsed: &|| progress.elapsed(),
             round: &|state| progress.round(state.pixels, state.error.map_or_else(String::new, error)),
         };
-        let reached = pipeline::approach(&proven.lowered.scene, &order, self.threads, &watch);
+        let reached = self.renderer(subject);
+        let reached = reached.map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
         let elapsed = progress.finish();
         let reached = reached.map_err(no_threads)?.map_err(|Stopped| Failure::Interrupted)?;
         let Reached { image, coverage, counts, samples: Samples { least, mean, most }, .. } = reached;
@@ -203,14 +223,30 @@ impl Plan {
     }
 
     /// The layers beside the colours.
-    fn layers(&self, proven: &Proven, window: Crop, interrupt: &Interrupt) -> Result<Layers, Failure> {
+    fn layers(&self, subject: &mut Subject, window: Crop, interrupt: &Interrupt) -> Result<Layers, Failure> {
         if self.look.aovs.is_empty() {
             return Ok(Layers::default());
         }
-        let wanted = (self.look.aovs.as_slice(), window);
-        let proceed = || !interrupt.is_raised();
-        let layers = pipeline::layers(&proven.scene, self.arithmetic, wanted, self.threads, &proceed);
-        layers.map_err(no_threads)?.ok_or(Failure::Interrupted)
+        let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
+        renderer.layers(&self.look.aovs, window, &|| !interrupt.is_raised()).ok_or(Failure::Interrupted)
+    }
+
+    /// What a scene needs for its picture.
+    fn plan(&self, scene: &ValidScene) -> plan::Plan {
+        plan::Plan::by(self.arithmetic, scene, self.rules)
+    }
+
+    /// A scene and its renderer, which is made when it is first asked for.
+    fn renderer<'s>(
+        &self,
+        subject: &'s mut Subject,
+    ) -> Result<(&'s Proven, &'s mut Renderer), rayon::ThreadPoolBuildError> {
+        let Subject { proven, renderer } = subject;
+        let made = match renderer.take() {
+            Some(made) => made,
+            None => Renderer::new(&proven.scene, &self.plan(&proven.scene), self.threads)?,
+        };
+        Ok((proven, renderer.insert(made)))
     }
 
     fn summary(&self, path: &Path, shot: &Shot) -> String {
@@ -247,8 +283,10 @@ impl Plan {
 }
 
 /// The rules that may leave something out.
-fn rules(args: &args::Pruning) -> Rules {
-    let all = if args.approx { Rules::ALL.with(Rule::Cut) } else { Rules::ALL };
+fn rules(args: &args::Pruning, goal: Goal) -> Rules {
+    // The error that is promised counts no other one.
+    let is_exact = !args.approx || goal != Goal::default();
+    let all = if is_exact { Rules::ALL } else { Rules::ALL.with(Rule::Cut) };
     match args.no_prune.as_deref() {
         None => all,
         Some([]) => Rules::NONE,

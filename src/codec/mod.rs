@@ -23,7 +23,7 @@ use crate::ir::{Scene, VERSION};
 use crate::source::{FileId, SourceMap, Span};
 use serde::Serialize;
 use serde_json::Value;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 
 /// The two forms the IR is stored in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,7 +86,11 @@ impl Encoded<'_> {
 /// If a number is not finite: JSON has no word for it.
 pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
     Ok(Encoded(match form {
-        Form::Text => Writing::Text(print::document(scene)?),
+        Form::Text => {
+            let mut text = Vec::new();
+            print::document(scene, &mut text)?;
+            Writing::Text(text)
+        }
         Form::Binary => Writing::Binary(binary::encode(scene)?),
     }))
 }
@@ -99,6 +103,16 @@ pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
     let mut bytes = Vec::new();
     prepare(form, scene)?.write(&mut bytes).expect("memory takes all there is to write");
     Ok(bytes)
+}
+
+/// The hash of the text of a scene, XXH3 of 128 bits; the text is never in memory.
+///
+/// # Errors
+/// As [`prepare`].
+pub fn hash(scene: &Scene) -> Result<u128, NotFinite> {
+    let mut hash = section::Hash::default();
+    print::document(scene, &mut BufWriter::new(&mut hash))?;
+    Ok(hash.0.digest128())
 }
 
 /// A part of a scene as a tree.

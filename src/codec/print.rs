@@ -21,14 +21,12 @@ struct Document<'s> {
     scene: &'s Scene,
 }
 
-/// The text of a scene, with `irVersion` first and a line end at the end.
-pub(super) fn document(scene: &Scene) -> Result<Vec<u8>, NotFinite> {
-    let mut text = Vec::new();
-    let mut serializer = Serializer::with_formatter(&mut text, Layout::default());
-    // Memory takes all there is to write, so what fails is the layout, and that at numbers that are none.
+/// Writes the text of a scene, with `irVersion` first and a line end at the end, to what takes all there is to write.
+pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
+    let mut serializer = Serializer::with_formatter(&mut *out, Layout::default());
+    // What fails is the layout, and that at numbers that are none.
     Document { ir_version: VERSION, scene }.serialize(&mut serializer).map_err(|_| NotFinite)?;
-    text.push(b'\n');
-    Ok(text)
+    out.write_all(b"\n").and_then(|()| out.flush()).map_err(|_| NotFinite)
 }
 
 #[derive(Default)]

@@ -130,7 +130,7 @@ impl<'s> Body<'s> {
 
 /// Takes bytes for their hash alone.
 #[derive(Default)]
-struct Hash(Xxh3Default);
+pub(super) struct Hash(pub(super) Xxh3Default);
 
 impl Write for Hash {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {

@@ -66,6 +66,7 @@ pub struct Standard {
     pub normal_scale: f64,
     #[serde(skip_serializing_if = "is_default")]
     pub alpha: Alpha,
+    /// Whether the camera sees the back where paths are traced. It sees that of what transmits, and all other rays meet it.
     #[serde(skip_serializing_if = "is_default")]
     pub double_sided: bool,
     #[serde(skip_serializing_if = "is_default")]
@@ -132,6 +133,12 @@ pub struct Standard {
 }
 
 impl Standard {
+    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from within.
+    #[must_use]
+    pub fn is_seen_from_one_side(&self) -> bool {
+        !self.double_sided && self.transmission == 0.0
+    }
+
     /// Every map it has.
     pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
         [

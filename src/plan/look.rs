@@ -99,9 +99,8 @@ pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Image(image) => {
-            let pixels = &scene.images()[*image].pixels;
-            let [r, g, b, _] = pixels.get(0);
-            pixels.is_even().then(|| Vec3::new(r, g, b) / 255.0)
+            let image = &scene.images()[*image];
+            image.is_even().then(|| image.texel(0).color() / 255.0)
         }
     };
     scene.textures().iter().map(value).collect()

@@ -1,19 +1,16 @@
 //! Layers beside the colours, for denoisers and compositors: what the camera rays of a pixel meet first, in the mean over
 //! those that meet something. They are the very rays that the colours are made of.
 
-use super::basic::Basic;
 use super::film::Crop;
 use super::frame::camera_rays;
 use super::geometry::Geometry;
-use super::plain::PlainShape;
 use super::sampler::Key;
-use super::shape::Shape;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::image::Layers;
 use crate::math::Vec3;
-use crate::plan::{Arithmetic, Features, Plan, Rules, Shapes};
-use crate::valid::{Camera, Mode, ValidScene};
+use crate::plan::Features;
+use crate::valid::{Camera, Mode};
 use rayon::prelude::*;
 
 /// A layer. All are zero where nothing is met, but for the depth.
@@ -142,29 +139,9 @@ impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
     }
 }
 
-/// Renders layers of a part of the picture, on the threads of the current pool; `None` if `proceed` said stop.
-///
-/// `proceed` is called from all threads after each pixel.
-#[must_use]
-pub fn layers(
-    scene: &ValidScene,
-    arithmetic: Arithmetic,
-    wanted: &[Aov],
-    crop: Crop,
-    proceed: &(dyn Fn() -> bool + Sync),
-) -> Option<Layers> {
-    // Rules keep the colours; only a plan without them keeps all that a layer may show.
-    let plan = Plan::by(arithmetic, scene, Rules::NONE);
-    match (arithmetic, plan.shapes) {
-        (Arithmetic::Robust, Shapes::Basic) => World::<Basic>::prepare(scene, &plan).layers(wanted, crop, proceed),
-        (Arithmetic::Robust, Shapes::All) => World::<Shape>::prepare(scene, &plan).layers(wanted, crop, proceed),
-        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, &plan).layers(wanted, crop, proceed),
-        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, &plan).layers(wanted, crop, proceed),
-    }
-}
-
 impl<S: Geometry> World<S> {
-    fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
+    /// As [`super::AnyWorld::layers`], of what this world holds.
+    pub(super) fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
         match self.scene.settings().mode {
             Mode::Path(path) => self.layers_of_paths(path, wanted, crop, proceed),
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {

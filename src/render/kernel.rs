@@ -1,14 +1,11 @@
 //! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
 
-use super::basic::Basic;
 use super::film::{Film, Job};
 use super::geometry::Geometry;
 use super::path::Strategy;
-use super::plain::PlainShape;
-use super::shape::Shape;
 use super::world::World;
-use crate::plan::{Arithmetic, Features, Plan, Shapes};
-use crate::valid::{Mode, ValidScene};
+use crate::plan::Features;
+use crate::valid::Mode;
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,21 +73,8 @@ macro_rules! dispatch {
 }
 pub(super) use dispatch;
 
-/// Renders a scene as planned, on the threads of the current pool; `None` if `proceed` said stop.
-///
-/// `proceed` is called from all threads after each pixel with the number of rays it took.
-#[must_use]
-pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
-    match (plan.arithmetic, plan.shapes) {
-        (Arithmetic::Robust, Shapes::Basic) => World::<Basic>::prepare(scene, plan).render(job, proceed),
-        (Arithmetic::Robust, Shapes::All) => World::<Shape>::prepare(scene, plan).render(job, proceed),
-        (Arithmetic::Plain, _) => World::<PlainShape<f64>>::prepare(scene, plan).render_by_few(job, proceed),
-        (Arithmetic::F32, _) => World::<PlainShape<f32>>::prepare(scene, plan).render_by_few(job, proceed),
-    }
-}
-
 impl<S: Geometry> World<S> {
-    /// Renders on the threads of the current pool; see [`render`].
+    /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {

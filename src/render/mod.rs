@@ -1,6 +1,7 @@
 //! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on the threads:
 //! a pixel is a function of the scene and its coordinates alone.
 
+mod any;
 mod aov;
 mod basic;
 mod bounds;
@@ -38,7 +39,8 @@ mod whitted;
 mod wide;
 mod world;
 
-pub use aov::{Aov, layers};
+pub use any::{AnyWorld, render};
+pub use aov::Aov;
 pub use basic::Basic;
 pub use bounds::Bounds;
 pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};
@@ -49,12 +51,12 @@ pub use disc::Disc;
 pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use geometry::Geometry;
 pub use instance::{Details, Instance, PreparedMesh};
-pub use kernel::{KERNELS, Kernel, choose, render};
+pub use kernel::{KERNELS, Kernel, choose};
 pub use optics::{highlight, reflect, refract};
 pub use path::Strategy;
 pub use plain::{PlainShape, Real};
 pub use plane::Plane;
-pub use progressive::{Grow, Growing, Strands, growable};
+pub use progressive::{Growing, Strands};
 pub use quad::{Patch, Quad};
 pub use ray::{Interaction, Ray};
 pub use shape::Shape;

@@ -3,22 +3,18 @@
 //! The mean of the halves is the picture; how far the strands of a half are apart tells what that is worth. How many samples
 //! a half takes may hang on what the other half saw: neither is then biased by its own luck.
 
-use super::basic::Basic;
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Behind, Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
 use super::kernel::{choose_of_few, dispatch};
-use super::plain::PlainShape;
 use super::sampler::Key;
 use super::sequence::Sequence;
-use super::shape::Shape;
 use super::whitted::Tracer;
 use super::world::World;
 use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
-use crate::plan::{Arithmetic, Plan, Shapes};
-use crate::valid::{Mode, ValidScene};
+use crate::valid::Mode;
 use rayon::prelude::*;
 
 /// The samples of a pixel so far.
@@ -51,31 +47,6 @@ pub struct Growing {
     pub counts: Counts,
 }
 
-/// A scene prepared for growing films.
-pub trait Grow {
-    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many each strand of the halves of
-    /// pixel i is to have at least. False if `proceed` said stop; the film is then of no use.
-    ///
-    /// `proceed` is called from all threads after each pixel with the number of rays it took.
-    fn grow(
-        &self,
-        film: &mut Growing,
-        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
-    ) -> bool;
-}
-
-/// Prepares a scene as planned.
-#[must_use]
-pub fn growable(scene: &ValidScene, plan: &Plan) -> Box<dyn Grow> {
-    match (plan.arithmetic, plan.shapes) {
-        (Arithmetic::Robust, Shapes::Basic) => Box::new(World::<Basic>::prepare(scene, plan)),
-        (Arithmetic::Robust, Shapes::All) => Box::new(World::<Shape>::prepare(scene, plan)),
-        (Arithmetic::Plain, _) => Box::new(World::<PlainShape<f64>>::prepare(scene, plan)),
-        (Arithmetic::F32, _) => Box::new(World::<PlainShape<f32>>::prepare(scene, plan)),
-    }
-}
-
 impl Growing {
     /// A film without samples, of a part that lies within the picture. Another seed gives independent samples.
     #[must_use]
@@ -90,7 +61,7 @@ impl Growing {
         self.crop
     }
 
-    /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`Grow::grow`].
+    /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`super::AnyWorld::grow`].
     pub(super) fn lengthen<T: Sampling>(
         &mut self,
         tracer: impl Fn() -> T + Sync,
@@ -248,8 +219,9 @@ pub(super) trait Sampling {
     fn counts(&self) -> Counts;
 }
 
-impl<S: Geometry> Grow for World<S> {
-    fn grow(
+impl<S: Geometry> World<S> {
+    /// As [`super::AnyWorld::grow`].
+    pub(super) fn grow(
         &self,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
@@ -260,9 +232,7 @@ impl<S: Geometry> Grow for World<S> {
         }
         dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, proceed))
     }
-}
 
-impl<S: Geometry> World<S> {
     /// Grows with the features `F`.
     fn grow_with<const F: u32>(
         &self,

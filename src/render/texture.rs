@@ -17,10 +17,7 @@ pub(super) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
 fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
     let (column, x) = split(repeated(u) * f64::from(image.width - 1), image.width);
     let (row, y) = split((1.0 - repeated(v)) * f64::from(image.height - 1), image.height);
-    let texel = |column: usize, row: usize| {
-        let [r, g, b, _] = image.pixels.get(row * image.width as usize + column);
-        Vec3::new(r, g, b)
-    };
+    let texel = |column: usize, row: usize| image.texel(row * image.width as usize + column).color();
     let (right, below) = ((column + 1).min(image.width as usize - 1), (row + 1).min(image.height as usize - 1));
     let top = between(texel(column, row), texel(right, row), x);
     let bottom = between(texel(column, below), texel(right, below), x);
@@ -83,11 +80,12 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::valid::Texels;
+    use crate::valid::Pixels;
 
     #[test]
     fn an_image_of_one_value_is_that_value_everywhere() {
-        let image = Image { width: 3, height: 3, pixels: Texels::Rgb8(vec![[1, 77, 254]; 9]) };
+        let pixels = [1, 77, 254].repeat(9).into();
+        let image = Image { width: 3, height: 3, kind: Pixels::Rgb8, pixels };
         let value = Vec3::new(1.0, 77.0, 254.0) / 255.0;
         for k in 0..100 {
             let uv = [f64::from(k) * 0.037, f64::from(k) * 0.0713];
@@ -97,8 +95,8 @@ mod tests {
 
     #[test]
     fn the_corners_of_the_unit_square_are_the_middles_of_the_corner_texels() {
-        let pixels = Texels::Rgb8(vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]]);
-        let image = Image { width: 2, height: 2, pixels };
+        let pixels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]].concat().into();
+        let image = Image { width: 2, height: 2, kind: Pixels::Rgb8, pixels };
         assert_eq!(bilinear(&image, [0.0, 1.0]), Vec3::X);
         assert_eq!(bilinear(&image, [1.0, 1.0]), Vec3::Y);
         assert_eq!(bilinear(&image, [0.0, 0.0]), Vec3::Z);

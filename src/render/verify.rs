@@ -1,8 +1,8 @@
 //! Validation of a plan: the picture is made once more with everything that was left out, and what the plan says adds
 //! nothing is looked at where it is added.
 
+use super::any;
 use super::film::{Film, Job};
-use super::kernel;
 use super::shape::Shape;
 use super::world::World;
 use crate::plan::{Effect, Plan, Rule, Rules};
@@ -51,7 +51,7 @@ pub fn verify(
     job: &Job,
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Option<Result<Film, Fault>> {
-    let planned = kernel::render(scene, plan, job, proceed)?;
+    let planned = any::render(scene, plan, job, proceed)?;
     let mut world = World::<Shape>::prepare(scene, &Plan::new(scene, Rules::NONE));
     world.verify = Some(Verify { plan: plan.clone(), first: Mutex::new(None) });
     let naive = world.render(job, proceed)?;

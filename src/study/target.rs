@@ -10,8 +10,7 @@ use super::noise::{Allotment, Noise};
 use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
-use crate::plan::{Arithmetic, Plan, Rules};
-use crate::render::{Behind, Counts, Crop, Film, Grow, Growing, Job, Strands, Tiles, Values, growable, render};
+use crate::render::{AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Strands, Tiles, Values};
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -28,8 +27,6 @@ pub struct Goal {
 pub struct Order {
     /// When to stop.
     pub goal: Goal,
-    /// How rays meet shapes.
-    pub arithmetic: Arithmetic,
     /// The part of the picture, within it.
     pub crop: Crop,
     /// What it shows behind all surfaces, where paths are traced.
@@ -101,17 +98,25 @@ const FIRST: usize = 1024;
 /// is no measure of what it makes of many.
 const FIRST_PATHS: usize = 4;
 
-/// Renders a proven scene until the goal is reached, on the threads of the current pool.
+/// Renders a proven scene in its world until the goal is reached, on the threads of the current pool.
 ///
 /// # Errors
 /// If someone said stop.
-pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+pub fn approach(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
     let mut samples = Knob::ALL.into_iter().filter(|knob| *knob != Knob::Depth);
     if samples.all(|knob| idle(knob, scene).is_some()) {
-        return exactly(scene, order, watch);
+        return exactly(world, order, watch);
     }
-    let (light_samples, tried) = light_samples(scene, order, watch)?;
-    let world = prepare(scene, order, light_samples);
+    let own = world.scene().clone();
+    let reached = in_rounds(world, scene, order, watch);
+    world.change(own);
+    reached
+}
+
+/// As [`approach`], for a scene that is sampled; the world is left in another setting.
+fn in_rounds(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+    let (light_samples, tried) = light_samples(world, scene, order, watch)?;
+    spread(world, scene, light_samples);
     let mut film = Growing::new(order.crop, order.seed);
     film.behind = order.behind;
     (watch.round)(Progress { pixels: film.pixels.len() as u64, error: None });
@@ -146,27 +151,30 @@ pub fn approach(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reach
 }
 
 /// The picture of a mode that samples nothing.
-fn exactly(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
-    let proven = prove(scene);
+fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
     let job = Job { crop: Some(order.crop), values: order.values, behind: order.behind, ..Job::default() };
-    let film = render(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL), &job, watch.proceed).ok_or(Stopped)?;
+    let film = world.render(&job, watch.proceed).ok_or(Stopped)?;
     let samples = Samples { least: 1, mean: 1.0, most: 1 };
     let Film { image, coverage, counts } = film;
     Ok(Reached { image, coverage, counts, error: 0.0, samples, light_samples: 1 })
 }
 
-/// The scene, sampled anywhere in its pixels.
-fn prepare(scene: &Scene, order: &Order, light_samples: u32) -> Box<dyn Grow> {
+/// Has the scene sampled anywhere in its pixels, and soft lights in so many points.
+fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
     scene.settings.light_samples = light_samples;
-    let proven = prove(&scene);
-    growable(&proven, &Plan::by(order.arithmetic, &proven, Rules::ALL))
+    world.change(prove(&scene));
 }
 
 /// How many points of each soft light are worth their rays, and the rays that took: of few more are tried on some tiles as long
 /// as noise times rays falls, which is what a picture of any error costs.
-fn light_samples(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<(u32, Counts), Stopped> {
+fn light_samples(
+    world: &mut AnyWorld,
+    scene: &Scene,
+    order: &Order,
+    watch: &Watch<'_>,
+) -> Result<(u32, Counts), Stopped> {
     /// Tiles, and samples of a strand in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 2;
@@ -186,7 +194,8 @@ fn light_samples(scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<(u32
     let wanted: Vec<_> = pixels.map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2]).collect();
     for count in [2, 4, 8, 16, 32] {
         let mut film = Growing::new(order.crop, order.seed);
-        if !prepare(scene, order, count).grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(0)) {
+        spread(world, scene, count);
+        if !world.grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(0)) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);

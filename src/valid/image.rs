@@ -3,7 +3,8 @@
 use super::check::{Check, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
-use crate::ir::{self, Field, Noun};
+use crate::ir::{self, Field, Noun, Pixels, Shared};
+use crate::math::Vec3;
 
 /// A picture of at least one pixel.
 #[derive(Clone, Debug)]
@@ -12,65 +13,60 @@ pub struct Image {
     pub width: u32,
     /// Height in pixels, at least 1.
     pub height: u32,
-    /// Rows from the top.
-    pub pixels: Texels,
+    /// What a pixel is made of.
+    pub kind: Pixels,
+    /// All pixels in rows from the top, those of the scene itself; floats are finite and at least 0.
+    pub pixels: Shared<u8>,
 }
 
-/// The pixels of an image.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Texels {
+/// A pixel of an image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Texel {
     /// Red, green, blue.
-    Rgb8(Vec<[u8; 3]>),
+    Rgb8([u8; 3]),
     /// Red, green, blue, alpha.
-    Rgba8(Vec<[u8; 4]>),
-    /// Red, green, blue, linear, finite and at least 0.
-    Rgb32f(Vec<[f32; 3]>),
+    Rgba8([u8; 4]),
+    /// Red, green, blue, linear.
+    Rgb32f([f32; 3]),
 }
 
-impl Texels {
-    /// The texel in units of the full byte, with alpha.
+impl Image {
+    /// The pixel of an index.
     #[must_use]
     #[inline]
-    pub fn get(&self, index: usize) -> [f64; 4] {
-        match self {
-            Self::Rgb8(pixels) => {
-                let [r, g, b] = pixels[index].map(f64::from);
-                [r, g, b, 255.0]
-            }
-            Self::Rgba8(pixels) => pixels[index].map(f64::from),
-            Self::Rgb32f(pixels) => {
-                let [r, g, b] = pixels[index].map(|channel| f64::from(channel) * 255.0);
-                [r, g, b, 255.0]
+    pub fn texel(&self, index: usize) -> Texel {
+        match self.kind {
+            Pixels::Rgb8 => Texel::Rgb8(self.pixels.as_chunks().0[index]),
+            Pixels::Rgba8 => Texel::Rgba8(self.pixels.as_chunks().0[index]),
+            Pixels::Rgb32f => {
+                let [r, g, b] = self.pixels.as_chunks().0.as_chunks().0[index];
+                Texel::Rgb32f([r, g, b].map(f32::from_le_bytes))
             }
         }
     }
 
-    /// Whether all texels are equal.
+    /// Whether all pixels are equal.
     #[must_use]
     pub fn is_even(&self) -> bool {
-        match self {
-            Self::Rgb8(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
-            Self::Rgba8(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
-            Self::Rgb32f(pixels) => pixels.iter().all(|pixel| *pixel == pixels[0]),
-        }
-    }
-
-    fn new(kind: ir::Pixels, bytes: &[u8]) -> Self {
-        match kind {
-            ir::Pixels::Rgb8 => Self::Rgb8(bytes.as_chunks().0.to_vec()),
-            ir::Pixels::Rgba8 => Self::Rgba8(bytes.as_chunks().0.to_vec()),
-            ir::Pixels::Rgb32f => {
-                let channel = |bytes: &[u8; 4]| f32::from_le_bytes(*bytes);
-                let channels = bytes.as_chunks::<4>().0.iter().map(channel).collect::<Vec<_>>();
-                Self::Rgb32f(channels.as_chunks().0.to_vec())
-            }
-        }
+        let mut pixels = self.pixels.chunks_exact(self.kind.bytes());
+        let first = pixels.next();
+        pixels.all(|pixel| Some(pixel) == first)
     }
 
     fn is_light(&self) -> bool {
+        let is_light = |channel: &[u8; 4]| (0.0..=f32::MAX).contains(&f32::from_le_bytes(*channel));
+        self.kind != Pixels::Rgb32f || self.pixels.as_chunks().0.iter().all(is_light)
+    }
+}
+
+impl Texel {
+    /// Red, green and blue in units of the full byte.
+    #[must_use]
+    #[inline]
+    pub fn color(self) -> Vec3 {
         match self {
-            Self::Rgb8(_) | Self::Rgba8(_) => true,
-            Self::Rgb32f(pixels) => pixels.as_flattened().iter().all(|channel| (0.0..=f32::MAX).contains(channel)),
+            Self::Rgb8([r, g, b]) | Self::Rgba8([r, g, b, _]) => Vec3::from_array([r, g, b].map(f64::from)),
+            Self::Rgb32f(color) => Vec3::from_array(color.map(|channel| f64::from(channel) * 255.0)),
         }
     }
 }
@@ -96,12 +92,12 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
         refuse(format!("an image of {width} × {height} pixels has {} bytes of {wanted}", pixels.len()));
         return None;
     }
-    let pixels = Texels::new(*kind, pixels);
-    if !pixels.is_light() {
+    let image = Image { width: *width, height: *height, kind: *kind, pixels: pixels.clone() };
+    if !image.is_light() {
         refuse("an image has a pixel that is negative or not finite".to_owned());
         return None;
     }
-    Some(Image { width: *width, height: *height, pixels })
+    Some(image)
 }
 
 pub(super) fn texture(texture: &ir::Texture, index: usize, images: usize, check: &mut Check<'_>) -> Option<Texture> {

@@ -14,9 +14,9 @@ mod shape;
 mod standard;
 mod surrounding;
 
-pub use crate::ir::{Alpha, Column, Filter, Map, Projection, Sampled, Shared, Standard, Wrap};
+pub use crate::ir::{Alpha, Column, Filter, Map, Pixels, Projection, Sampled, Shared, Standard, Wrap};
 pub use camera::{Camera, Lens};
-pub use image::{Image, Texels, Texture};
+pub use image::{Image, Texel, Texture};
 pub use light::{Emitter, Falloff, Light, Punctual};
 pub use material::{Bump, Maps, Phong};
 pub use mesh::Mesh;
@@ -44,7 +44,7 @@ pub struct ValidScene {
     lights: Vec<Light>,
     punctual: Vec<Punctual>,
     environment: Option<Environment>,
-    images: Vec<Arc<Image>>,
+    images: Vec<Image>,
     textures: Vec<Texture>,
     meshes: Vec<Arc<Mesh>>,
     materials: Vec<Phong>,
@@ -85,7 +85,7 @@ impl ValidScene {
 
     /// The images.
     #[must_use]
-    pub fn images(&self) -> &[Arc<Image>] {
+    pub fn images(&self) -> &[Image] {
         &self.images
     }
 
@@ -162,7 +162,7 @@ pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &
         punctual: light::punctual(valid_lights.as_deref()?, traces_paths),
         lights: light::of_the_course(&valid_lights?),
         environment: valid_environment?,
-        images: valid_images?.into_iter().map(Arc::new).collect(),
+        images: valid_images?,
         textures: valid_textures?,
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
         materials: valid_materials?,

@@ -1,6 +1,6 @@
 //! View and light from the command line: they mean the same as in a scene, and what they can't mean is refused.
 
-use super::{code, command, names, stderr};
+use super::{SCENE, code, command, names, stderr};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -68,6 +68,7 @@ fn folder() -> TempDir {
     let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
     write("square.gltf", square().to_string().as_bytes());
     write("sunny.gltf", sunny().to_string().as_bytes());
+    write("ball.json", SCENE.as_bytes());
     write("ball.yaml", course("[1, 2, 10]").as_bytes());
     write("beside.yaml", course("[7, 2, 8]").as_bytes());
     write("sky.hdr", GREY_SKY);
@@ -118,13 +119,17 @@ fn what_contradicts_itself_or_is_out_of_range_is_refused() {
         ("ball.yaml --eye 1,2,0", "VA104"),
         ("ball.yaml --eye 1,9,0 --center 1,2,0 --up 0,1,0", "VA106"),
         ("square.gltf --camera back", "GL048"),
+        ("ball.yaml --camera front", "GL048"),
+        ("ball.yaml --variant red", "GL048"),
+        ("ball.json --camera 0", "GL048"),
+        ("ball.json --animation walk", "GL048"),
     ];
     for (words, finding) in found {
         let output = rtc(folder.path(), &format!("render {words}"));
         assert_eq!(code(&output), 1, "{words}");
         assert!(stderr(&output).contains(&format!("error[{finding}]")), "{words}: {}", stderr(&output));
     }
-    let before = ["ball.yaml", "beside.yaml", "broken.hdr", "sky.hdr", "square.gltf", "sunny.gltf"];
+    let before = ["ball.json", "ball.yaml", "beside.yaml", "broken.hdr", "sky.hdr", "square.gltf", "sunny.gltf"];
     assert_eq!(names(folder.path()), before);
 }
 

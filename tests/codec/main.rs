@@ -16,6 +16,7 @@ use rtc::ir::{Column, ImageId, Pixels, Scene, Shape, Texture};
 use rtc::source::SourceMap;
 use scenes::scene;
 use std::path::{Path, PathBuf};
+use xxhash_rust::xxh3::xxh3_128;
 
 fn frozen(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/codec").join(name)
@@ -53,6 +54,8 @@ proptest! {
             prop_assert_eq!(format!("{:?}", &scene), format!("{:?}", &back));
             prop_assert_eq!(codec::encode(form, &back).unwrap(), bytes);
         }
+        let text = codec::encode(Form::Text, &scene).unwrap();
+        prop_assert_eq!(codec::hash(&scene), Ok(xxh3_128(&text)));
     }
 
     #[test]

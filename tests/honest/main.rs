@@ -8,7 +8,7 @@ mod scenes;
 use rtc::ir::Scene;
 use rtc::render::{Crop, Values};
 use rtc::study::{Goal, Order, Reached, Stopped, Watch, approach};
-use scenes::{error, order, references, render, scene};
+use scenes::{error, order, references, render, scene, world};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::time::Duration;
 
@@ -37,7 +37,7 @@ fn with_clock(scene: &Scene, goal: Goal) -> Reached {
         elapsed: &|| Duration::from_micros(rays.load(Relaxed)),
         round: &|_| {},
     };
-    on(1, || approach(scene, &order(scene, goal, 0), &watch).unwrap())
+    on(1, || approach(&mut world(scene), scene, &order(scene, goal, 0), &watch).unwrap())
 }
 
 /// The promise is 19 of 20; of 24 pictures fewer than 20 keep it by chance once in 3000.
@@ -85,7 +85,7 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
     let picture = |crop| {
         let order = Order { crop, values: Values::Linear, keep_lights: true, ..order(&scene, goal, 0) };
         let watch = Watch { proceed: &|_| true, elapsed: &|| Duration::ZERO, round: &|_| {} };
-        approach(&scene, &order, &watch).unwrap().image
+        approach(&mut world(&scene), &scene, &order, &watch).unwrap().image
     };
     let whole = picture(Crop { x: 0, y: 0, width: 64, height: 48 });
     let part = picture(Crop { x: 20, y: 10, width: 40, height: 30 });
@@ -111,5 +111,5 @@ fn stop_means_stop() {
     let watch =
         Watch { proceed: &|more| rays.fetch_add(more, Relaxed) < 50_000, elapsed: &|| Duration::ZERO, round: &|_| {} };
     let goal = Goal { error: Some(0.01), time: None };
-    assert_eq!(approach(&scene, &order(&scene, goal, 0), &watch).err(), Some(Stopped));
+    assert_eq!(approach(&mut world(&scene), &scene, &order(&scene, goal, 0), &watch).err(), Some(Stopped));
 }

@@ -2,10 +2,10 @@
 
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::Scene;
+use rtc::ir::{Lowered, Origins, Scene};
 use rtc::pipeline::{self, Options};
-use rtc::plan::Arithmetic;
-use rtc::render::{Behind, Crop, Values};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{AnyWorld, Behind, Crop, Values};
 use rtc::source::SourceMap;
 use rtc::study::{Chance, Goal, LEVELS, Order, Reached, Watch, approach};
 use std::fmt::Write as _;
@@ -70,22 +70,21 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
 pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
     let goal = Goal { error: Some(error), time: None };
     let watch = Watch { proceed: &|_| true, elapsed: &|| Duration::ZERO, round: &|_| {} };
-    approach(scene, &order(scene, goal, seed), &watch).expect("nobody says stop")
+    approach(&mut world(scene), scene, &order(scene, goal, seed), &watch).expect("nobody says stop")
+}
+
+/// The world of a sound scene.
+pub(crate) fn world(scene: &Scene) -> AnyWorld {
+    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let proven = pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).expect("the scene is sound");
+    AnyWorld::prepare(&proven, &Plan::new(&proven, Rules::ALL))
 }
 
 /// All of the picture.
 pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     let [width, height] = scene.camera.size;
     let crop = Crop { x: 0, y: 0, width, height };
-    Order {
-        goal,
-        arithmetic: Arithmetic::Robust,
-        crop,
-        behind: Behind::Surroundings,
-        values: Values::Display,
-        keep_lights: false,
-        seed,
-    }
+    Order { goal, crop, behind: Behind::Surroundings, values: Values::Display, keep_lights: false, seed }
 }
 
 /// Two references of other samples, each with at most a quarter of the error.

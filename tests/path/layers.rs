@@ -2,16 +2,15 @@
 
 use super::*;
 use rtc::image::Layers;
-use rtc::pipeline;
-use rtc::plan::Arithmetic;
-use rtc::render::{Aov, Crop};
+use rtc::pipeline::Renderer;
+use rtc::render::{AnyWorld, Aov, Crop};
 
 const ALL: [Aov; 6] = [Aov::Albedo, Aov::Normal, Aov::Depth, Aov::Uv, Aov::Instance, Aov::Position];
 const WHOLE: Crop = Crop { x: 0, y: 0, width: 16, height: 16 };
 
 fn layers(scene: &Scene, wanted: &[Aov], crop: Crop, threads: usize) -> Layers {
-    let (proof, proceed) = (prove(scene), || true);
-    pipeline::layers(&proof, Arithmetic::Robust, (wanted, crop), threads, &proceed).unwrap().unwrap()
+    let proof = prove(scene);
+    Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), threads).unwrap().layers(wanted, crop, &|| true).unwrap()
 }
 
 /// One layer, pixel by pixel, the channels it lacks as zeros.
@@ -107,6 +106,23 @@ fn where_nothing_is_layers_are_zero_and_depth_is_far() {
     let Layers { names, values } = layers(&scene, &ALL, Crop { width: 1, height: 1, ..WHOLE }, 1);
     let expected: Vec<f32> = names.iter().map(|name| if *name == "depth.Z" { 1e10 } else { 0.0 }).collect();
     assert_eq!(values, expected);
+}
+
+#[test]
+fn a_world_that_shows_another_view_is_as_one_made_for_it() {
+    let (scene, mut other) = (ball_and_square(4), ball_and_square(4));
+    other.camera.eye = [3.0, 1.0, -2.0];
+    other.camera.up = [0.0, 0.125, 0.0625];
+    let proofs = [prove(&scene), prove(&other)];
+    let seen =
+        |world: &AnyWorld| (world.render(&JOB, &|_| true).unwrap().image, world.layers(&ALL, WHOLE, &|| true).unwrap());
+    let [first, second] = proofs.each_ref().map(|proof| AnyWorld::prepare(proof, &Plan::new(proof, Rules::ALL)));
+    let expected = [seen(&first), seen(&second)];
+    let mut world = first;
+    world.change(proofs[1].clone());
+    assert!(seen(&world) == expected[1] && expected[0] != expected[1]);
+    world.change(proofs[0].clone());
+    assert!(seen(&world) == expected[0]);
 }
 
 #[test]

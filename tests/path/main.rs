@@ -7,12 +7,13 @@ mod closed;
 mod coverage;
 mod hierarchy;
 mod layers;
+mod sides;
 mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Alpha, Camera, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Phong, Projection,
-    Punctual, Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
+    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Phong,
+    Projection, Punctual, Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};

@@ -6,7 +6,7 @@ use super::{bits, file_name, files, film, proven, scene, small};
 use proptest::prelude::*;
 use rtc::ir::Scene;
 use rtc::plan::{Plan, Rule, Rules};
-use rtc::render::Values;
+use rtc::render::{AnyWorld, Job, Values};
 
 /// The sets of rules to compare with none: all, each alone, all but each.
 fn sets() -> Vec<(String, Rules)> {
@@ -118,4 +118,21 @@ fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
     deep.settings.max_depth = 40;
     let [less, more] = [Rules::ALL.with(Rule::Cut), Rules::ALL].map(|rules| counts(&deep, rules));
     assert!(less.mirror < more.mirror && less.camera == more.camera, "{less:?}, {more:?}");
+}
+
+#[test]
+fn a_world_that_shows_another_view_keeps_the_law() {
+    // The first view leaves out the disc, which stands behind its eye.
+    let mut scene = with(&[(ball([0.0; 3], 1.0), matt()), (disc([0.0, 0.0, 30.0], 2.0), matt())]);
+    let first = proven(&scene);
+    scene.camera.eye = [0.0, 0.0, 60.0];
+    let second = proven(&scene);
+    let plans = [&first, &second].map(|scene| Plan::new(scene, Rules::ALL));
+    assert_ne!(plans[0].surfaces, plans[1].surfaces);
+    let mut world = AnyWorld::prepare(&first, &plans[0]);
+    for scene in [second, first] {
+        world.change(scene.clone());
+        let seen = world.render(&Job { values: Values::Linear, ..Job::default() }, &|_| true).unwrap();
+        assert_eq!(bits(&seen), bits(&film(&scene, Rules::NONE, Values::Linear)));
+    }
 }

@@ -198,7 +198,7 @@ super::codes! { GL:
     GLTF_COMPRESSED = "GL047", Error, "compressed geometry of a glTF asset can't be decompressed",
         "The data of `KHR_draco_mesh_compression` or `EXT_meshopt_compression` is damaged, or is not what the accessors \
          say. Compress the asset again.";
-    GLTF_CHOSEN = "GL048", Error, "a glTF asset has nothing of that name",
-        "The command line names an animation, a variant of the materials or a scene that the asset has not. The message \
-         lists those that it has.";
+    GLTF_CHOSEN = "GL048", Error, "a scene has nothing of that name",
+        "The command line names a camera, an animation or a variant of the materials that the scene has not. The message \
+         lists those that it has; scenes other than glTF assets have one camera, without a name.";
 }

@@ -23,7 +23,7 @@ impl<'world> Environment<'world> {
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
             return Self { radiance: Vec3::ZERO, image: None, image_from_world: axes, table: None };
         };
-        let image = environment.image.map(|image| scene.images()[image].as_ref());
+        let image = environment.image.map(|image| &scene.images()[image]);
         Self {
             radiance: environment.radiance,
             image,

@@ -73,7 +73,7 @@ impl<S: Geometry> World<S> {
         Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
     }
 
-    /// Grows a film by tracing paths; see [`super::progressive::Grow`].
+    /// Grows a film by tracing paths; see [`super::AnyWorld::grow`].
     pub(super) fn grow_paths(
         &self,
         path: Path,

@@ -2,7 +2,7 @@
 
 use crate::color::srgb_decoded;
 use crate::math::Lanes;
-use crate::valid::{Filter, Image, Map, Texels, Texture, ValidScene, Wrap};
+use crate::valid::{Filter, Image, Map, Texel, Texture, ValidScene, Wrap};
 use std::sync::LazyLock;
 
 /// What the numbers of a texture are.
@@ -49,7 +49,7 @@ pub(super) fn sample(image: &Image, uv: [f64; 2], wrap: [Wrap; 2], filter: Filte
     };
     let (left, right, s) = places(0, image.width);
     let (top, bottom, t) = places(1, image.height);
-    let at = |column: usize, row: usize| texel(&image.pixels, row * image.width as usize + column, content);
+    let at = |column: usize, row: usize| decoded(image.texel(row * image.width as usize + column), content);
     let value = if filter == Filter::Nearest {
         at(left, top)
     } else {
@@ -109,17 +109,11 @@ fn single(share: f64) -> f32 {
 
 /// Red, green, blue and alpha.
 #[inline]
-fn texel(pixels: &Texels, index: usize, content: Content) -> Lanes {
-    let ([r, g, b], alpha) = match pixels {
-        Texels::Rgb8(pixels) => (pixels[index], 255),
-        Texels::Rgba8(pixels) => {
-            let [r, g, b, a] = pixels[index];
-            ([r, g, b], a)
-        }
-        Texels::Rgb32f(pixels) => {
-            let [r, g, b] = pixels[index];
-            return Lanes::new(r, g, b, 1.0);
-        }
+fn decoded(texel: Texel, content: Content) -> Lanes {
+    let ([r, g, b], alpha) = match texel {
+        Texel::Rgb8(color) => (color, 255),
+        Texel::Rgba8([r, g, b, a]) => ([r, g, b], a),
+        Texel::Rgb32f([r, g, b]) => return Lanes::new(r, g, b, 1.0),
     };
     let alpha = f32::from(alpha) / 255.0;
     match content {
@@ -138,6 +132,7 @@ static DECODED: LazyLock<[f32; 256]> =
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::valid::Pixels;
 
     #[test]
     fn the_floor_is_that_of_std() {
@@ -147,7 +142,7 @@ mod tests {
     }
 
     fn row() -> Image {
-        Image { width: 2, height: 1, pixels: Texels::Rgb8(vec![[255, 0, 0], [0, 255, 0]]) }
+        Image { width: 2, height: 1, kind: Pixels::Rgb8, pixels: vec![255, 0, 0, 0, 255, 0].into() }
     }
 
     fn red(u: f64, wrap: Wrap, filter: Filter) -> f64 {
@@ -176,7 +171,7 @@ mod tests {
 
     #[test]
     fn only_colours_are_decoded_and_alpha_never_is() {
-        let image = Image { width: 1, height: 1, pixels: Texels::Rgba8(vec![[128; 4]]) };
+        let image = Image { width: 1, height: 1, kind: Pixels::Rgba8, pixels: vec![128; 4].into() };
         let value = |content| sample(&image, [0.5; 2], [Wrap::Repeat; 2], Filter::Linear, content);
         let [r, _, _, a] = value(Content::Color);
         assert!((r - 0.215_860_5).abs() < 1e-6 && a == f64::from(128.0_f32 / 255.0));

@@ -13,12 +13,12 @@ use super::material::{Frame, Point};
 use super::sobol::{CORNERS, FILM, LENS, Sobol};
 use crate::color::Tone;
 use crate::math::{Vec3, cos_sin_turns, exp};
-use crate::valid::{Alpha, Path};
+use crate::valid::{Alpha, Path, Standard};
 
 /// Corners before Russian roulette may end a path.
 const SPARED: u32 = 3;
 
-/// Veils that a ray goes through at most.
+/// Surfaces that a ray goes through at most that are not there for it.
 const VEILS: u32 = 1 << 10;
 
 /// Pairs of numbers that a corner takes.
@@ -138,7 +138,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         }
     }
 
-    /// The next surface that is there; veils let the ray on by chance.
+    /// The next surface that is there; veils let the ray on by chance, and the backs of one-sided ones a ray of the camera.
     #[inline(always)]
     pub(super) fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
         walk.travelled = 0.0;
@@ -149,7 +149,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             let details = surface.shape.details(&walk.ray, &at, hit.part);
             let point = Point::new(&self.world.scene, surface.material, &details);
             walk.travelled += hit.t;
-            let coverage = point.coverage();
+            let coverage = if walk.looks_through(&at, point.material) { 0.0 } else { point.coverage() };
             if coverage < 1.0 && walk.sobol.uniform(walk.corners, veil) >= coverage {
                 (walk.ray, walk.from) = (at.ray(walk.ray.direction), (hit.surface, hit.part));
                 continue;
@@ -333,6 +333,11 @@ impl Walk {
             channel: None,
             travelled: 0.0,
         }
+    }
+
+    /// Whether its ray is of the camera and meets the back of what is seen from one side.
+    fn looks_through(&self, at: &Interaction, material: &Standard) -> bool {
+        self.corners == 0 && self.ray.direction.dot(at.normal) > 0.0 && material.is_seen_from_one_side()
     }
 
     /// A pair of numbers of this corner.
