@@ -3,9 +3,11 @@
 
 use super::any;
 use super::film::{Film, Job};
+use super::geometry::Geometry;
+use super::plain::PlainShape;
 use super::shape::Shape;
 use super::world::World;
-use crate::plan::{Effect, Plan, Rule, Rules};
+use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
 use crate::valid::ValidScene;
 use std::sync::{Mutex, PoisonError};
 
@@ -52,15 +54,29 @@ pub fn verify(
     proceed: &(dyn Fn(u64) -> bool + Sync),
 ) -> Option<Result<Film, Fault>> {
     let planned = any::render(scene, plan, job, proceed)?;
-    let mut world = World::<Shape>::prepare(scene, &Plan::new(scene, Rules::NONE));
-    world.verify = Some(Verify { plan: plan.clone(), first: Mutex::new(None) });
-    let naive = world.render(job, proceed)?;
-    let verify = world.verify.take()?;
+    let (naive, verify) = match plan.arithmetic {
+        Arithmetic::Robust => naively::<Shape>(scene, plan, job, proceed)?,
+        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, proceed)?,
+        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, proceed)?,
+    };
     if !plan.rules.contains(Rule::Cut) {
         compare(&planned, &naive, job, &verify);
     }
     let first = verify.first.into_inner().unwrap_or_else(PoisonError::into_inner);
     Some(first.map_or(Ok(planned), Err))
+}
+
+/// The film without rules, and what it shows of a plan.
+fn naively<S: Geometry>(
+    scene: &ValidScene,
+    plan: &Plan,
+    job: &Job,
+    proceed: &(dyn Fn(u64) -> bool + Sync),
+) -> Option<(Film, Verify)> {
+    let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
+    world.verify = Some(Verify { plan: plan.clone(), first: Mutex::new(None) });
+    let naive = world.render_by_few(job, proceed)?;
+    Some((naive, world.verify?))
 }
 
 /// Notes a pixel whose bits differ.

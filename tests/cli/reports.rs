@@ -51,6 +51,10 @@ fn rules_can_be_switched_off_and_change_no_byte() {
     assert_eq!(render("some.png", &["--no-prune=E-SPEC,e-cull"]), planned);
     assert_eq!(render("verified.png", &["--verify-effects"]), planned);
     assert_eq!(render("approx.png", &["--approx"]), planned);
+    for arithmetic in ["plain", "f32"] {
+        let by = ["--arithmetic", arithmetic, "--verify-effects"];
+        assert_eq!(render("verified.png", &by), render("planned.png", &by[..2]), "{arithmetic}");
+    }
     assert_eq!(code(&rtc(&folder, &["render", "ball.json", "--no-prune=E-NONE"])), 2);
     let rule = rtc(&folder, &["explain", "E-SPEC"]);
     assert!(String::from_utf8(rule.stdout).unwrap().contains("ks is 0"));

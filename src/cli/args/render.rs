@@ -81,7 +81,7 @@ pub(in crate::cli) struct Pruning {
     #[arg(long)]
     pub(in crate::cli) approx: bool,
     /// Simulate also what is left out, and stop at a pixel where it would show
-    #[arg(long, conflicts_with_all = ["no_prune", "arithmetic"])]
+    #[arg(long, conflicts_with = "no_prune")]
     pub(in crate::cli) verify_effects: bool,
 }
 

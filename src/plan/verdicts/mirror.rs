@@ -65,10 +65,11 @@ fn depth(findings: &Findings<'_>) -> Verdict {
     facts.extend(findings.first(Look::mirrors).map(|mirror| findings.surface(mirror, Field::Whole)));
     let (planned, asked) = (findings.max_depth, findings.asked);
     let rest = asked - planned.min(asked);
+    let bounces = if planned == 1 { "bounce" } else { "bounces" };
     let words = match (rest, findings.reach.capped) {
-        (0, true) => format!("{planned} bounces; too many mirrors to ask which sees which"),
-        (0, false) => format!("{planned} bounces: mirrors show mirrors"),
-        _ => format!("{planned} bounces of {asked}: no chain of mirrors is longer"),
+        (0, true) => format!("{planned} {bounces}; too many mirrors to ask which sees which"),
+        (0, false) => format!("{planned} {bounces}: mirrors show mirrors"),
+        _ => format!("{planned} {bounces} of {asked}: no chain of mirrors is longer"),
     };
     let verdict = Verdict::needed(effect, words, facts);
     match rest {
