@@ -154,3 +154,56 @@ fn placed(instance: &Instance, mesh: &Space) -> Space {
     let size = terms.max_element() * mesh.size() + origin.abs().max_element();
     space.grown(ROOM * size / volume)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::space::tests::{has_margin, span};
+    use super::*;
+
+    /// That a box is another with a margin, as exactly as its corners are rounded.
+    fn is_grown(space: Space, from: Space, margin: f64) {
+        let (low, high) = (from.min - space.min, space.max - from.max);
+        let margins = [low.x, low.y, low.z, high.x, high.y, high.z];
+        assert!(margins.iter().all(|found| (found - margin).abs() < 1e-3 * margin), "{margins:?}, not {margin:e}");
+    }
+
+    #[test]
+    fn a_ring_reaches_across_its_axis_and_has_room() {
+        let found = ring(Vec3::new(1.0, 2.0, -1.0), Vec3::new(0.0, 3.0, 4.0), 2.0, 0.5);
+        is_grown(found, span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]), 2.5 * ROOM);
+    }
+
+    #[test]
+    fn a_placed_mesh_has_room_of_its_terms_over_its_flatness() {
+        let [x, y, z] = [[2.0, 0.0, 0.0], [0.0, 3.0, 4.0], [0.0, 0.0, 5.0]].map(Vec3::from_array);
+        let world_from_object = [x, y, z, Vec3::new(7.0, -20.0, 1.0)];
+        let mesh = span([-1.0, -2.0, -3.0], [4.0, 5.0, 6.0]);
+        let found = placed(&Instance { mesh: 0, world_from_object }, &mesh);
+        // 2, 3 and 4 + 5 times 6 at most, and 20; the axes span 0.6 of a cube.
+        is_grown(found, span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]), (9.0 * 6.0 + 20.0) / 0.6 * ROOM);
+    }
+
+    #[test]
+    fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
+        let center = Vec3::X * 3.0;
+        let ball = Body::within(Space::around(center, Vec3::ONE), Form::Ball(center, 1.0));
+        let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
+        has_margin(4.0 * 13.0 * ROOM, |gap| ball.is_clear_of(&before(gap)));
+        assert!(!ball.is_clear_of(&before(4.0 * 13.0 * ROOM)), "in doubt it is not");
+        let solid = Body { form: Form::Convex, ..ball };
+        has_margin(13.0 * ROOM, |gap| solid.is_clear_of(&before(gap)));
+        let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
+        assert!(ball.is_clear_of(&corner) && !solid.is_clear_of(&corner), "a ball has no corners");
+    }
+
+    #[test]
+    fn a_triangle_has_a_plane_unless_it_is_a_sliver() {
+        let corners = |sine: f64| [Vec3::ZERO, Vec3::X * 3.0, Vec3::new(2.0, 2.0 * sine, 0.0)];
+        has_margin(1.0 / 65536.0, |sine| matches!(face(corners(sine)), Form::Flat(_)));
+        // Of a sine of just 2⁻¹⁶.
+        let slim = [Vec3::ZERO, Vec3::X * 3.0, Vec3::new((1.0 - ROOM).sqrt(), 1.0 / 65536.0, 0.0)];
+        assert!(matches!(face(slim), Form::Other), "in doubt it is");
+        let Form::Flat(flat) = face(corners(1.0)) else { panic!("no sliver") };
+        assert_eq!(flat, Flat { point: Vec3::ZERO, normal: Vec3::Z });
+    }
+}

@@ -55,3 +55,29 @@ pub enum Shapes {
     /// All there are.
     All,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_feature_is_a_bit_of_its_own_and_everything_is_all_but_the_naive() {
+        let single = [
+            Features::CAMERA,
+            Features::MAPS,
+            Features::LIGHT,
+            Features::HIGHLIGHT,
+            Features::GOOCH,
+            Features::SHADOW,
+            Features::BOUNCE,
+            Features::SAMPLED,
+        ];
+        assert!(single.iter().all(|feature| feature.count() == 1));
+        assert_eq!(single.into_iter().fold(Features::NONE, Features::with), Features::EVERYTHING);
+        assert_eq!((Features::EVERYTHING.count(), Features::EVERYTHING.with(Features::NAIVE).count()), (8, 9));
+        let two = Features::MAPS.with(Features::LIGHT);
+        assert_eq!(two.with(Features::LIGHT), two);
+        assert!(two.contains(Features::LIGHT) && two.contains(two) && two.contains(Features::NONE));
+        assert!(!two.contains(Features::SHADOW) && !two.contains(two.with(Features::SHADOW)));
+    }
+}

@@ -202,7 +202,8 @@ impl Ball {
         let start = f.dot(f) - sum * sum;
         let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
         let slack = ROOM * size * size;
-        let least = if square > 0.0 { (-linear / square).clamp(0.0, 1.0) } else { 0.0 };
+        // Where Q is not convex its extremum is none of its least values: those are at the ends.
+        let least = (-linear / square).clamp(0.0, 1.0);
         [0.0, least, 1.0].into_iter().any(|tau| value(tau) <= slack)
     }
 }
@@ -211,4 +212,49 @@ impl Ball {
 fn is_beside(flat: &Flat, first: &Space, second: &Space) -> bool {
     let side = flat.sides(first);
     side != Sides::BOTH && side == flat.sides(second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::space::tests::{has_margin, span};
+    use super::*;
+
+    fn ball(x: f64, y: f64, radius: f64) -> Ball {
+        Ball(Some((Vec3::new(x, y, 0.0), radius)))
+    }
+
+    #[test]
+    fn the_ball_in_a_cube_touches_its_sides() {
+        let Some((center, radius)) = Ball::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0 else { panic!("a ball") };
+        assert_eq!((center, radius), (Vec3::new(2.0, -1.0, 5.0), 1.0));
+    }
+
+    #[test]
+    fn what_touches_the_way_between_equal_balls_is_off_it_by_room() {
+        let (start, end) = (ball(0.0, 0.0, 1.0), ball(10.0, 0.0, 1.0));
+        let is_clear = |gap: f64| !start.may_see_through(&end, &ball(5.0, 3.0 + gap, 2.0));
+        // All coordinates and radii sum up to 22: eightfold, and its square over twice the distance of 3.
+        has_margin((8.0 * 22.0 + 22.0 * 22.0 / 6.0) * ROOM, is_clear);
+    }
+
+    #[test]
+    fn the_way_between_unequal_balls_is_a_cone() {
+        let (small, large) = (ball(0.0, 0.0, 0.5), ball(10.0, 0.0, 2.0));
+        // The cone's sine is 0.15, its cosine √0.9775; half-way it is 1.25 wide.
+        let touching = (1.0 + 1.25) / 0.9775_f64.sqrt();
+        for (start, end) in [(small, large), (large, small)] {
+            let is_clear = |height: f64| !start.may_see_through(&end, &ball(5.0, height, 1.0));
+            assert!(!is_clear(touching) && is_clear(touching + 400.0 * ROOM));
+            let is_clear = |x: f64| !start.may_see_through(&end, &ball(x, 0.0, 1.0));
+            assert!(!is_clear(13.0) && is_clear(13.0 + 1e-6), "past the end");
+            assert!(!is_clear(-1.5) && is_clear(-1.5 - 1e-6), "before the start");
+        }
+    }
+
+    #[test]
+    fn the_way_to_a_ball_around_the_start_is_that_ball() {
+        let is_clear = |x: f64| !ball(0.0, 0.0, 1.0).may_see_through(&ball(1.0, 0.0, 5.0), &ball(x, 0.0, 1.0));
+        assert!(!is_clear(7.0) && is_clear(7.0 + 1e-6));
+        assert!(!is_clear(-5.0) && is_clear(-5.0 - 1e-6));
+    }
 }

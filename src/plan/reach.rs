@@ -52,7 +52,7 @@ impl Reach {
             for target in &targets[mirror] {
                 let sides = facts.bodies[*target].sides_seen_from(facts.bodies[mirror].space());
                 let sides = self.sides[*target].with(sides);
-                let is_news = !self.reached[*target] || sides != self.sides[*target];
+                let is_news = sides != self.sides[*target];
                 (self.reached[*target], self.sides[*target]) = (true, sides);
                 if is_news && facts.looks[*target].mirrors() && !open.contains(target) {
                     open.push(*target);

@@ -254,4 +254,16 @@ mod tests {
         assert!(!is_inside(&square, [0, 1]) && !is_inside(&square, [4, 1]) && !is_inside(&square, [9, 9]));
         assert!(convex(vec![[0.0, 0.0], [9.0, 0.0], [2.0, 2.0], [0.0, 9.0]]).is_none(), "a dart is not convex");
     }
+
+    #[test]
+    fn a_polygon_is_taken_in_either_order_unless_it_is_smaller_than_a_pixel() {
+        let square = |side: f64| vec![[3.0, 2.0], [3.0 + side, 2.0], [3.0 + side, 2.0 + side], [3.0, 2.0 + side]];
+        let turned = |side: f64| square(side).into_iter().rev().collect::<Vec<_>>();
+        for polygon in [square(4.0), turned(4.0)] {
+            let polygon = convex(polygon).unwrap();
+            assert!(edges(&polygon).all(|edge| area(edge, [5.0, 4.0]) == 8.0), "the middle is to the left");
+        }
+        assert!(convex(square(1.0)).is_none() && convex(turned(1.0)).is_none());
+        assert!(convex(square(1.01)).is_some() && convex(turned(1.01)).is_some());
+    }
 }

@@ -229,4 +229,16 @@ mod tests {
         assert!(Rule::find("E-NOTHING").is_none());
         assert!(!Rules::ALL.contains(Rule::Cut), "what changes a picture is asked for");
     }
+
+    #[test]
+    fn a_set_has_the_rules_it_was_given_and_no_more() {
+        let two = Rules::NONE.with(Rule::Mode).with(Rule::Cull);
+        assert_eq!([two.with(Rule::Cull), two.without(Rule::Cut)], [two, two]);
+        assert_eq!(two.without(Rule::Cull), Rules::NONE.with(Rule::Mode));
+        assert_eq!(two.of(Rules::AT_HITS.with(Rule::Cull)), Rules::NONE.with(Rule::Cull));
+        assert!(two.contains(Rule::Cull) && two.contains_all(two) && two.contains_all(Rules::NONE));
+        assert!(!two.contains(Rule::Cut) && !two.contains_all(two.with(Rule::Cut)));
+        let others = [Rule::ShadowFacing, Rule::ShadowUnlit, Rule::HighlightKs, Rule::MirrorKs];
+        assert_eq!(others.into_iter().fold(Rules::NONE, Rules::with), Rules::AT_HITS);
+    }
 }

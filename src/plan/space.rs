@@ -134,8 +134,19 @@ impl Flat {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Something that is surely so, seen from a margin on, is not yet so a little before it.
+    pub(in crate::plan) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
+        assert!(!is_sure((1.0 - 1e-5) * margin), "the margin is smaller than {margin:e}");
+        assert!(is_sure((1.0 + 1e-5) * margin), "the margin is larger than {margin:e}");
+    }
+
+    /// A box, by its corners.
+    pub(in crate::plan) fn span(min: [f64; 3], max: [f64; 3]) -> Space {
+        Space { min: Vec3::from_array(min), max: Vec3::from_array(max) }
+    }
 
     fn unit(x: f64, y: f64, z: f64) -> Space {
         Space::around(Vec3::new(x, y, z), Vec3::splat(0.5))
@@ -166,5 +177,73 @@ mod tests {
         assert_eq!(flat.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
         assert_eq!(flat.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
         assert_eq!(flat.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
+    }
+
+    #[test]
+    fn boxes_grow_on_all_sides_and_know_their_size_and_distances() {
+        let space = span([-1.0, 2.0, -4.0], [3.0, 2.5, 0.0]);
+        assert_eq!(space.grown(0.5), span([-1.5, 1.5, -4.5], [3.5, 3.0, 0.5]));
+        assert_eq!(space.size(), 4.0);
+        assert_eq!(space.distance(Vec3::new(6.0, 6.5, -1.0)), 5.0);
+        assert_eq!(space.distance(Vec3::new(0.0, 2.0, -7.0)), 3.0);
+        assert_eq!(space.distance(Vec3::new(0.0, 2.0, -2.0)), 0.0);
+    }
+
+    /// The boxes of a test with their axes changed about, and seen in a mirror.
+    fn turned(boxes: [Space; 3], axis: usize, mirror: bool) -> [Space; 3] {
+        let turn = |v: Vec3| [Vec3::new(v.x, v.y, v.z), Vec3::new(v.z, v.x, v.y), Vec3::new(v.y, v.z, v.x)][axis];
+        boxes.map(|Space { min, max }| {
+            let [min, max] = if mirror { [-max, -min] } else { [min, max] };
+            Space { min: turn(min), max: turn(max) }
+        })
+    }
+
+    /// That three boxes are apart from a gap on, however they lie.
+    fn have_margin(margin: f64, boxes: impl Fn(f64) -> [Space; 3], are_apart: impl Fn([Space; 3]) -> bool) {
+        for (axis, mirror) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
+            has_margin(margin, |gap| are_apart(turned(boxes(gap), axis, mirror)));
+        }
+    }
+
+    #[test]
+    fn boxes_are_apart_by_room_of_both() {
+        let small = span([2.0, -1.0, -1.0], [3.0, 1.0, 1.0]);
+        let boxes = |gap| [small, small, span([3.0 + gap, -2.0, -2.0], [8.0, 2.0, 2.0])];
+        have_margin(11.0 * ROOM, boxes, |[small, _, large]| small.is_apart_from(&large));
+        let [_, _, large] = boxes(11.0 * ROOM);
+        assert!(!small.is_apart_from(&large), "in doubt they are not");
+    }
+
+    #[test]
+    fn what_stands_beside_either_end_is_apart_by_room_of_both_boxes() {
+        let (near, far) = (span([-3.0, -1.0, -3.0], [3.0, 1.0, 3.0]), span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]));
+        let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
+        let hides = |[start, end, other]: [Space; 3]| start.may_see_through(&end, &other);
+        // Of the start and the other: 3 and 7, twice, as both grow.
+        have_margin(20.0 * ROOM, boxes, |boxes| !hides(boxes));
+        // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
+        have_margin(30.0 * ROOM, boxes, |[start, end, other]| !hides([end, start, other]));
+    }
+
+    #[test]
+    fn what_stands_beside_the_middle_of_the_way_is_apart_by_room_of_the_way_as_well() {
+        let point = |at: f64| span([at, at, 0.0], [at, at, 0.0]);
+        let boxes = |gap| [point(0.0), point(1.0), span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0])];
+        // Of size 3, the other takes room thrice, the end once, the share of the way once.
+        have_margin(11.0 * ROOM, boxes, |[start, end, other]| !start.may_see_through(&end, &other));
+    }
+
+    #[test]
+    fn a_box_is_off_a_plane_by_room_of_both() {
+        let flat = Flat { point: Vec3::new(0.0, 5.0, -3.0), normal: Vec3::Z };
+        let above = |gap: f64| span([-2.0, -6.0, gap - 3.0], [2.0, 1.0, -1.0]);
+        let below = |gap: f64| span([-2.0, -6.0, -5.0], [2.0, 1.0, -3.0 - gap]);
+        has_margin(44.0 * ROOM, |gap| flat.sides(&above(gap)) == Sides::FRONT);
+        has_margin(44.0 * ROOM, |gap| flat.sides(&below(gap)) == Sides::BACK);
+        assert_eq!(
+            [above(44.0 * ROOM), below(44.0 * ROOM)].map(|space| flat.sides(&space)),
+            [Sides::BOTH; 2],
+            "in doubt"
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the right reason.
 //!
-//! The strength of this suite is measured by `cargo mutants`, as `.cargo/mutants.toml` says: mutants of the
-//! rules that it does not kill want a test here. Scenes of the course and of the wild are read from `../shared`; where that is
+//! The strength of this suite and of the unit tests of the rules is measured by `benches/mutants.sh`: mutants that survive
+//! want a test. Scenes of the course and of the wild are read from `../shared`; where that is
 //! absent, the tests that need it say so and pass.
 
 #![expect(
@@ -12,10 +12,12 @@
 
 mod approved;
 mod counters;
+mod cut;
 mod dice;
 mod law;
 mod need;
 mod oracle;
+mod precision;
 mod sensitivity;
 mod stage;
 mod validation;

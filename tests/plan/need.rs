@@ -5,7 +5,7 @@ use super::{fate, verdict};
 use rtc::diag::Sink;
 use rtc::ir::{Bump, Lowered, Mode, Origins, Scene};
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Effect, Plan, Rules, Sight, State};
+use rtc::plan::{Effect, Plan, Rule, Rules, Sight, State};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
@@ -208,16 +208,38 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
     }
 }
 
-/// Planning asks no more than so many questions of pairs, and says so.
-#[test]
-fn too_many_surfaces_are_kept_without_asking() {
-    let balls = (0..900).map(|k| (ball([f64::from(k % 30) - 15.0, f64::from(k / 30) - 15.0, 0.0], 0.3), matt()));
+/// Small balls side by side before a wide camera, the first of them mirrors.
+fn many(count: u32, mirrors: u32) -> Scene {
+    let place = |k: u32| [f64::from(k % 40) * 0.8 - 16.0, f64::from(k / 40) - 14.0, 0.0];
+    let balls = (0..count).map(|k| (ball(place(k), 0.3), if k < mirrors { shiny() } else { matt() }));
     let mut scene = with(&balls.collect::<Vec<_>>());
     (scene.camera.right, scene.camera.up) = ([1.5, 0.0, 0.0], [0.0, 1.5, 0.0]);
-    let plan = Plan::new(&super::proven(&scene), Rules::ALL);
-    assert!(plan.needs(Effect::Shadows));
-    assert!(verdict(&plan, Effect::Shadows).because.contains("too many"));
+    scene
+}
+
+/// Planning asks no more than 500 000 questions of pairs, and says so.
+#[test]
+fn too_many_surfaces_are_kept_without_asking() {
+    let plan = |count, lights| {
+        let mut scene = many(count, 0);
+        scene.lights = vec![scene.lights[0].clone(); lights];
+        Plan::new(&super::proven(&scene), Rules::ALL)
+    };
+    let is_asked = |plan: &Plan| !verdict(plan, Effect::Shadows).because.contains("too many");
+    assert!(is_asked(&plan(500, 2)), "500 times 500 times 2");
+    let plan = plan(501, 2);
+    assert!(plan.needs(Effect::Shadows) && !is_asked(&plan));
     assert!(!plan.needs(Effect::Mirror) && plan.surfaces.iter().all(|kept| *kept));
+}
+
+#[test]
+fn too_many_mirrors_are_followed_without_asking() {
+    let because = |count, mirrors| {
+        let plan = Plan::new(&super::proven(&many(count, mirrors)), Rules::ALL);
+        verdict(&plan, Effect::Depth).because.clone()
+    };
+    assert_eq!(because(1000, 500), "2 bounces: mirrors show mirrors");
+    assert_eq!(because(1001, 500), "2 bounces; too many mirrors to ask which sees which");
 }
 
 /// The cells of a large picture are several pixels wide.
@@ -228,6 +250,15 @@ fn a_large_picture_is_looked_at_in_coarse_cells() {
     let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
     let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
     assert_eq!(sights, [Sight::Nothing, Sight::Anything, Sight::Nothing, Sight::Nothing]);
+}
+
+#[test]
+fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
+    let scene = super::proven(&with(&[(ball([0.0; 3], 1.0), matt())]));
+    let region = |rules| Plan::new(&scene, rules).region;
+    let (some, none) = (region(Rules::ALL), region(Rules::ALL.without(Rule::PixelMiss)));
+    assert_eq!([some.sight([0, 0]), none.sight([0, 0])], [Sight::Nothing, Sight::Anything]);
+    assert!(some.empty_share() > 0.5 && none.empty_share() == 0.0);
 }
 
 #[test]
