@@ -334,7 +334,7 @@ fn nothing_in_view(proven: &Proven) -> Diagnostic {
 /// Warns of what the arithmetic chosen loses; none of the robust one.
 fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
     let loss = plan::loss(&proven.scene, arithmetic)?;
-    let option = if arithmetic == plan::Arithmetic::F32 { "f32" } else { "plain" };
+    let option = arithmetic.name();
     let (fault, label) = match loss.symptom {
         Symptom::SelfHit => {
             let off = format!("rays start about {:.0e} off this surface and meet it again", loss.error);

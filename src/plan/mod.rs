@@ -30,13 +30,15 @@ use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
 use reach::Reach;
+use serde::{Deserialize, Serialize};
 use window::{Shown, Window};
 
 /// The most questions of whether one thing hides or shows another that a plan asks.
 const MAX_PAIRS: usize = 500_000;
 
 /// By which arithmetic rays meet shapes; shading is always in f64.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Arithmetic {
     /// f64 with bounds on its errors.
     #[default]
@@ -45,6 +47,21 @@ pub enum Arithmetic {
     Plain,
     /// The same formulas in f32.
     F32,
+}
+
+impl Arithmetic {
+    /// All of them, the robust one first.
+    pub const ALL: [Self; 3] = [Self::Robust, Self::Plain, Self::F32];
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Robust => "robust",
+            Self::Plain => "plain",
+            Self::F32 => "f32",
+        }
+    }
 }
 
 /// What is left of a light.

@@ -66,7 +66,11 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
 /// Whether rays start on a surface.
 fn sends_rays(scene: &ValidScene, surface: &Surface) -> bool {
     let settings = scene.settings();
-    let Mode::Phong = settings.mode else { return false };
+    match settings.mode {
+        Mode::Phong => {}
+        Mode::Path(_) => return true,
+        Mode::Normal | Mode::Gooch(_) | Mode::Zbuffer => return false,
+    }
     let Phong { ks, kt, .. } = &scene.materials()[surface.material];
     let lit = settings.shadows && !scene.lights().is_empty();
     lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)

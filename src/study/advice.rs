@@ -1,20 +1,21 @@
 //! What follows from a study, in plain words.
 
+use super::knob::Setting;
 use super::outcome::{Row, Study};
 use super::reference::DepthEnd;
+use crate::plan::Arithmetic;
 
 /// An error that nobody sees, in grey levels.
 const ENOUGH: f64 = 0.5;
 
 /// One sentence a line; the first is the one to follow.
 pub(super) fn advice(study: &Study) -> Vec<String> {
-    let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
+    let front: Vec<_> = study.rows.iter().filter(|row| row.front).map(|row| steady(study, row)).collect();
     let Some(chosen) = front.iter().position(|row| row.errors.rmse <= ENOUGH).or(front.len().checked_sub(1)) else {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
     lines.extend(study.own().map(|own| about_own(study, own, &front)));
-    lines.extend(precision(study));
     if study.reference.depth == Some(DepthEnd::Open) {
         lines.push(
             "Paths go deeper than this study could follow: errors hold for the depth of the reference.".to_owned(),
@@ -25,6 +26,17 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
             .push("Rows with ≤ are as good as the reference, which can't tell them apart; more effort can.".to_owned());
     }
     lines
+}
+
+/// The row, or the one by the robust arithmetic if that of the row is not clearly cheaper: the few rounds of a row may say
+/// so by chance.
+fn steady<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
+    /// A ratio that is clearly below 1.
+    const CLEAR: f64 = 0.95;
+    let robust = Setting { precision: Arithmetic::Robust, ..row.setting };
+    let cost = study.precision.iter().find(|cost| cost.arithmetic == row.setting.precision);
+    let is_clear = cost.is_some_and(|cost| cost.ratio.high < CLEAR);
+    study.rows.iter().find(|row| !is_clear && row.setting == robust).unwrap_or(row)
 }
 
 /// The row chosen, and what better ones would cost.
@@ -63,15 +75,10 @@ fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
 /// What a row has that the scene's own setting has not.
 fn instead(study: &Study, row: &Row, own: &Row) -> String {
     let (words, times) = (row.setting.words(&study.used()), row.ratio.value);
+    if digits(row.errors.rmse) == digits(own.errors.rmse) {
+        return format!("{words} has the same error for {times:.2}× the time");
+    }
     format!("{words} has {} instead of {} for {times:.2}× the time", error(row), digits(own.errors.rmse))
-}
-
-/// The fastest arithmetic that nobody could tell from the robust one by looking.
-fn precision(study: &Study) -> Option<String> {
-    let same = study.precision.iter().filter(|cost| cost.difference.visible == 0.0 && cost.ratio.high < 0.95);
-    let fastest = same.min_by(|a, b| a.ratio.value.total_cmp(&b.ratio.value))?;
-    let (name, times) = (&fastest.arithmetic, fastest.ratio.value);
-    Some(format!("In {name} arithmetic no pixel looked at differs by a grey level, for {times:.2}× the time."))
 }
 
 /// As "error 0.4 grey levels".

@@ -7,6 +7,9 @@ use crate::math::ln;
 /// A step that lessens the error by less than a hundredth is not worth a row.
 const WORTH: f64 = 0.99;
 
+/// Errors that differ by less than a thousandth are the same: so much is in how hits at edges are rounded.
+const SAME: f64 = 1.001;
+
 /// Settings from the least work up, each with the knob raised that the model says lessens the error most for the work;
 /// until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
@@ -36,6 +39,13 @@ pub(super) fn candidates(
     }
 }
 
+/// The setting by the arithmetic of the least work that leaves no more error, as the model says; none if that is its own.
+pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
+    let mut others = model.tried(Knob::Precision).map(|value| setting.with(Knob::Precision, value));
+    let enough = others.find(|other| WORTH * model.error(*other) <= model.error(setting));
+    enough.filter(|other| *other != setting)
+}
+
 /// What a row of the table costs and is worth.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
@@ -48,23 +58,27 @@ pub struct Point {
 }
 
 impl Point {
-    /// Whether this one costs no more than the other, for an error no larger, and is better in one of the two.
-    #[must_use]
-    pub fn dominates(&self, other: &Self) -> bool {
+    /// Whether this one costs no more than the other, for an error no larger, and is better in one of the two; or is as good,
+    /// and the `first` of them.
+    fn dominates(&self, other: &Self, first: bool) -> bool {
         let apart = self.seconds[1] < other.seconds[0] || other.seconds[1] < self.seconds[0];
         let (cheaper, dearer) = if apart {
             (self.seconds[1] < other.seconds[0], other.seconds[1] < self.seconds[0])
         } else {
             (self.rays < other.rays, other.rays < self.rays)
         };
-        !dearer && self.error <= other.error && (cheaper || self.error < other.error)
+        !dearer && self.error <= SAME * other.error && (cheaper || first || SAME * self.error < other.error)
     }
 }
 
-/// For each point whether no other dominates it.
+/// For each point whether no other dominates it; of equals the first stands.
 #[must_use]
 pub fn front(points: &[Point]) -> Vec<bool> {
-    points.iter().map(|point| !points.iter().any(|other| other.dominates(point))).collect()
+    let stands = |(place, point): (usize, &Point)| {
+        let mut others = (0..).zip(points).filter(|(other, _)| *other != place);
+        !others.any(|(other, better)| better.dominates(point, other < place))
+    };
+    points.iter().enumerate().map(stands).collect()
 }
 
 #[cfg(test)]
@@ -85,6 +99,8 @@ mod tests {
     fn rays_decide_where_seconds_cannot() {
         let points = [point(1.0, 11, 3.0), point(1.005, 10, 3.0), point(1.001, 12, 1.0)];
         assert_eq!(front(&points), [false, true, true]);
-        assert_eq!(front(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]), [true, true], "equals stand side by side");
+        let rounded = [point(1.0, 10, 3.000_1), point(2.0, 10, 3.0), point(4.0, 10, 2.99)];
+        assert_eq!(front(&rounded), [true, false, true], "errors as good as the same");
+        assert_eq!(front(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]), [true, false], "of equals the first");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::subject::prove;
 use crate::ir::{Light, Material, Mode, Overrides, Phong, Scene};
-use crate::plan::{Effect, Plan, Rules, State, Verdict};
+use crate::plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
 use serde::{Deserialize, Serialize};
 
 /// Something that trades work for accuracy.
@@ -21,12 +21,17 @@ pub enum Knob {
     Paths,
     /// Bounces after the first hit.
     Depth,
+    /// The arithmetic by which rays meet shapes: its values are places in [`PRECISIONS`].
+    Precision,
 }
+
+/// The arithmetics, from the least work up.
+const PRECISIONS: [Arithmetic; 3] = [Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust];
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Paths, Self::Depth];
+    pub const ALL: [Self; 7] =
+        [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Paths, Self::Depth, Self::Precision];
 
     /// What it is called in tables.
     #[must_use]
@@ -38,6 +43,7 @@ impl Knob {
             Self::Glossy => "glossy samples",
             Self::Paths => "paths",
             Self::Depth => "depth",
+            Self::Precision => "precision",
         }
     }
 
@@ -51,7 +57,14 @@ impl Knob {
             Self::Glossy => "gloss",
             Self::Paths => "spp",
             Self::Depth => "depth",
+            Self::Precision => "prec",
         }
+    }
+
+    /// A value where there is little room, as "4" or "plain".
+    #[must_use]
+    pub fn cell(self, value: u32) -> String {
+        if self == Self::Precision { arithmetic(value).name().to_owned() } else { value.to_string() }
     }
 
     /// A value in words, as "4×4" or "16 aperture samples".
@@ -64,6 +77,7 @@ impl Knob {
                 format!("{value} {}", if value == 1 { name.trim_end_matches('s') } else { name })
             }
             Self::Depth => format!("depth {value}"),
+            Self::Precision => format!("{} arithmetic", self.cell(value)),
         }
     }
 
@@ -75,6 +89,7 @@ impl Knob {
             Self::Aperture | Self::Lights | Self::Glossy => (11, |i| 1 << i),
             Self::Paths => (15, |i| 1 << i),
             Self::Depth => (DEPTHS, |i| i),
+            Self::Precision => (3, |i| i),
         };
         (0..count).map(step)
     }
@@ -82,7 +97,13 @@ impl Knob {
     /// The value with the least work.
     #[must_use]
     pub fn least(self) -> u32 {
-        u32::from(self != Self::Depth)
+        u32::from(self.samples_pixels())
+    }
+
+    /// Whether its values are numbers of samples.
+    #[must_use]
+    pub fn samples_pixels(self) -> bool {
+        !matches!(self, Self::Depth | Self::Precision)
     }
 
     /// The work that a value asks for: samples, or bounces.
@@ -91,6 +112,7 @@ impl Knob {
         match self {
             Self::Supersampling => f64::from(value) * f64::from(value),
             Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => f64::from(value),
+            Self::Precision => 1.0,
         }
     }
 }
@@ -114,10 +136,12 @@ pub struct Setting {
     pub paths: u32,
     /// Bounces after the first hit.
     pub depth: u32,
+    /// The arithmetic by which rays meet shapes.
+    pub precision: Arithmetic,
 }
 
 impl Setting {
-    /// That of a scene; where its lobes have different numbers of rays the largest stands for all.
+    /// That of a scene, by the robust arithmetic; where its lobes have different numbers of rays the largest stands for all.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
@@ -132,6 +156,7 @@ impl Setting {
             glossy: lobes(scene).max().unwrap_or(1),
             paths,
             depth: scene.settings.max_depth,
+            precision: Arithmetic::Robust,
         }
     }
 
@@ -145,21 +170,23 @@ impl Setting {
             Knob::Glossy => self.glossy,
             Knob::Paths => self.paths,
             Knob::Depth => self.depth,
+            Knob::Precision => place(self.precision),
         }
     }
 
     /// The same with another value for a knob.
     #[must_use]
     pub fn with(mut self, knob: Knob, value: u32) -> Self {
-        let place = match knob {
+        let held = match knob {
             Knob::Supersampling => &mut self.supersampling,
             Knob::Aperture => &mut self.aperture,
             Knob::Lights => &mut self.lights,
             Knob::Glossy => &mut self.glossy,
             Knob::Paths => &mut self.paths,
             Knob::Depth => &mut self.depth,
+            Knob::Precision => return Self { precision: arithmetic(value), ..self },
         };
-        *place = value;
+        *held = value;
         self
     }
 
@@ -169,9 +196,10 @@ impl Setting {
         Knob::Supersampling.samples(self.supersampling) * f64::from(self.aperture) * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene; lobes keep theirs where the largest of them is meant.
+    /// Writes the values into a scene, which holds all but the precision; lobes keep theirs where the largest of them is
+    /// meant.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { supersampling, aperture, lights, glossy, paths, depth } = *self;
+        let Self { supersampling, aperture, lights, glossy, paths, depth, precision: _ } = *self;
         let overrides = Overrides {
             size: None,
             supersampling: Some(supersampling),
@@ -184,10 +212,11 @@ impl Setting {
         overrides.apply(scene);
     }
 
-    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3".
+    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust arithmetic goes without saying.
     #[must_use]
     pub fn words(&self, knobs: &[Knob]) -> String {
-        let words: Vec<_> = knobs.iter().map(|knob| knob.words(self.get(*knob))).collect();
+        let is_said = |knob: &&Knob| **knob != Knob::Precision || self.precision != Arithmetic::Robust;
+        let words: Vec<_> = knobs.iter().filter(is_said).map(|knob| knob.words(self.get(*knob))).collect();
         match words.split_first() {
             Some((first, [])) => first.clone(),
             Some((first, rest)) if knobs[0] == Knob::Supersampling && knobs[1] != Knob::Depth => {
@@ -199,13 +228,28 @@ impl Setting {
     }
 }
 
+/// The arithmetic of a value of the precision.
+fn arithmetic(value: u32) -> Arithmetic {
+    PRECISIONS.get(value as usize).copied().unwrap_or_default()
+}
+
+/// The value of the precision that is an arithmetic.
+pub(super) fn place(arithmetic: Arithmetic) -> u32 {
+    (0..).zip(PRECISIONS).find(|(_, other)| *other == arithmetic).map_or(0, |(value, _)| value)
+}
+
+/// Whether the plan expects nothing of a scene to show that an arithmetic loses.
+pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
+    loss(&prove(scene), arithmetic).is_none()
+}
+
 /// The numbers of rays of the lobes of a scene.
 fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
     scene.materials.iter().filter_map(Material::phong).map(|phong| phong.glossy_samples).filter(|count| *count > 1)
 }
 
-/// Why a knob changes nothing in a scene, or `None` if it may change something: the scene does not ask for its effect, or
-/// the plan leaves that out however far the knobs are turned.
+/// Why a knob is not turned in a scene, or `None` if it is: the scene does not ask for its effect, or the plan leaves that
+/// out however far the knobs are turned, which changes nothing then; or all but one of its values are known to be wrong.
 #[must_use]
 pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
     not_asked_for(knob, scene).map(str::to_owned).or_else(|| left_out(knob, scene))
@@ -219,7 +263,7 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
         Knob::Lights => Effect::SoftLight,
         Knob::Glossy => Effect::GlossyReflection,
         Knob::Depth if scene.settings.mode == Mode::Phong => Effect::Depth,
-        Knob::Depth | Knob::Paths => return None,
+        Knob::Depth | Knob::Paths | Knob::Precision => return None,
     };
     let own = Setting::of(scene);
     let mut turned = scene.clone();
@@ -237,6 +281,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
     let counted = (paths, "each path takes a sample of its own");
     let weights = || scene.materials.iter().filter_map(Material::phong);
     let is_dull = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
+    let is_robust = |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
     let cases: &[(bool, &'static str)] = match knob {
         Knob::Supersampling => &[counted, (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
         Knob::Aperture => &[
@@ -259,6 +304,7 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
             (!phong && !paths, "the mode follows no mirror and no refraction"),
             (phong && weights().all(is_dull), "no material mirrors or lets light through"),
         ],
+        Knob::Precision => &[(PRECISIONS.iter().all(is_robust), "what any but the robust arithmetic loses would show")],
     };
     cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
 }
@@ -269,13 +315,21 @@ mod tests {
 
     #[test]
     fn settings_in_words() {
-        let setting = Setting { supersampling: 4, aperture: 16, lights: 1, glossy: 1, paths: 32, depth: 3 };
+        let setting = Setting { paths: 32, ..setting(4, 16, 3) };
         let words = |knobs: &[Knob]| setting.words(knobs);
         assert_eq!(words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]), "4×4 with 16 aperture samples, depth 3");
         assert_eq!(words(&[Knob::Supersampling, Knob::Lights]), "4×4 with 1 light sample");
         assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
         assert_eq!(words(&[Knob::Paths, Knob::Depth]), "32 paths, depth 3");
         assert_eq!(words(&[]), "the scene as it is");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Precision]), "4×4");
+        let plain = Setting { precision: Arithmetic::Plain, ..setting };
+        assert_eq!(plain.words(&[Knob::Depth, Knob::Precision]), "depth 3, plain arithmetic");
+    }
+
+    fn setting(supersampling: u32, aperture: u32, depth: u32) -> Setting {
+        let precision = Arithmetic::Robust;
+        Setting { supersampling, aperture, lights: 1, glossy: 1, paths: 1, depth, precision }
     }
 
     #[test]
@@ -283,8 +337,8 @@ mod tests {
         for knob in Knob::ALL {
             let values: Vec<_> = knob.ladder().collect();
             assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
-            let setting = Setting { supersampling: 9, aperture: 9, lights: 9, glossy: 9, paths: 9, depth: 9 };
-            assert_eq!(setting.with(knob, 5).get(knob), 5);
+            assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1);
         }
+        assert_eq!(PRECISIONS.map(place), [0, 1, 2]);
     }
 }

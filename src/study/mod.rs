@@ -75,11 +75,14 @@ const JUDGE: f64 = 0.2;
 pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Bench<'_>) -> Result<Study, Stopped> {
     let scope = Scope::new(scene, effort);
     let subject = scope.part(&Subject::new(scene, seed, bench))?;
-    let grounds = scope.grounds(&subject)?;
+    let mut grounds = scope.grounds(&subject)?;
     let mut chance = Chance::new(seed);
+    let precision = precision::costs(&subject, scope.own, scope.hundredths(FOR_PRECISION), &mut chance)?;
+    if scope.used.contains(&Knob::Precision) {
+        grounds.model.learn_precision(precision::ladder(&precision));
+    }
     let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
     let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut chance)?;
-    let precision = precision::costs(&subject, scope.own, scope.hundredths(FOR_PRECISION), &mut chance)?;
     let mut study = Study {
         schema: "rtc-cost/1".to_owned(),
         about,
@@ -108,7 +111,7 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
 struct Scope {
     own: Setting,
     used: Vec<Knob>,
-    /// The knobs that sample: all but the depth.
+    /// Those of them that sample.
     sampling: Vec<Knob>,
     effort: Effort,
 }
@@ -123,7 +126,7 @@ struct Grounds {
 impl Scope {
     fn new(scene: &Scene, effort: Effort) -> Self {
         let used: Vec<_> = Knob::ALL.into_iter().filter(|knob| idle(*knob, scene).is_none()).collect();
-        let sampling = used.iter().copied().filter(|knob| *knob != Knob::Depth).collect();
+        let sampling = used.iter().copied().filter(|knob| knob.samples_pixels()).collect();
         Self { own: Setting::of(scene), used, sampling, effort }
     }
 
@@ -192,10 +195,12 @@ impl Scope {
     fn rows(&self, subject: &Subject<'_>, grounds: &Grounds, chance: &mut Chance) -> Result<(Vec<Row>, f64), Stopped> {
         let Grounds { reference, depths: _, model } = grounds;
         let budget = self.hundredths(FOR_ROWS);
-        let least = self.used.iter().fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
+        let turned: Vec<_> = self.used.iter().copied().filter(|knob| *knob != Knob::Precision).collect();
+        let least = turned.iter().fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
-        let best = front::candidates(model, least, &self.used, budget as f64 / 10.0, least_error);
+        let best = front::candidates(model, least, &turned, budget as f64 / 10.0, least_error);
         let settings = std::iter::once(self.own).chain(best.into_iter().filter(|setting| *setting != self.own));
+        let settings = settings.flat_map(|setting| std::iter::once(setting).chain(front::cheaper(model, setting)));
         let runners: Vec<_> = settings.map(|setting| Runner { subject: subject.clone(), setting }).collect();
         let race = race(&runners, budget, chance)?;
         let row = |(runner, run): (&Runner<'_>, race::Run)| {

@@ -57,7 +57,7 @@ pub struct ReferenceReport {
 pub struct KnobReport {
     /// The knob.
     pub knob: Knob,
-    /// Why it changes nothing in this scene, if so.
+    /// Why it is not turned in this scene, if so.
     pub idle: Option<String>,
     /// Its values, all others as good as the reference.
     pub rungs: Vec<Rung>,

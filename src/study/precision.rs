@@ -1,10 +1,13 @@
 //! What each arithmetic costs: the same samples of the same scene, by all three.
 
-use super::knob::Setting;
+use super::knob::{Knob, Setting, bears, place};
 use super::metrics::Errors;
-use super::race::{Runner, race};
+use super::outcome::Rays;
+use super::race::{Run, Runner, race};
+use super::reference::Rung;
 use super::statistics::{Chance, Estimate};
 use super::subject::{Stopped, Subject};
+use super::sweep::Ladder;
 use crate::plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
@@ -12,12 +15,23 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PrecisionCost {
-    /// Its name.
-    pub arithmetic: String,
+    /// The arithmetic.
+    pub arithmetic: Arithmetic,
+    /// Whether the plan expects nothing to show of what it loses; only then rows may be of it.
+    pub borne: bool,
+    /// The rays of the part looked at: what is proven for the robust one alone is not left out by others.
+    pub rays: Rays,
     /// Processor seconds over those of the robust one.
     pub ratio: Estimate,
     /// How far the picture is from that of the robust one.
     pub difference: Errors,
+}
+
+impl PrecisionCost {
+    /// Its name, and whether it is warned of.
+    pub(super) fn words(&self) -> String {
+        format!("{}{}", self.arithmetic.name(), if self.borne { "" } else { " (warned of)" })
+    }
 }
 
 /// The arithmetics, the robust one first, with what each costs in a setting.
@@ -27,14 +41,27 @@ pub(super) fn costs(
     budget: u64,
     chance: &mut Chance,
 ) -> Result<Vec<PrecisionCost>, Stopped> {
-    let all = [("robust", Arithmetic::Robust), ("plain", Arithmetic::Plain), ("f32", Arithmetic::F32)];
-    let runners = all.map(|(_, arithmetic)| Runner { subject: subject.by(arithmetic), setting });
-    let race = race(&runners, budget, chance)?;
+    let runner = |precision| Runner { subject: subject.clone(), setting: Setting { precision, ..setting } };
+    let race = race(&Arithmetic::ALL.map(runner), budget, chance)?;
     let robust = &race.runs[0].shot.tiles;
-    let cost = |((name, _), run): (&(&str, Arithmetic), &super::race::Run)| PrecisionCost {
-        arithmetic: (*name).to_owned(),
+    let cost = |(arithmetic, run): (Arithmetic, &Run)| PrecisionCost {
+        arithmetic,
+        borne: bears(&subject.scene, arithmetic),
+        rays: run.shot.counts.into(),
         ratio: run.ratio,
         difference: Errors::of(&run.shot.tiles, robust, subject.share()),
     };
-    Ok(all.iter().zip(&race.runs).map(cost).collect())
+    Ok(Arithmetic::ALL.into_iter().zip(&race.runs).map(cost).collect())
+}
+
+/// The precision as a knob alone, of the arithmetics that rows may be of. It samples nothing, so no noise hides its error.
+pub(super) fn ladder(costs: &[PrecisionCost]) -> Ladder {
+    let rung = |cost: &PrecisionCost| Rung {
+        value: place(cost.arithmetic),
+        error: cost.difference.rmse,
+        resolved: true,
+        rays: cost.rays.all(),
+    };
+    let rungs = costs.iter().rev().filter(|cost| cost.borne).map(rung).collect();
+    Ladder { knob: Knob::Precision, rungs, law: None }
 }

@@ -17,7 +17,6 @@ pub(super) struct Subject<'bench> {
     seed: u64,
     /// The tiles by rank, as column and row.
     tiles: Vec<[u32; 2]>,
-    arithmetic: Arithmetic,
     bench: &'bench Bench<'bench>,
 }
 
@@ -38,7 +37,7 @@ impl<'bench> Subject<'bench> {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
         let mut tiles: Vec<_> = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
         tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
-        Self { scene: scene.clone(), seed, tiles, arithmetic: Arithmetic::Robust, bench }
+        Self { scene: scene.clone(), seed, tiles, bench }
     }
 
     /// The same with the first `count` tiles only, at least one.
@@ -51,11 +50,6 @@ impl<'bench> Subject<'bench> {
     /// The same part of another scene's picture.
     pub(super) fn with_scene(&self, scene: Scene) -> Self {
         Self { scene, ..self.clone() }
-    }
-
-    /// The same by another arithmetic.
-    pub(super) fn by(&self, arithmetic: Arithmetic) -> Self {
-        Self { arithmetic, ..self.clone() }
     }
 
     /// Whether all of the picture is looked at; then it is one tile.
@@ -82,13 +76,13 @@ impl<'bench> Subject<'bench> {
     /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent of all other seeds.
     pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<Shot, Stopped> {
         let scene = self.prove(setting, seeds);
-        self.bench.work(|| self.render(&scene, seeds))
+        self.bench.work(|| self.render(&scene, setting.precision, seeds))
     }
 
     /// Renders in a setting on one thread, and says how long that took.
     pub(super) fn time(&self, setting: Setting) -> Result<(Shot, Time), Stopped> {
         let scene = self.prove(setting, Seeds::NONE);
-        let (shot, time) = self.bench.measure(|| self.render(&scene, Seeds::NONE));
+        let (shot, time) = self.bench.measure(|| self.render(&scene, setting.precision, Seeds::NONE));
         Ok((shot?, time))
     }
 
@@ -99,9 +93,8 @@ impl<'bench> Subject<'bench> {
         let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
-            let work = || {
-                render(&scene, &Plan::by(self.arithmetic, &scene, Rules::ALL), job, &|rays| self.bench.goes_on(rays))
-            };
+            let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
+            let work = || render(&scene, &plan(), job, &|rays| self.bench.goes_on(rays));
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -120,11 +113,11 @@ impl<'bench> Subject<'bench> {
         prove(&scene)
     }
 
-    fn render(&self, scene: &ValidScene, seeds: Seeds) -> Result<Shot, Stopped> {
+    fn render(&self, scene: &ValidScene, arithmetic: Arithmetic, seeds: Seeds) -> Result<Shot, Stopped> {
         let last = self.tiles.last().map_or(0, |tile| Tiles::rank(self.seed, *tile));
         let tiles = Some(Tiles { seed: self.seed, last });
         let job = Job { tiles, seeds, ..Job::default() };
-        let plan = Plan::by(self.arithmetic, scene, Rules::ALL);
+        let plan = Plan::by(arithmetic, scene, Rules::ALL);
         let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {

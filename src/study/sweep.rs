@@ -57,7 +57,7 @@ fn others(knob: Knob, number: u64) -> Seeds {
         Knob::Aperture => Seeds { lens: 0, ..seeds },
         Knob::Lights | Knob::Glossy => Seeds { path: 0, ..seeds },
         Knob::Paths => Seeds::NONE,
-        Knob::Depth => seeds,
+        Knob::Depth | Knob::Precision => seeds,
     }
 }
 
@@ -105,9 +105,23 @@ impl Model {
         self.interplay = (error * error - alone * alone).max(0.0);
     }
 
-    /// What is known of a knob, `idle` being why it changes nothing if so.
+    /// Learns what the arithmetics leave.
+    pub(super) fn learn_precision(&mut self, ladder: Ladder) {
+        self.ladders.push(ladder);
+    }
+
+    fn ladder(&self, knob: Knob) -> Option<&Ladder> {
+        self.ladders.iter().find(|ladder| ladder.knob == knob)
+    }
+
+    /// The values of a knob that were tried, from the least work up.
+    pub(super) fn tried(&self, knob: Knob) -> impl Iterator<Item = u32> {
+        self.ladder(knob).into_iter().flat_map(|ladder| &ladder.rungs).map(|rung| rung.value)
+    }
+
+    /// What is known of a knob, `idle` being why it is not turned if so.
     pub(super) fn report(&self, knob: Knob, idle: Option<String>) -> KnobReport {
-        let ladder = self.ladders.iter().find(|ladder| ladder.knob == knob);
+        let ladder = self.ladder(knob);
         KnobReport {
             knob,
             idle,

@@ -103,7 +103,7 @@ const FIRST_PATHS: usize = 4;
 /// # Errors
 /// If someone said stop.
 pub fn approach(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
-    let mut samples = Knob::ALL.into_iter().filter(|knob| *knob != Knob::Depth);
+    let mut samples = Knob::ALL.into_iter().filter(|knob| knob.samples_pixels());
     if samples.all(|knob| idle(knob, scene).is_some()) {
         return exactly(world, order, watch);
     }

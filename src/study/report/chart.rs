@@ -65,7 +65,7 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
     let fill = if row.judged { color.filled() } else { color.stroke_width(1) };
     chart.draw_series([Circle::new((x, y), 4, fill)])?;
     if row.front || row.own {
-        let values: Vec<_> = used.iter().map(|knob| row.setting.get(*knob).to_string()).collect();
+        let values: Vec<_> = used.iter().map(|knob| knob.cell(row.setting.get(*knob))).collect();
         let own = if row.own { " (own)" } else { "" };
         let label = Text::new(format!("{}{own}", values.join("·")), (6, -15), font(11));
         chart.draw_series([EmptyElement::at((x, y)) + label])?;
@@ -84,7 +84,7 @@ pub(super) fn knob(report: &KnobReport) -> String {
     let name = match report.knob {
         Knob::Supersampling => "samples of a pixel",
         Knob::Depth => "depth, 0 at ½",
-        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths) => knob.name(),
+        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths | Knob::Precision) => knob.name(),
     };
     plot((400, 300), |root| {
         let mut chart = axes(root, [xs.clone(), ys], [name, "error in grey levels"], digits)?;

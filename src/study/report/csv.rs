@@ -3,7 +3,7 @@
 use super::super::knob::Knob;
 use super::super::outcome::{Row, Study};
 
-const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
+const NAMES: &str = "supersampling,aperture,lights,glossy,paths,depth,precision,own,front,judged,camera_rays,shadow_rays,mirror_rays,\
 refracted_rays,seconds,seconds_low,seconds_high,ratio,ratio_low,ratio_high,rmse,rmse_uncertainty,relative_mse,max,\
 visible,flip,model";
 
@@ -16,7 +16,7 @@ pub fn csv(study: &Study) -> String {
 
 fn line(row: &Row) -> String {
     let Row { setting, own, front, rays, seconds, ratio, errors, judged, model, tiles: _ } = row;
-    let knobs = Knob::ALL.map(|knob| setting.get(knob).to_string());
+    let knobs = Knob::ALL.map(|knob| knob.cell(setting.get(knob)));
     let flags = [own, front, judged].map(ToString::to_string);
     let rays = [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
     let times = [seconds, ratio].into_iter().flat_map(|estimate| [estimate.value, estimate.low, estimate.high]);

@@ -50,7 +50,7 @@ fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
     let own = if row.own { " own" } else { "" };
     let limit = if row.judged { "" } else { "≤ " };
-    let knobs = used.iter().map(|knob| row.setting.get(*knob).to_string());
+    let knobs = used.iter().map(|knob| knob.cell(row.setting.get(*knob)));
     let measured = [
         table::count(row.rays.all() as f64 / share),
         format!("{} ± {:.1} %", seconds(row.seconds.value), 100.0 * row.seconds.relative()),
@@ -69,7 +69,7 @@ fn knobs(study: &Study) -> String {
     let mut idle = String::new();
     for report in &study.knobs {
         let words = escaped(&table::knob_line(report, study.reference.depth));
-        if report.idle.is_some() {
+        if report.idle.is_some() || report.knob == Knob::Precision {
             let _ = writeln!(idle, "<li>{words}</li>");
         } else {
             let plot = chart::knob(report);
@@ -107,7 +107,7 @@ fn precision(study: &Study) -> String {
     for cost in &study.precision {
         let (time, off, difference) = (cost.ratio.value, 100.0 * cost.ratio.relative(), &cost.difference);
         let cells = [
-            escaped(&cost.arithmetic),
+            cost.words(),
             format!("{time:.2} ± {off:.1} %"),
             digits(difference.rmse),
             digits(difference.max),

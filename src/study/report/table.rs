@@ -14,7 +14,7 @@ pub fn table(study: &Study) -> String {
     let used = study.used();
     let mut text = format!("{}\n", head(study));
     let mut names = String::from(" ");
-    used.iter().for_each(|knob| write_cell(&mut names, knob.short(), 6));
+    used.iter().for_each(|knob| write_cell(&mut names, knob.short(), width(*knob)));
     for (name, width) in COLUMNS {
         write_cell(&mut names, name, width);
     }
@@ -45,7 +45,7 @@ fn effects(study: &Study) -> String {
     }
     text += "\narithmetic                time  picture differs by\n";
     for cost in &study.precision {
-        let (name, time, visible) = (&cost.arithmetic, cost.ratio.value, digits(100.0 * cost.difference.visible));
+        let (name, time, visible) = (cost.words(), cost.ratio.value, digits(100.0 * cost.difference.visible));
         let difference = digits(cost.difference.rmse);
         text += &format!("{name:24}{time:5.2}×  {difference} grey levels, {visible} % of pixels by over 1\n");
     }
@@ -54,11 +54,16 @@ fn effects(study: &Study) -> String {
 
 /// The columns after those of the knobs, with their widths.
 const COLUMNS: [(&str, usize); 8] =
-    [("rays", 8), ("time", 9), ("±%", 5), ("×own", 7), ("error", 8), ("model", 7), (">1lv%", 7), ("FLIP", 8)];
+    [("rays", 8), ("time", 8), ("±%", 5), ("×own", 6), ("error", 7), ("model", 6), (">1lv%", 6), ("FLIP", 6)];
+
+/// The width of the column of a knob.
+fn width(knob: Knob) -> usize {
+    if knob == Knob::Precision { 7 } else { 6 }
+}
 
 fn line(row: &Row, used: &[Knob], share: f64) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
-    used.iter().for_each(|knob| write_cell(&mut line, &row.setting.get(*knob).to_string(), 6));
+    used.iter().for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
     let limit = if row.judged { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / share),
@@ -129,6 +134,11 @@ pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
         (None, Knob::Depth, Some(DepthEnd::Exact)) => format!("{name}: no path goes deeper than {last}"),
         (None, Knob::Depth, Some(DepthEnd::Still)) => format!("{name}: nothing shows from {last} on"),
         (None, Knob::Depth, _) => format!("{name}: paths go deeper than {last}, which was as far as the study went"),
+        (None, Knob::Precision, _) => {
+            let robust = report.rungs.len().saturating_sub(1);
+            let words: Vec<_> = report.rungs[..robust].iter().map(|rung| report.knob.cell(rung.value)).collect();
+            format!("{name}: rows are by {} arithmetic too where that adds no error", words.join(" or "))
+        }
         (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
     }
 }
