@@ -184,6 +184,7 @@ pub(super) mod tests {
         let space = span([-1.0, 2.0, -4.0], [3.0, 2.5, 0.0]);
         assert_eq!(space.grown(0.5), span([-1.5, 1.5, -4.5], [3.5, 3.0, 0.5]));
         assert_eq!(space.size(), 4.0);
+        assert_eq!([space.corners()[0], space.corners()[7]], [space.min, space.max]);
         assert_eq!(space.distance(Vec3::new(6.0, 6.5, -1.0)), 5.0);
         assert_eq!(space.distance(Vec3::new(0.0, 2.0, -7.0)), 3.0);
         assert_eq!(space.distance(Vec3::new(0.0, 2.0, -2.0)), 0.0);
@@ -223,6 +224,8 @@ pub(super) mod tests {
         have_margin(20.0 * ROOM, boxes, |boxes| !hides(boxes));
         // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
         have_margin(30.0 * ROOM, boxes, |[start, end, other]| !hides([end, start, other]));
+        let [[start, end, _], [_, _, at_start], [_, _, at_end]] = [0.0, 20.0 * ROOM, 30.0 * ROOM].map(boxes);
+        assert!(hides([start, end, at_start]) && hides([end, start, at_end]), "in doubt it does");
     }
 
     #[test]

@@ -251,15 +251,17 @@ mod tests {
 
     #[test]
     fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_depth() {
-        let beside = |step: f64| pinhole([100.0, 0.0, 0.0], [100.0, 0.0, -100.0], [step; 2]);
+        let beside = |step: f64| pinhole([100.0, 0.0, 0.0], [100.0, 0.0, -128.0], [step; 2]);
         let point = |z: f64| beside(100.0).middle(Vec3::new(100.0, 0.0, -z));
         has_margin(16.0 * 64.0 * 200.0 * U, |z| point(z).is_some());
+        assert!(point(16.0 * 64.0 * 200.0 * U).is_none(), "in doubt");
         let shown = |low: f64, high: f64| {
             let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
             beside(1e6).shown(&Body { extent, form: Form::Other })
         };
         has_margin(200.0 * ROOM + 16.0 * 64.0 * 200.0 * U, |z| shown(-100.0, -z) != Shown::Anywhere);
         has_margin(200.0 * ROOM + 64.0 * 200.0 * U, |z| shown(z, 100.0) == Shown::Nowhere);
+        assert_eq!(shown(200.0 * ROOM + 64.0 * 200.0 * U, 100.0), Shown::Anywhere, "in doubt");
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the right reason.
 //!
 //! The strength of this suite and of the unit tests of the rules is measured by `benches/mutants.sh`: mutants that survive
-//! want a test. Scenes of the course and of the wild are read from `../shared`; where that is
-//! absent, the tests that need it say so and pass.
+//! want a test. Scenes of the course and of the wild are read from `../shared`; where that is absent, the tests that need it
+//! say so and pass.
 
 #![expect(
     clippy::unwrap_used,
