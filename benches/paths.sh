@@ -4,7 +4,7 @@
 # >benches/paths.md` makes the table that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-shared=../shared/gltf samples=${1:-64} seconds=5
+shared=../shared/gltf samples=${1:-64} seconds=2
 [ -d "$shared" ] || { echo "no $shared here" >&2; exit 0; }
 cargo build --release --quiet --example paths
 # Cycles: samples per CPU-second in millions, peak of memory in MB.
