@@ -52,9 +52,9 @@ impl Effort {
     /// Seconds.
     pub const QUICK: Self = Self(60_000_000);
     /// About a minute for a simple scene.
-    pub const DEFAULT: Self = Self(600_000_000);
+    pub const DEFAULT: Self = Self(400_000_000);
     /// Ten times that.
-    pub const THOROUGH: Self = Self(6_000_000_000);
+    pub const THOROUGH: Self = Self(4_000_000_000);
 }
 
 /// How much of the work goes where, in hundredths.
