@@ -82,10 +82,8 @@ impl Quad {
 
     /// A direction along the surface in which u grows, at this v.
     pub(super) fn tangent(&self, v: f64) -> Option<Vec3> {
-        let across = |[a, b, c, d]: [Vec3; 4]| (b - a).lerp(c - d, v).try_normalize();
         match self {
-            Self::Flat { vertices, .. } => across(*vertices),
-            Self::Patch(patch) => across(patch.vertices),
+            Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => across(*vertices, v).try_normalize(),
         }
     }
 
@@ -99,6 +97,11 @@ impl Quad {
             Self::Patch(patch) => Bounds::of(&patch.vertices),
         }
     }
+}
+
+/// The derivative along u of what lies between the corners, at this v.
+fn across([q00, q10, q11, q01]: [Vec3; 4], v: f64) -> Vec3 {
+    (q10 - q00).lerp(q11 - q01, v)
 }
 
 /// A bilinear patch: `Q(u, v)` with corners Q(0,0), Q(1,0), Q(1,1), Q(0,1).
@@ -133,7 +136,7 @@ impl Patch {
             let v = cross(normal, from).dot(d) / normal.dot(normal);
             // Meet it with the tangent plane there: t then errs by no more than rounding of a point, even where the ray
             // runs along the line.
-            let tangent_plane = cross(self.tangents([u, v])[0], line);
+            let tangent_plane = cross(across(self.vertices, v), line);
             let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
         };
@@ -148,7 +151,7 @@ impl Patch {
     /// The derivatives along u and v.
     fn tangents(&self, [u, v]: [f64; 2]) -> [Vec3; 2] {
         let [q00, q10, q11, q01] = self.vertices;
-        [(q10 - q00).lerp(q11 - q01, v), (q01 - q00).lerp(q11 - q10, u)]
+        [across(self.vertices, v), (q01 - q00).lerp(q11 - q10, u)]
     }
 
     /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`. Where a ray grazes, t is

@@ -21,12 +21,9 @@ pub enum Knob {
     Paths,
     /// Bounces after the first hit.
     Depth,
-    /// The arithmetic by which rays meet shapes: its values are places in [`PRECISIONS`].
+    /// The arithmetic by which rays meet shapes: its values number [`Arithmetic::ALL`] from the least work up.
     Precision,
 }
-
-/// The arithmetics, from the least work up.
-const PRECISIONS: [Arithmetic; 3] = [Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust];
 
 impl Knob {
     /// All of them.
@@ -230,12 +227,12 @@ impl Setting {
 
 /// The arithmetic of a value of the precision.
 fn arithmetic(value: u32) -> Arithmetic {
-    PRECISIONS.get(value as usize).copied().unwrap_or_default()
+    Arithmetic::ALL.into_iter().rev().nth(value as usize).unwrap_or_default()
 }
 
 /// The value of the precision that is an arithmetic.
 pub(super) fn place(arithmetic: Arithmetic) -> u32 {
-    (0..).zip(PRECISIONS).find(|(_, other)| *other == arithmetic).map_or(0, |(value, _)| value)
+    (0..).zip(Arithmetic::ALL.into_iter().rev()).find(|(_, other)| *other == arithmetic).map_or(0, |(value, _)| value)
 }
 
 /// Whether the plan expects nothing of a scene to show that an arithmetic loses.
@@ -304,7 +301,9 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
             (!phong && !paths, "the mode follows no mirror and no refraction"),
             (phong && weights().all(is_dull), "no material mirrors or lets light through"),
         ],
-        Knob::Precision => &[(PRECISIONS.iter().all(is_robust), "what any but the robust arithmetic loses would show")],
+        Knob::Precision => {
+            &[(Arithmetic::ALL.iter().all(is_robust), "what any but the robust arithmetic loses would show")]
+        }
     };
     cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
 }
@@ -339,6 +338,6 @@ mod tests {
             assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
             assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1);
         }
-        assert_eq!(PRECISIONS.map(place), [0, 1, 2]);
+        assert_eq!([Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust].map(place), [0, 1, 2]);
     }
 }
