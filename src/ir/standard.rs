@@ -140,6 +140,31 @@ impl Standard {
     }
 
     /// Every map it has.
+    pub fn maps(&self) -> impl Iterator<Item = &Map> {
+        [
+            &self.base_color_map,
+            &self.metallic_roughness_map,
+            &self.specular_glossiness_map,
+            &self.emissive_map,
+            &self.normal_map,
+            &self.specular_map,
+            &self.specular_color_map,
+            &self.transmission_map,
+            &self.thickness_map,
+            &self.clearcoat_map,
+            &self.clearcoat_roughness_map,
+            &self.clearcoat_normal_map,
+            &self.sheen_color_map,
+            &self.sheen_roughness_map,
+            &self.anisotropy_map,
+            &self.iridescence_map,
+            &self.iridescence_thickness_map,
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// The same, to be changed.
     pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut Map> {
         [
             &mut self.base_color_map,

@@ -4,6 +4,7 @@
 use super::film::Crop;
 use super::frame::camera_rays;
 use super::geometry::Geometry;
+use super::instance::Asked;
 use super::sampler::Key;
 use super::whitted::Tracer;
 use super::world::World;
@@ -124,7 +125,8 @@ impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
         for ray in camera_rays(self.scene(), pixel) {
             let first = self.world.nearest(&ray).map(|hit| {
                 let view = self.view_of(&ray, hit, Key::new(pixel, 0));
-                let details = self.world.surfaces[hit.surface].shape.details(&ray, &view.interaction, hit.part);
+                let shape = &self.world.surfaces[hit.surface].shape;
+                let details = shape.details(&ray, &view.interaction, hit.part, Asked::ALL);
                 let albedo = view.color * view.material.kd.get();
                 First {
                     albedo,

@@ -2,7 +2,7 @@
 
 use super::bounds::Bounds;
 use super::geometry::Geometry;
-use super::instance::{Details, PreparedMesh};
+use super::instance::{Asked, Details, PreparedMesh};
 use super::plane::Plane;
 use super::ray::{Interaction, Ray};
 use super::shape::{Shape, sphere_details, triangle_details};
@@ -74,7 +74,7 @@ impl Geometry for Basic {
         false
     }
 
-    fn details(&self, _ray: &Ray, at: &Interaction, _part: u32) -> Details {
+    fn details(&self, _ray: &Ray, at: &Interaction, _part: u32, _asked: Asked) -> Details {
         match self {
             Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),

@@ -1,7 +1,7 @@
 //! What a world asks of the shapes in it.
 
 use super::bounds::Bounds;
-use super::instance::Details;
+use super::instance::{Asked, Details};
 use super::ray::{Interaction, Ray};
 use super::triangle::Shear;
 use crate::math::Vec3;
@@ -38,9 +38,9 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn has_shading_normals(&self) -> bool;
 
-    /// What the shape knows of the point beyond its geometry.
+    /// What the shape knows of the point beyond its geometry, as far as that is asked.
     #[must_use]
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details;
+    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details;
 
     /// How many flat parts it has that can be lights; each is a `part` of [`Geometry::intersect`].
     #[must_use]

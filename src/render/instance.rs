@@ -5,7 +5,7 @@ use super::ray::{Interaction, Ray};
 use super::triangle::{Shear, Triangle};
 use super::wide::Wide;
 use crate::math::{Vec3, cross};
-use crate::valid::{Column, Mesh};
+use crate::valid::{Column, Mesh, Shared};
 use std::sync::{Arc, OnceLock};
 
 /// A mesh ready to be hit, in object coordinates.
@@ -14,8 +14,8 @@ pub struct PreparedMesh {
     /// The mesh as proven.
     pub mesh: Arc<Mesh>,
     triangles: Vec<Triangle>,
-    /// The index in the mesh of each triangle.
-    indices: Vec<u32>,
+    /// The corners of each triangle, by their numbers in the mesh.
+    corners: Shared<[u32; 3]>,
     /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their world.
     hierarchy: OnceLock<Option<Wide>>,
 }
@@ -24,10 +24,14 @@ impl PreparedMesh {
     /// Prepares a mesh.
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let corners = |t: &[u32; 3]| Triangle::new(mesh.corners(*t));
-        let prepared = (0_u32..).zip(mesh.triangles.iter()).filter_map(|(index, t)| Some((corners(t)?, index)));
-        let (triangles, indices): (Vec<_>, Vec<_>) = prepared.unzip();
-        Self { mesh: Arc::clone(mesh), triangles, indices, hierarchy: OnceLock::new() }
+        let prepared = |corners: &[u32; 3]| Triangle::new(mesh.corners(*corners));
+        let triangles = mesh.triangles.iter().filter_map(prepared).collect::<Vec<_>>();
+        let all = &mesh.triangles;
+        let corners = match triangles.len() == all.len() {
+            true => all.clone(),
+            false => all.iter().copied().filter(|corners| prepared(corners).is_some()).collect(),
+        };
+        Self { mesh: Arc::clone(mesh), triangles, corners, hierarchy: OnceLock::new() }
     }
 
     /// The triangles that have an area.
@@ -49,6 +53,8 @@ pub struct Instance {
     /// The images of the axes.
     axes: [Vec3; 3],
     origin: Vec3,
+    /// The sums of the coordinates of each, all counted positive.
+    sizes: Vec3,
     /// The rows of the inverse of the axes.
     inverse: [Vec3; 3],
     /// Whether the map turns left hands into right ones.
@@ -65,8 +71,9 @@ impl Instance {
         let volume = cross(x, y).dot(z);
         let inverse = [cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume];
         let (axes, mirrors) = ([x, y, z], volume < 0.0);
+        let sizes = axes.map(|axis| axis.abs().element_sum()).into();
         let (mesh, bounds) = (Arc::clone(mesh), Bounds::EMPTY);
-        let mut instance = Self { mesh, axes, origin, inverse, mirrors, bounds, blur: 0.0 };
+        let mut instance = Self { mesh, axes, origin, sizes, inverse, mirrors, bounds, blur: 0.0 };
         let mesh = Arc::clone(&instance.mesh);
         let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices());
         for corner in corners {
@@ -86,14 +93,7 @@ impl Instance {
 
     /// How far rounding may move a point between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
-        let [x, y, z] = self.sizes();
-        16.0 * crate::math::U * (Vec3::new(x, y, z).dot(local.abs()) + self.origin.abs().element_sum())
-    }
-
-    /// The sums of the coordinates of the axes, all counted positive.
-    fn sizes(&self) -> [f64; 3] {
-        let [x, y, z] = &self.axes;
-        [x.abs().element_sum(), y.abs().element_sum(), z.abs().element_sum()]
+        16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
     }
 
     #[inline]
@@ -148,9 +148,8 @@ impl Instance {
         let local_ray = self.to_object(ray);
         let local = self.mesh.triangles[part as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
-        let [x, y, z] = self.sizes();
         let reach = local_ray.origin.abs() + local.point.abs();
-        let extent = 2.0 * Vec3::new(x, y, z).dot(reach);
+        let extent = 2.0 * self.sizes.dot(reach);
         Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
     }
 
@@ -174,38 +173,55 @@ impl Instance {
         !self.mesh.mesh.normals.is_empty()
     }
 
-    /// What the mesh says about a point of triangle `part`: shading normal, uv and the direction of growing u.
-    pub(super) fn details(&self, point: Vec3, part: u32) -> Details {
+    /// What the mesh says about a point of triangle `part`, as far as that is asked.
+    pub(super) fn details(&self, point: Vec3, part: u32, asked: Asked) -> Details {
         let triangle = &self.mesh.triangles[part as usize];
-        let local = self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin;
         let mesh = &self.mesh.mesh;
-        let corners = mesh.triangles[self.mesh.indices[part as usize] as usize];
-        let normals = (!mesh.normals.is_empty()).then(|| {
-            let [a, b, c] = corners;
-            [mesh.normal(a), mesh.normal(b), mesh.normal(c)]
-        });
+        let corners = self.mesh.corners[part as usize];
+        let normals = at(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
-        let weights = if is_even && is_plain(mesh) { [1.0, 0.0, 0.0] } else { triangle.weights(local) };
+        let has_no_coordinates = mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
+        let is_plain = mesh.colors.is_empty() && (asked == Asked::NONE || has_no_coordinates);
+        let weights = match is_even && is_plain {
+            true => [1.0, 0.0, 0.0],
+            false => triangle.weights(self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin),
+        };
+        let unit = |normal| Vec3::from_array(normal).normalize_or_zero();
         let normal = normals.map(|[a, b, c]| {
-            self.normal_to_world(if is_even { a } else { a * weights[0] + b * weights[1] + c * weights[2] })
+            let even = unit(a);
+            let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
+            self.normal_to_world(if is_even { even } else { mean() })
         });
-        let uvs = at(&mesh.uvs, corners);
-        let uv = uvs.map(|uvs| interpolate(uvs, weights));
-        let (tangent, side) = match at(&mesh.tangents, corners) {
+        let uvs = if asked == Asked::NONE { None } else { at(&mesh.uvs, corners) };
+        let (tangent, side) = if asked.tangent { self.tangent(triangle, corners, uvs, weights) } else { (None, 1.0) };
+        let second_uvs = if asked.uv { at(&mesh.second_uvs, corners) } else { None };
+        Details {
+            normal: normal.filter(|normal| *normal != Vec3::ZERO),
+            uv: uvs.map(|uvs| interpolate(uvs, weights)),
+            tangent,
+            side,
+            second_uv: second_uvs.map(|uvs| interpolate(uvs, weights)),
+            color: at(&mesh.colors, corners).map(|colors| blend(colors, weights)),
+        }
+    }
+
+    /// The direction in which u grows, and the side on which v does.
+    fn tangent(
+        &self,
+        triangle: &Triangle,
+        corners: [u32; 3],
+        uvs: Option<[[f64; 2]; 3]>,
+        weights: [f64; 3],
+    ) -> (Option<Vec3>, f64) {
+        let (tangent, side) = match at(&self.mesh.mesh.tangents, corners) {
             None => (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness)),
             Some(tangents) => {
                 let [x, y, z, w] = blend(tangents, weights);
                 (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
             }
         };
-        Details {
-            normal: normal.filter(|normal| *normal != Vec3::ZERO),
-            uv,
-            tangent: tangent.map(|tangent| self.vector_to_world(tangent)),
-            side: if self.mirrors { -side } else { side },
-            second_uv: at(&mesh.second_uvs, corners).map(|uvs| interpolate(uvs, weights)),
-            color: at(&mesh.colors, corners).map(|colors| blend(colors, weights)),
-        }
+        let side = if self.mirrors { -side } else { side };
+        (tangent.map(|tangent| self.vector_to_world(tangent)), side)
     }
 
     /// A box around it.
@@ -217,6 +233,23 @@ impl Instance {
     pub(super) fn blur(&self) -> f64 {
         self.blur
     }
+}
+
+/// What of the [`Details`] someone asks for beyond normal and colour; what is not may be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The texture coordinates.
+    pub uv: bool,
+    /// The tangent and its side.
+    pub tangent: bool,
+}
+
+impl Asked {
+    /// Nothing more.
+    pub const NONE: Self = Self { uv: false, tangent: false };
+
+    /// All there is.
+    pub const ALL: Self = Self { uv: true, tangent: true };
 }
 
 /// What a surface knows of a point beyond its geometry.
@@ -246,11 +279,6 @@ impl Default for Details {
 fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     -1.0_f64.copysign(area)
-}
-
-/// Whether nothing differs from corner to corner, but perhaps the normals.
-fn is_plain(mesh: &Mesh) -> bool {
-    mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty() && mesh.colors.is_empty()
 }
 
 /// What a column, which may be empty, says of three corners.

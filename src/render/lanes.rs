@@ -94,6 +94,8 @@ pub(super) enum NoBeam {
 /// as fast as t.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
+    /// The axes with the main one last, and where it starts along them.
+    axes: [usize; 3],
     origin: [Lanes; 3],
     /// Shifted for the nearer and the farther ends of boxes.
     near_origin: [Lanes; 3],
@@ -101,8 +103,7 @@ pub(super) struct Beam {
     inverse: [Lanes; 3],
     /// 1 where the upper end of a box is the nearer one.
     down: [usize; 3],
-    /// The axes with the main one last, its direction ±1, and the slopes of the others along it.
-    axes: [usize; 3],
+    /// Its direction along the main axis, ±1, and the slopes of the others along it.
     main: Lanes,
     slopes: [Lanes; 2],
     /// The error of a coordinate relative to the ray.
@@ -145,7 +146,7 @@ impl Beam {
         let axes = [(main + 1) % 3, (main + 2) % 3, main];
         let down = direction.is_negative_bitmask() as usize;
         Ok(Self {
-            origin: splats(origin),
+            origin: axes.map(|axis| splat(origin[axis])),
             near_origin: splats(origin + shift),
             far_origin: splats(origin - shift),
             inverse: [x.recip(), y.recip(), z.recip()],
@@ -189,9 +190,9 @@ impl Beam {
         let error = Lanes::splat(self.error);
         let [x, y, z] = self.axes;
         let sheared = |corner: &[Lanes; 3]| {
-            let along = (corner[z] - self.origin[z]) * self.main;
-            let across = |axis: usize, slope: Lanes| (corner[axis] - self.origin[axis]) - along * slope;
-            [across(x, self.slopes[0]), across(y, self.slopes[1]), along]
+            let along = (corner[z] - self.origin[2]) * self.main;
+            let across = |axis: usize, k: usize| (corner[axis] - self.origin[k]) - along * self.slopes[k];
+            [across(x, 0), across(y, 1), along]
         };
         let [a, b, c] = [sheared(&corners[0]), sheared(&corners[1]), sheared(&corners[2])];
         // The edge functions.

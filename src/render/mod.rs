@@ -50,7 +50,7 @@ pub use cylinder::Cylinder;
 pub use disc::Disc;
 pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use geometry::Geometry;
-pub use instance::{Details, Instance, PreparedMesh};
+pub use instance::{Asked, Details, Instance, PreparedMesh};
 pub use kernel::{KERNELS, Kernel, choose};
 pub use optics::{highlight, reflect, refract};
 pub use path::Strategy;

@@ -5,7 +5,7 @@ use super::cone::Cone;
 use super::cylinder::Cylinder;
 use super::disc::Disc;
 use super::geometry::Geometry;
-use super::instance::{Details, Instance, PreparedMesh, interpolate};
+use super::instance::{Asked, Details, Instance, PreparedMesh, interpolate};
 use super::plane::Plane;
 use super::quad::Quad;
 use super::ray::{Interaction, Ray};
@@ -128,7 +128,7 @@ impl Geometry for Shape {
         }
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
+    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details {
         match self {
             Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
@@ -136,7 +136,7 @@ impl Geometry for Shape {
                 let [u, v] = quad.uv(ray, at.point, part);
                 Details { uv: Some([u, v]), tangent: quad.tangent(v), ..Details::default() }
             }
-            Self::Instance(instance) => instance.details(at.point, part),
+            Self::Instance(instance) => instance.details(at.point, part, asked),
             Self::Triangle(_, None)
             | Self::Plane(_)
             | Self::Disc(_)

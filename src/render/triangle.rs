@@ -4,9 +4,9 @@
 //! Kahan's products for the edge functions: two triangles compute the same value with opposite sign for a shared edge,
 //! and zero counts as inside, so no ray slips between. Where it hits is the plane's question.
 
-use super::plane::Plane;
+use super::plane::Normal;
 use super::ray::{Interaction, Ray};
-use crate::math::{U, Vec3, cross, difference_of_products};
+use crate::math::{U, Vec3, difference_of_products};
 
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a shear.
 #[derive(Clone, Copy, Debug)]
@@ -22,15 +22,8 @@ impl Shear {
     #[inline]
     pub fn new(ray: &Ray) -> Self {
         let d = ray.direction;
-        let size = d.abs();
-        let z = if size.x > size.y && size.x > size.z {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
+        let axes = axes_before(d);
+        let z = axes[2];
         Self { axes, x: d[axes[0]] / d[z], y: d[axes[1]] / d[z] }
     }
 
@@ -38,6 +31,19 @@ impl Shear {
     fn apply(&self, v: Vec3) -> (f64, f64) {
         let [x, y, z] = self.axes;
         (v[x] - self.x * v[z], v[y] - self.y * v[z])
+    }
+}
+
+/// The axes in cyclic order, the one nearest to a vector last.
+#[inline]
+fn axes_before(v: Vec3) -> [usize; 3] {
+    let size = v.abs();
+    if size.x > size.y && size.x > size.z {
+        [1, 2, 0]
+    } else if size.y > size.z {
+        [2, 0, 1]
+    } else {
+        [0, 1, 2]
     }
 }
 
@@ -51,18 +57,31 @@ fn sure_sign(p: (f64, f64), q: (f64, f64)) -> Option<bool> {
     (difference.abs() > error).then_some(difference > 0.0)
 }
 
-/// A triangle ready to be hit.
+/// Whether a ray along the z axis meets a triangle; edges and corners belong to it.
+#[cold]
+fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
+    let u = difference_of_products(c.0, b.1, c.1, b.0);
+    let v = difference_of_products(a.0, c.1, a.1, c.0);
+    let w = difference_of_products(b.0, a.1, b.1, a.0);
+    let outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
+    !outside && u + v + w != 0.0
+}
+
+/// A triangle ready to be hit: two lines of the cache.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Triangle {
     vertices: [Vec3; 3],
-    plane: Plane,
+    normal: Normal,
 }
+
+const _: () = assert!(size_of::<Triangle>() == 128, "memory is what rays wait for");
 
 impl Triangle {
     /// The triangle, or `None` if its corners are in line.
     #[must_use]
     pub fn new(vertices: [Vec3; 3]) -> Option<Self> {
-        Some(Self { vertices, plane: Plane::of(vertices)? })
+        Some(Self { vertices, normal: Normal::of(vertices)? })
     }
 
     /// The corners.
@@ -77,33 +96,26 @@ impl Triangle {
     pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
         let [a, b, c] = &self.vertices;
         let (a, b, c) = (shear.apply(*a - ray.origin), shear.apply(*b - ray.origin), shear.apply(*c - ray.origin));
-        match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
-            (Some(u), Some(v), Some(w)) if u == v && v == w => return self.plane.intersect(ray),
-            (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => return None,
-            _ => {}
-        }
-        let u = difference_of_products(c.0, b.1, c.1, b.0);
-        let v = difference_of_products(a.0, c.1, a.1, c.0);
-        if (u < 0.0 && v > 0.0) || (u > 0.0 && v < 0.0) {
-            return None;
-        }
-        let w = difference_of_products(b.0, a.1, b.1, a.0);
-        let outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
-        if outside || u + v + w == 0.0 {
-            return None;
-        }
-        self.plane.intersect(ray)
+        let met = match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
+            (Some(u), Some(v), Some(w)) if u == v && v == w => true,
+            (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => false,
+            _ => meets(a, b, c),
+        };
+        if met { self.normal.through(self.vertices[0]).intersect(ray) } else { None }
     }
 
     /// The weights of the corners at a point of the triangle; they sum to 1.
+    ///
+    /// Areas keep their ratios as seen along an axis: that nearest to the normal shows most of them.
     #[must_use]
     pub fn weights(&self, point: Vec3) -> [f64; 3] {
         let [a, b, c] = self.vertices;
-        let normal = self.plane.normal();
-        let area = |p: Vec3, q: Vec3, r: Vec3| normal.dot(cross(q - p, r - p));
-        let whole = area(a, b, c);
-        let (first, second) = (area(point, b, c) / whole, area(a, point, c) / whole);
-        [first, second, 1.0 - first - second]
+        let [x, y, _] = axes_before(self.normal.unit());
+        let area = |p: Vec3, q: Vec3| difference_of_products(p[x], q[y], p[y], q[x]);
+        let (to_b, to_c, to_point) = (b - a, c - a, point - a);
+        let whole = area(to_b, to_c);
+        let (second, third) = (area(to_point, to_c) / whole, area(to_b, to_point) / whole);
+        [1.0 - second - third, second, third]
     }
 
     /// The direction in which u grows and v stays, if the texture coordinates of the corners have one.
@@ -120,6 +132,6 @@ impl Triangle {
     /// The point at `t`, moved onto the plane of the triangle.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        self.plane.interaction(ray, t)
+        self.normal.through(self.vertices[0]).interaction(ray, t)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::film::Counts;
 use super::geometry::Geometry;
-use super::instance::Details;
+use super::instance::{Asked, Details};
 use super::optics::{reflect, refract};
 use super::ray::{Interaction, Ray};
 use super::sampler::{Key, Lobe};
@@ -170,7 +170,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             key,
         };
         if Self::can(Features::MAPS) && (material.maps.is_some() || surface.shape.has_shading_normals()) {
-            let details = surface.shape.details(ray, &interaction, hit.part);
+            let details = surface.shape.details(ray, &interaction, hit.part, Asked::ALL);
             self.apply_maps(&mut view, &details);
         }
         if ray.direction.dot(interaction.normal) > 0.0 {

@@ -8,6 +8,7 @@ use super::bvh::{Item, split, to_u32};
 use super::lanes::{Beam, Boxes, Corners, Cube, NoBeam};
 use super::ray::Ray;
 use crate::math::Vec3;
+use arrayvec::ArrayVec;
 
 /// Children of a node, and triangles of a leaf.
 const WIDTH: usize = 4;
@@ -15,8 +16,8 @@ const WIDTH: usize = 4;
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 16 more.
 const HEURISTIC_DEPTH: usize = 16;
 
-/// Each level leaves at most three children for later.
-const OPEN: usize = (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1;
+/// What a walk has left for later, with where the ray enters it: each level leaves at most three children.
+type Open = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in it.
 const LEAF: u32 = 1 << 31;
@@ -112,14 +113,14 @@ impl Wide {
             }
         };
         let mut limit = beam.limit(t_max);
-        let mut open = [(0.0_f32, 0_u32); OPEN];
-        let (mut depth, mut link) = (0, self.root);
+        let mut open = Open::new();
+        let mut link = self.root;
         loop {
             if link & LEAF == 0 {
                 let node = &self.nodes[link as usize];
                 let (met, enter) = beam.meet(&node.boxes, limit);
                 if met != 0 {
-                    link = nearest(&mut open, &mut depth, met, &enter.to_array(), &node.links);
+                    link = nearest(&mut open, met, &enter.to_array(), &node.links);
                     continue;
                 }
             } else {
@@ -139,11 +140,7 @@ impl Wide {
             }
             // The last one left for later that may still count.
             loop {
-                if depth == 0 {
-                    return;
-                }
-                depth -= 1;
-                let (near, next) = open[depth];
+                let Some((near, next)) = open.pop() else { return };
                 if near <= limit {
                     link = next;
                     break;
@@ -155,13 +152,7 @@ impl Wide {
 
 /// The nearest of the children met; the others are left for later.
 #[inline(always)]
-fn nearest(
-    open: &mut [(f32, u32); OPEN],
-    depth: &mut usize,
-    mut met: u32,
-    enter: &[f32; WIDTH],
-    links: &[u32; WIDTH],
-) -> u32 {
+fn nearest(open: &mut Open, mut met: u32, enter: &[f32; WIDTH], links: &[u32; WIDTH]) -> u32 {
     let lane = met.trailing_zeros() as usize & (WIDTH - 1);
     let mut first = (enter[lane], links[lane]);
     met &= met - 1;
@@ -171,8 +162,7 @@ fn nearest(
         if other.0 < first.0 {
             (first, other) = (other, first);
         }
-        open[*depth] = other;
-        *depth += 1;
+        open.push(other);
         met &= met - 1;
     }
     first.1

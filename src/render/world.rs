@@ -60,6 +60,9 @@ struct Merged {
     hierarchy: Wide,
 }
 
+/// The `t_max` that ends a walk.
+const OVER: f64 = -1.0;
+
 /// The part of no surface.
 pub(super) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
@@ -109,21 +112,7 @@ impl<S: Geometry> World<S> {
             return None;
         }
         let (ray, unit) = ray.tamed();
-        let shear = Shear::new(&ray);
-        let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };
-        let mut visit = |surface: u32| {
-            let surface = surface as usize;
-            if let Some((t, part)) = self.surfaces[surface].shape.intersect(&ray, &shear, best.t)
-                && (t < best.t || (t == best.t && surface < best.surface))
-            {
-                best = Hit { t, surface, part };
-            }
-            best.t
-        };
-        for surface in &self.unbounded {
-            visit(*surface);
-        }
-        self.bvh.walk(&ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
+        let mut best = self.nearest_apart(&ray);
         if let Some(Merged { parts, hierarchy }) = &self.merged {
             hierarchy.walk::<true>(&ray, best.t, |item| {
                 let [surface, part] = parts[item as usize];
@@ -138,6 +127,35 @@ impl<S: Geometry> World<S> {
             });
         }
         (best.surface != usize::MAX).then_some(Hit { t: best.t * unit, ..best })
+    }
+
+    /// The nearest hit on what is not merged; beyond all if there is none.
+    fn nearest_apart(&self, ray: &Ray) -> Hit {
+        let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };
+        if self.is_all_merged() {
+            return best;
+        }
+        let shear = Shear::new(ray);
+        let mut visit = |surface: u32| {
+            let surface = surface as usize;
+            if let Some((t, part)) = self.surfaces[surface].shape.intersect(ray, &shear, best.t)
+                && (t < best.t || (t == best.t && surface < best.surface))
+            {
+                best = Hit { t, surface, part };
+            }
+            best.t
+        };
+        for surface in &self.unbounded {
+            visit(*surface);
+        }
+        self.bvh.walk(ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
+        best
+    }
+
+    /// Whether no surface stands apart from the triangles of meshes.
+    #[inline]
+    fn is_all_merged(&self) -> bool {
+        self.unbounded.is_empty() && self.bounded.is_empty()
     }
 
     /// Whether anything lies strictly between `from` and `to`; both ends may lie on surfaces.
@@ -158,24 +176,11 @@ impl<S: Geometry> World<S> {
     /// is 0. Only triangles of meshes that are [`World::is_merged`] are asked about: all else lets nothing pass. The ray
     /// starts at the part of a surface given.
     pub(super) fn passing(&self, ray: &Ray, t_max: f64, from: (usize, u32), mut pass: impl FnMut(Hit) -> f64) -> f64 {
-        const OVER: f64 = -1.0;
-        let shear = Shear::new(ray);
-        let hits = |surface: u32| {
-            let hit = self.surfaces[surface as usize].shape.intersect(ray, &shear, t_max);
-            hit.is_some_and(|(t, _)| t < t_max)
-        };
-        if self.unbounded.iter().any(|surface| hits(*surface)) {
+        if self.is_blocked_apart(ray, t_max) {
             return 0.0;
         }
         let mut share = 1.0;
-        self.bvh.walk(ray, t_max, |item, t_max| {
-            if share == 0.0 || hits(self.bounded[item as usize]) {
-                share = 0.0;
-                return OVER;
-            }
-            t_max
-        });
-        if let Some(Merged { parts, hierarchy }) = self.merged.as_ref().filter(|_| share > 0.0) {
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
             hierarchy.walk::<true>(ray, t_max, |item| {
                 let [surface, part] = parts[item as usize];
                 let surface = surface as usize;
@@ -189,6 +194,27 @@ impl<S: Geometry> World<S> {
             });
         }
         share
+    }
+
+    /// Whether anything that is not merged is hit with 0 < t < `t_max`.
+    fn is_blocked_apart(&self, ray: &Ray, t_max: f64) -> bool {
+        if self.is_all_merged() {
+            return false;
+        }
+        let shear = Shear::new(ray);
+        let hits = |surface: u32| {
+            let hit = self.surfaces[surface as usize].shape.intersect(ray, &shear, t_max);
+            hit.is_some_and(|(t, _)| t < t_max)
+        };
+        if self.unbounded.iter().any(|surface| hits(*surface)) {
+            return true;
+        }
+        let mut blocked = false;
+        self.bvh.walk(ray, t_max, |item, t_max| {
+            blocked = blocked || hits(self.bounded[item as usize]);
+            if blocked { OVER } else { t_max }
+        });
+        blocked
     }
 
     /// Whether the triangles of a surface stand in the world one by one.

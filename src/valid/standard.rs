@@ -9,7 +9,7 @@ pub(super) fn standard(material: &Standard, index: usize, counts: &Counts, check
     let at = place(Noun::Material, index, Field::Whole);
     let factors = factors(material).into_iter().map(|(name, value, range)| in_range(value, name, range, at, check));
     let sound = factors.fold(true, |sound, factor| sound & factor);
-    let maps = maps(material).into_iter().flatten().map(|map| known(map, counts, at, check));
+    let maps = material.maps().map(|map| known(map, counts, at, check));
     maps.fold(sound, |sound, map| sound & map).then(|| material.clone())
 }
 
@@ -63,31 +63,6 @@ fn in_range(value: f64, name: &str, [low, high]: Range, at: Place, check: &mut C
         check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
     }
     sound
-}
-
-/// Every map there may be.
-fn maps(material: &Standard) -> [Option<&Map>; 17] {
-    let m = material;
-    [
-        &m.base_color_map,
-        &m.metallic_roughness_map,
-        &m.specular_glossiness_map,
-        &m.emissive_map,
-        &m.normal_map,
-        &m.specular_map,
-        &m.specular_color_map,
-        &m.transmission_map,
-        &m.thickness_map,
-        &m.clearcoat_map,
-        &m.clearcoat_roughness_map,
-        &m.clearcoat_normal_map,
-        &m.sheen_color_map,
-        &m.sheen_roughness_map,
-        &m.anisotropy_map,
-        &m.iridescence_map,
-        &m.iridescence_thickness_map,
-    ]
-    .map(Option::as_ref)
 }
 
 fn known(map: &Map, counts: &Counts, at: Place, check: &mut Check<'_>) -> bool {

@@ -13,9 +13,15 @@ use crate::math::Vec3;
 pub(super) struct Microfacet {
     ggx: Ggx,
     smooth: bool,
-    dielectric: Fresnel,
-    metal: Fresnel,
+    dark: bool,
+    /// The reflectance of the dielectric part at normal and at grazing incidence.
+    f0: Vec3,
+    f90: f64,
+    /// The same of the metallic part at normal incidence; at grazing it is 1.
+    metal: Vec3,
     metallic: f64,
+    /// What lies on both, and the share of the surface it covers.
+    film: Option<(ThinFilm, f64)>,
     /// What of the light that the dielectric lets in goes through, by channel.
     tint: Vec3,
     crossing: Crossing,
@@ -63,6 +69,7 @@ pub(super) enum Way {
 
 impl Microfacet {
     /// The boundary of a material, seen from within the body if `inside`.
+    #[inline]
     pub(super) fn new(standard: &Standard, inside: bool) -> Self {
         let ggx = match standard.anisotropy {
             None => Ggx::isotropic(standard.roughness),
@@ -70,8 +77,8 @@ impl Microfacet {
         };
         let film = standard.iridescence.filter(|film| film.thickness > 0.0);
         let film = film.map(|film| (ThinFilm { ior: film.ior, thickness: film.thickness }, film.factor));
-        let dielectric = Fresnel { f0: standard.dielectric_f0(), f90: Vec3::splat(standard.specular), film };
         let ior = if standard.ior > 0.0 { standard.ior } else { 1.0 };
+        let dark = standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
         let crossing = match standard.thin_walled {
             true => Crossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
@@ -80,18 +87,31 @@ impl Microfacet {
         Self {
             ggx,
             smooth: ggx.is_smooth(),
-            dielectric,
-            metal: Fresnel { f0: standard.base_color, f90: Vec3::ONE, film },
+            dark,
+            f0: standard.dielectric_f0(),
+            f90: standard.specular,
+            metal: standard.base_color,
             metallic: standard.metallic,
+            film,
             tint: standard.base_color * ((1.0 - standard.metallic) * standard.transmission),
             crossing,
             eta: if inside { 1.0 / ior } else { ior },
         }
     }
 
+    #[inline]
+    fn dielectric(&self) -> Fresnel {
+        Fresnel { f0: self.f0, f90: Vec3::splat(self.f90), film: self.film }
+    }
+
+    #[inline]
+    fn metal(&self) -> Fresnel {
+        Fresnel { f0: self.metal, f90: Vec3::ONE, film: self.film }
+    }
+
     /// What bounces on between its microfacets.
     pub(super) fn compensation(&self, cosine: f64) -> Compensation {
-        Compensation::new(self.ggx.mean_roughness(), cosine, &self.dielectric, &self.metal, self.metallic)
+        Compensation::new(self.ggx.mean_roughness(), cosine, &self.dielectric(), &self.metal(), self.metallic)
     }
 
     /// Whether it scatters into single directions only.
@@ -99,13 +119,21 @@ impl Microfacet {
         self.smooth
     }
 
+    /// Whether it reflects nothing.
+    pub(super) fn is_dark(&self) -> bool {
+        self.dark
+    }
+
     /// What a microfacet that meets light at the cosine given does with it.
     pub(super) fn shares(&self, cosine: f64) -> Shares {
+        if self.dark {
+            return Shares { reflected: Vec3::ZERO, entering: 1.0, through: self.tint };
+        }
         let dielectric = self.dielectric_at(cosine);
         let entering = 1.0 - dielectric.max_element();
         let reflected = match self.metallic {
             0.0 => dielectric,
-            metallic => dielectric.lerp(self.metal.at(cosine), metallic),
+            metallic => dielectric.lerp(self.metal().at(cosine), metallic),
         };
         Shares { reflected, entering, through: self.tint * entering }
     }
@@ -113,9 +141,9 @@ impl Microfacet {
     /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is reflected.
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
         if self.eta >= 1.0 {
-            return self.dielectric.at(cosine);
+            return self.dielectric().at(cosine);
         }
-        refracted_cosine(cosine, self.eta).map_or(Vec3::ONE, |cosine| self.dielectric.at(cosine))
+        refracted_cosine(cosine, self.eta).map_or(Vec3::ONE, |cosine| self.dielectric().at(cosine))
     }
 
     /// Both directions above.

@@ -20,7 +20,7 @@ pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
 use crate::math::Vec3;
 use coat::Coat;
 use compensation::Compensation;
-use microfacet::{Microfacet, Way};
+use microfacet::{Microfacet, Shares, Way};
 use sheen::Fibres;
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
@@ -74,9 +74,27 @@ struct Chances {
     coat: f64,
 }
 
+impl Chances {
+    /// Chances proportional to estimates of what each way brings, of a base and microfacets below the layers given.
+    #[inline]
+    fn new(base: Vec3, shares: &Shares, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
+        let mut cosine = base.max_element().max(0.0);
+        let mut microfacet = shares.reflected.max_element() + shares.through.max_element();
+        if let Some(sheen) = sheen {
+            (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
+        }
+        let coat = coat.map_or(0.0, |coat| coat.share);
+        let whole = (cosine + microfacet) * (1.0 - coat) + coat;
+        let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
+        let below = scale * (1.0 - coat);
+        Self { cosine: cosine * below, microfacet: microfacet * below, coat: coat * scale }
+    }
+}
+
 impl Bsdf {
     /// The material seen from `wo`.
     #[must_use]
+    #[inline]
     pub fn new(standard: &Standard, wo: Vec3) -> Self {
         let along = standard.anisotropy.map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
         let side = Side { below: wo.z < 0.0, along };
@@ -89,38 +107,17 @@ impl Bsdf {
             let normal = if side.below { -coat.normal } else { coat.normal };
             Coat::new(&coat, side.enter(normal), wo)
         });
-        let mut bsdf = Self {
-            side,
-            wo,
-            microfacet,
-            diffuse: standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission)),
-            compensation: (standard.multiple_scattering && !inside).then(|| microfacet.compensation(wo.z)),
-            sheen: sheen.and_then(|sheen| Fibres::new(&sheen, wo)),
-            coat,
-            chances: Chances { cosine: 0.0, microfacet: 0.0, coat: 0.0 },
-        };
-        bsdf.chances = bsdf.chances();
-        bsdf
-    }
-
-    /// Chances proportional to estimates of what each way brings.
-    fn chances(&self) -> Chances {
-        let shares = self.microfacet.shares(self.wo.z);
-        let base = match &self.compensation {
+        let diffuse = standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission));
+        let compensates = standard.multiple_scattering && !inside && !microfacet.is_dark();
+        let compensation = compensates.then(|| microfacet.compensation(wo.z));
+        let base = match &compensation {
             // The half-way vector is seldom as grazing as the view.
-            None => self.diffuse * self.microfacet.shares(1.0).entering,
-            Some(compensation) => self.diffuse * compensation.base_albedo() + compensation.albedo(),
+            None => diffuse * microfacet.shares(1.0).entering,
+            Some(compensation) => diffuse * compensation.base_albedo() + compensation.albedo(),
         };
-        let mut cosine = base.max_element().max(0.0);
-        let mut microfacet = shares.reflected.max_element() + shares.through.max_element();
-        if let Some(sheen) = &self.sheen {
-            (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
-        }
-        let coat = self.coat.as_ref().map_or(0.0, |coat| coat.share);
-        let whole = (cosine + microfacet) * (1.0 - coat) + coat;
-        let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
-        let below = scale * (1.0 - coat);
-        Chances { cosine: cosine * below, microfacet: microfacet * below, coat: coat * scale }
+        let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
+        let chances = Chances::new(base, &microfacet.shares(wo.z), sheen.as_ref(), coat.as_ref());
+        Self { side, wo, microfacet, diffuse, compensation, sheen, coat, chances }
     }
 
     /// Whether all light is scattered into single directions, so that a light can't be aimed at.
@@ -159,6 +156,10 @@ impl Bsdf {
 
     /// What the boundary and the diffuse base reflect, with the density of the boundary's samples.
     fn reflected(&self, wi: Vec3) -> Evaluation {
+        if self.microfacet.is_dark() {
+            // All light reaches the base.
+            return Evaluation { f: self.diffuse * FRAC_1_PI, pdf: 0.0 };
+        }
         let h = (self.wo + wi).normalize();
         let shares = self.microfacet.shares(self.wo.dot(h));
         let mut sum = self.microfacet.reflected(self.wo, wi, h, &shares);

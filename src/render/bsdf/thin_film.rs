@@ -19,6 +19,7 @@ pub(super) struct ThinFilm {
 impl ThinFilm {
     /// The reflectance of the film on a surface that bare would reflect `f0` at normal incidence, each channel in [0, 1].
     #[must_use]
+    #[inline(never)]
     pub(super) fn reflectance(&self, f0: Vec3, cosine: f64) -> Vec3 {
         let film = self.effective_ior();
         // Refract into the film.

@@ -22,7 +22,7 @@ impl<S: Geometry> World<S> {
         proceed: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         let lights = Lights::new(self, Strategy::Both);
-        let tracer = || Tracer::new(self, &lights, path, Strategy::Both);
+        let tracer = || Tracer::new(self, &lights, path, Strategy::Both).knowing_all();
         self.layers_by(tracer, wanted, crop, proceed)
     }
 }

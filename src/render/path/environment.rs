@@ -10,10 +10,16 @@ use std::f64::consts::{PI, TAU};
 /// The surroundings.
 pub(super) struct Environment<'world> {
     radiance: Vec3,
-    image: Option<&'world Image>,
+    /// The image, and its pixels by what they send to the scene.
+    image: Option<(&'world Image, Table)>,
     image_from_world: [Vec3; 3],
-    /// Pixels of the image by what they send to the scene.
-    table: Option<Table>,
+}
+
+/// What there is in a direction.
+pub(super) struct Seen {
+    pub(super) radiance: Vec3,
+    /// The density of [`Environment::sample`] per solid angle.
+    pub(super) pdf: f64,
 }
 
 impl<'world> Environment<'world> {
@@ -21,15 +27,11 @@ impl<'world> Environment<'world> {
     pub(super) fn new(scene: &'world ValidScene) -> Self {
         let Some(environment) = scene.environment() else {
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            return Self { radiance: Vec3::ZERO, image: None, image_from_world: axes, table: None };
+            return Self { radiance: Vec3::ZERO, image: None, image_from_world: axes };
         };
         let image = environment.image.map(|image| &scene.images()[image]);
-        Self {
-            radiance: environment.radiance,
-            image,
-            image_from_world: environment.image_from_world,
-            table: image.map(table),
-        }
+        let image = image.map(|image| (image, table(image)));
+        Self { radiance: environment.radiance, image, image_from_world: environment.image_from_world }
     }
 
     /// Whether all directions are the same.
@@ -39,36 +41,41 @@ impl<'world> Environment<'world> {
 
     /// The mean of the radiance over all directions, by the strongest channel.
     pub(super) fn mean(&self) -> f64 {
-        let mean = self.table.as_ref().map_or(1.0, Table::mean);
         // The table weighs rows by the sine of the colatitude, whose mean is 2/π.
-        self.radiance.max_element() * mean * if self.table.is_some() { PI / 2.0 } else { 1.0 }
+        let mean = self.image.as_ref().map_or(1.0, |(_, table)| table.mean() * PI / 2.0);
+        self.radiance.max_element() * mean
     }
 
-    /// The radiance from a direction, a unit vector.
-    pub(super) fn radiance(&self, direction: Vec3) -> Vec3 {
-        let Some(image) = self.image else { return self.radiance };
-        let uv = self.place(direction);
-        let [r, g, b, _] = sample(image, uv, [Wrap::Repeat, Wrap::Clamp], Filter::Linear, Content::Color);
-        self.radiance * Vec3::new(r, g, b)
+    /// What there is in a direction, a unit vector.
+    pub(super) fn seen(&self, direction: Vec3) -> Seen {
+        let Some((image, table)) = &self.image else { return self.uniform() };
+        let place = self.place(direction);
+        self.seen_at(image, table, place, sin(place[1] * PI))
     }
 
-    /// The density of [`Environment::sample`] per solid angle.
-    pub(super) fn pdf(&self, direction: Vec3) -> f64 {
-        let Some(table) = &self.table else { return 0.5 / TAU };
-        let uv = self.place(direction);
-        let sine = sin(uv[1] * PI);
-        if sine > 0.0 { table.pdf(uv) / (TAU * PI * sine) } else { 0.0 }
-    }
-
-    /// A direction.
-    pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
-        let Some(table) = &self.table else { return direction_turned(1.0 - 2.0 * u[0], u[1]) };
-        let [u, v] = table.sample(u);
-        let (longitude, colatitude) = ((u - 0.5) * TAU, v * PI);
+    /// A direction, and what there is.
+    pub(super) fn sample(&self, u: [f64; 2]) -> (Vec3, Seen) {
+        let Some((image, table)) = &self.image else {
+            return (direction_turned(1.0 - 2.0 * u[0], u[1]), self.uniform());
+        };
+        let place = table.sample(u);
+        let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
         let sine = sin(colatitude);
         let local = Vec3::new(sine * sin(longitude), cos(colatitude), -sine * cos(longitude));
         let [x, y, z] = self.image_from_world;
-        (x * local.x + y * local.y + z * local.z).normalize()
+        let direction = (x * local.x + y * local.y + z * local.z).normalize();
+        (direction, self.seen_at(image, table, place, sine))
+    }
+
+    fn uniform(&self) -> Seen {
+        Seen { radiance: self.radiance, pdf: 0.5 / TAU }
+    }
+
+    /// What there is at a place in the image, at the sine of the colatitude given.
+    fn seen_at(&self, image: &Image, table: &Table, place: [f64; 2], sine: f64) -> Seen {
+        let [r, g, b, _] = sample(image, place, [Wrap::Repeat, Wrap::Clamp], Filter::Linear, Content::Color);
+        let pdf = if sine > 0.0 { table.pdf(place) / (TAU * PI * sine) } else { 0.0 };
+        Seen { radiance: self.radiance * Vec3::new(r, g, b), pdf }
     }
 
     /// The place in the image of a direction: its middle towards −z, +y up, longitude growing towards +x.

@@ -5,10 +5,11 @@
 
 use super::super::bounds::Bounds;
 use super::super::geometry::Geometry;
+use super::super::instance::Asked;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::World;
 use super::Strategy;
-use super::environment::Environment;
+use super::environment::{Environment, Seen};
 use super::material::Point;
 use super::table::Choice;
 use crate::math::Vec3;
@@ -18,7 +19,7 @@ use std::f64::consts::PI;
 /// All lights of a world.
 pub(super) struct Lights<'world, S> {
     world: &'world World<S>,
-    pub(super) environment: Environment<'world>,
+    environment: Environment<'world>,
     lights: Vec<Light>,
     choice: Choice,
     /// The index of the first light of each surface that has some.
@@ -119,7 +120,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let normal = (b - a).cross(c - a).normalize_or(Vec3::Z);
         let ray = Ray { origin: point, direction: normal };
         let at = Interaction { point, normal, offset: 0.0, back: -normal };
-        let details = surface.shape.details(&ray, &at, part);
+        let details = surface.shape.details(&ray, &at, part, Asked { uv: true, tangent: false });
         Point::new(&self.world.scene, surface.material, &details).emission()
     }
 
@@ -137,10 +138,9 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 (pdf > 0.0 && pdf.is_finite()).then_some(Incident { wi, radiance, pdf: Some(pdf), place: Some(point) })
             }
             Light::Environment => {
-                let wi = self.environment.sample(u());
-                let pdf = probability * self.environment.pdf(wi);
-                let radiance = self.environment.radiance(wi) / pdf;
-                (pdf > 0.0).then_some(Incident { wi, radiance, pdf: Some(pdf), place: None })
+                let (wi, Seen { radiance, pdf }) = self.environment.sample(u());
+                let pdf = probability * pdf;
+                (pdf > 0.0).then_some(Incident { wi, radiance: radiance / pdf, pdf: Some(pdf), place: None })
             }
         }
     }
@@ -158,10 +158,10 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// The density with which [`Lights::sample`] takes a direction that leads to no surface.
-    pub(super) fn pdf_of_environment(&self, wi: Vec3) -> f64 {
-        let probability = self.choice.probability(self.lights.len() - 1);
-        if probability > 0.0 { probability * self.environment.pdf(wi) } else { 0.0 }
+    /// The radiance from a direction that leads to no surface, and the density with which [`Lights::sample`] takes it.
+    pub(super) fn environment(&self, wi: Vec3) -> (Vec3, f64) {
+        let Seen { radiance, pdf } = self.environment.seen(wi);
+        (radiance, self.choice.probability(self.lights.len() - 1) * pdf)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of it emits or is absent.
 
 use super::super::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, dispersed};
-use super::super::instance::Details;
+use super::super::instance::{Asked, Details};
 use super::super::ray::Interaction;
 use super::texture::{Content, Places, look_up};
 use crate::math::{Basis, Vec3, cos, ln, sin};
@@ -22,6 +22,12 @@ pub(super) struct Frame {
     basis: Basis,
     /// −1 where maps grow against the bitangent.
     side: f64,
+}
+
+/// What a material needs to know of a surface.
+pub(super) fn asked(material: &Material) -> Asked {
+    let turns = material.anisotropy > 0.0 || material.normal_map.is_some() || material.clearcoat_normal_map.is_some();
+    Asked { uv: material.maps().next().is_some(), tangent: turns }
 }
 
 impl<'world> Point<'world> {
@@ -160,30 +166,23 @@ impl<'world> Point<'world> {
     pub(super) fn frame(&self, at: &Interaction, details: &Details, wo: Vec3) -> (Frame, Vec3) {
         // The winding says which side is outside, and the normals of some meshes were made against it.
         let normal = details.normal.map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
-        let tangent = details.tangent.map(|t| t - normal * normal.dot(t)).and_then(Vec3::try_normalize);
-        let basis = tangent.map_or_else(
-            || Basis::around(normal),
-            |tangent| Basis { tangent, bitangent: normal.cross(tangent) * details.side, normal },
-        );
         let m = self.material;
-        let shading = self.mapped(m.normal_map.as_ref(), m.normal_scale, &basis);
-        let coat = self.mapped(m.clearcoat_normal_map.as_ref(), m.clearcoat_normal_scale, &basis);
-        let (shading, coat) = (bent(shading, at.normal, wo), bent(coat, at.normal, wo));
-        // The tangent at a right angle to the normal found.
-        let tangent = tangent.map(|t| t - shading * shading.dot(t)).and_then(Vec3::try_normalize);
-        let basis = tangent.map_or_else(
-            || Basis::around(shading),
-            |tangent| Basis { tangent, bitangent: shading.cross(tangent), normal: shading },
-        );
-        (Frame { basis, side: details.side }, coat)
+        let mapped = |map: &Option<Map>, scale: f64| {
+            let normal = map.as_ref().map_or(normal, |map| self.mapped(map, scale, normal, details));
+            bent(normal, at.normal, wo)
+        };
+        let shading = mapped(&m.normal_map, m.normal_scale);
+        let has_coat = m.clearcoat > 0.0;
+        let coat = if has_coat { mapped(&m.clearcoat_normal_map, m.clearcoat_normal_scale) } else { shading };
+        (Frame { basis: basis(shading, details.tangent, 1.0), side: details.side }, coat)
     }
 
     /// The normal that a map gives.
-    fn mapped(&self, map: Option<&Map>, scale: f64, basis: &Basis) -> Vec3 {
-        let shown = map.and_then(|map| look_up(self.scene, map, &self.places, Content::Linear));
-        let Some([x, y, z, _]) = shown else { return basis.normal };
+    fn mapped(&self, map: &Map, scale: f64, normal: Vec3, details: &Details) -> Vec3 {
+        let shown = look_up(self.scene, map, &self.places, Content::Linear);
+        let Some([x, y, z, _]) = shown else { return normal };
         let local = Vec3::new((x * 2.0 - 1.0) * scale, (y * 2.0 - 1.0) * scale, z * 2.0 - 1.0);
-        basis.to_world(local).normalize_or(basis.normal)
+        basis(normal, details.tangent, details.side).to_world(local).normalize_or(normal)
     }
 }
 
@@ -195,6 +194,15 @@ impl Frame {
     pub(super) fn to_world(&self, w: Vec3) -> Vec3 {
         self.basis.to_world(w)
     }
+}
+
+/// The frame around a normal, its tangent that of a surface as far as there is one.
+fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
+    let tangent = tangent.map(|t| t - normal * normal.dot(t)).and_then(Vec3::try_normalize);
+    tangent.map_or_else(
+        || Basis::around(normal),
+        |tangent| Basis { tangent, bitangent: normal.cross(tangent) * side, normal },
+    )
 }
 
 /// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent until it does, so that

@@ -21,13 +21,15 @@ pub(super) const CORNERS: u32 = 2;
 pub(super) struct Sobol {
     pixel: Key,
     index: u32,
+    /// The index from its highest bit on.
+    reversed: u32,
     seeds: Seeds,
 }
 
 impl Sobol {
     /// Those of path `index` of a pixel.
     pub(super) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
-        Self { pixel: Key::new(pixel, 0), index, seeds }
+        Self { pixel: Key::new(pixel, 0), index, reversed: index.reverse_bits(), seeds }
     }
 
     /// Pair `dimension` of this path, both numbers in [0, 1).
@@ -41,10 +43,12 @@ impl Sobol {
         let bits = self.pixel.seeded(seed).bits(u64::from(dimension));
         let (low, high) = (bits as u32, (bits >> 32) as u32);
         // Scrambled from its highest bit on, the index shuffles the points and keeps each first 2^k of them together.
-        let index = scrambled(self.index.reverse_bits(), low).reverse_bits();
-        let first = scrambled(index, high).reverse_bits();
-        let second = scrambled(pascal(index), low.rotate_left(16) ^ high).reverse_bits();
-        [f64::from(first) / 4_294_967_296.0, f64::from(second) / 4_294_967_296.0]
+        let index = scrambled(self.reversed, low).reverse_bits();
+        let first = scrambled(index, high);
+        let second = scrambled(pascal(index), low.rotate_left(16) ^ high);
+        // Reversed together, they change places.
+        let both = (u64::from(first) << 32 | u64::from(second)).reverse_bits();
+        [f64::from(both as u32), f64::from((both >> 32) as u32)].map(|number| number / 4_294_967_296.0)
     }
 
     /// A number in [0, 1) for what is outside of the sequence, as how often a path goes through a veil.

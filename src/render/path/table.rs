@@ -5,6 +5,8 @@
 pub(super) struct Choice {
     /// Sums of the weights up to and including each.
     sums: Vec<f64>,
+    /// The last index that weighs something.
+    last: usize,
 }
 
 impl Choice {
@@ -14,7 +16,9 @@ impl Choice {
             sum += weight;
             sum
         };
-        Self { sums: weights.map(add).collect() }
+        let sums = weights.map(add).collect::<Vec<_>>();
+        let last = sums.partition_point(|before| *before < sum);
+        Self { sums, last }
     }
 
     /// The sum of all weights.
@@ -32,8 +36,7 @@ impl Choice {
     /// The index for a number in [0, 1), and the number left for choosing within it; `None` if all weights are 0.
     pub(super) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.whole();
-        let last = self.sums.partition_point(|sum| *sum < self.whole());
-        let index = self.sums.partition_point(|sum| *sum <= place).min(last);
+        let index = self.sums.partition_point(|sum| *sum <= place).min(self.last);
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
         let width = self.sums.get(index)? - before;
         (width > 0.0).then(|| (index, ((place - before) / width).clamp(0.0, 1.0 - f64::EPSILON)))

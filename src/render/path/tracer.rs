@@ -4,12 +4,13 @@ use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
 use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
+use super::super::instance::Asked;
 use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
 use super::super::world::{Hit, NOWHERE, World, segment};
 use super::Strategy;
 use super::lights::{Incident, Lights};
-use super::material::{Frame, Point};
+use super::material::{Frame, Point, asked};
 use super::sobol::{CORNERS, FILM, LENS, Sobol};
 use crate::color::Tone;
 use crate::math::{Vec3, cos_sin_turns, exp};
@@ -31,6 +32,8 @@ pub(super) struct Tracer<'world, S> {
     pub(super) path: Path,
     strategy: Strategy,
     veils: Veils,
+    /// What each material needs to know of a surface.
+    asked: Vec<Asked>,
     /// What a ray of the camera that meets nothing shows.
     behind: Behind,
     /// The rays traced so far.
@@ -80,6 +83,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             path,
             strategy,
             veils: Veils::of(world),
+            asked: world.scene.standards().iter().map(asked).collect(),
             behind: Behind::default(),
             counts: Counts::default(),
         }
@@ -88,6 +92,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The same, with something else behind all surfaces.
     pub(super) fn before(self, behind: Behind) -> Self {
         Self { behind, ..self }
+    }
+
+    /// The same, with all that surfaces know in the corners of its paths.
+    pub(super) fn knowing_all(self) -> Self {
+        Self { asked: vec![Asked::ALL; self.asked.len()], ..self }
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
@@ -146,7 +155,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             let hit = self.world.nearest_from(&walk.ray, walk.from)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&walk.ray, hit.t, hit.part);
-            let details = surface.shape.details(&walk.ray, &at, hit.part);
+            let details = surface.shape.details(&walk.ray, &at, hit.part, self.asked[surface.material]);
             let point = Point::new(&self.world.scene, surface.material, &details);
             walk.travelled += hit.t;
             let coverage = if walk.looks_through(&at, point.material) { 0.0 } else { point.coverage() };
@@ -162,9 +171,8 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 
     /// Light from where no surface stands.
     fn find_environment(&self, walk: &mut Walk) {
-        let radiance = self.lights.environment.radiance(walk.ray.direction);
-        let weight = self.weight(walk.pdf, || self.lights.pdf_of_environment(walk.ray.direction));
-        walk.found += walk.beta * radiance * weight;
+        let (radiance, aimed) = self.lights.environment(walk.ray.direction);
+        walk.found += walk.beta * radiance * self.weight(walk.pdf, || aimed);
     }
 
     /// The weight of light that scattering found and aiming could have.
@@ -264,7 +272,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.part);
-        let details = surface.shape.details(ray, &at, hit.part);
+        let details = surface.shape.details(ray, &at, hit.part, self.asked[surface.material]);
         (Some(at), 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage())
     }
 

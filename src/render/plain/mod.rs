@@ -20,7 +20,7 @@ pub use real::Real;
 
 use super::bounds::Bounds;
 use super::geometry::Geometry;
-use super::instance::{Details, PreparedMesh};
+use super::instance::{Asked, Details, PreparedMesh};
 use super::ray::{Interaction, Ray};
 use super::shape::Shape;
 use super::triangle::Shear;
@@ -151,8 +151,8 @@ impl<R: Real> Geometry for PlainShape<R> {
         self.twin.has_shading_normals()
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32) -> Details {
-        self.twin.details(ray, at, part)
+    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details {
+        self.twin.details(ray, at, part, asked)
     }
 
     fn bounds(&self) -> Option<Bounds> {
