@@ -45,9 +45,14 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
     }
 }
 
-/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may hold some.
+/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may hold some. A time to be
+/// chosen there shows nothing else.
 fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
-    let front::Options { camera, animation, variant, .. } = options;
+    let front::Options { camera, animation, variant, time, .. } = options;
+    if time.is_some() && !has_assets {
+        let remark = Diagnostic::new(&codes::GLTF_STILL, "the scene is the same at all times");
+        sink.push(remark.hint("only a glTF asset has animations"));
+    }
     let parts = [("animation", animation), ("variant", variant)].into_iter().filter(|_| !has_assets);
     for (noun, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };

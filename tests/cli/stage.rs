@@ -129,6 +129,11 @@ fn what_contradicts_itself_or_is_out_of_range_is_refused() {
         assert_eq!(code(&output), 1, "{words}");
         assert!(stderr(&output).contains(&format!("error[{finding}]")), "{words}: {}", stderr(&output));
     }
+    for words in ["ball.yaml --time 1", "ball.json --time 1", "square.gltf --time 1"] {
+        let output = rtc(folder.path(), &format!("render {words} -o -"));
+        assert_eq!(code(&output), 0, "{words}: {}", stderr(&output));
+        assert!(stderr(&output).contains("warning[GL049]"), "{words}: {}", stderr(&output));
+    }
     let before = ["ball.json", "ball.yaml", "beside.yaml", "broken.hdr", "sky.hdr", "square.gltf", "sunny.gltf"];
     assert_eq!(names(folder.path()), before);
 }

@@ -201,4 +201,7 @@ super::codes! { GL:
     GLTF_CHOSEN = "GL048", Error, "a scene has nothing of that name",
         "The command line names a camera, an animation or a variant of the materials that the scene has not. The message \
          lists those that it has; scenes other than glTF assets have one camera, without a name.";
+    GLTF_STILL = "GL049", Warning, "a scene without animations is asked for a time",
+        "`--time` shows what the first animation of a glTF asset, or the one that `--animation` names, makes of it then. The \
+         scene has none, so it is the same at all times.";
 }

@@ -7,6 +7,7 @@ use super::super::mesh::Mesh;
 use super::super::node::Transform;
 use super::super::report::Report;
 use super::place::compose;
+use crate::diag::codes;
 use crate::front::Options;
 use crate::math::{acos, sin};
 use glam::{DAffine3, DMat4};
@@ -55,7 +56,14 @@ pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_
 
 /// The animation that was asked for: by name, or else the first if there is a time.
 fn chosen<'d>(doc: &'d Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Option<&'d Animation> {
-    let Some(name) = &options.animation else { return options.time.and_then(|_| doc.animations.first()) };
+    let Some(name) = &options.animation else {
+        options.time?;
+        if doc.animations.is_empty() {
+            let [message, hint] = ["the asset is the same at all times", "it has no animations"].map(str::to_owned);
+            report.advise(&codes::GLTF_STILL, "", report.json.root(), message, hint);
+        }
+        return doc.animations.first();
+    };
     let found = doc.animations.iter().find(|animation| animation.name == *name);
     if found.is_none() {
         let names: Vec<String> = doc.animations.iter().map(|animation| animation.name.clone()).collect();
