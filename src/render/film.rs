@@ -3,6 +3,7 @@
 use super::sampler::mix;
 use crate::image::Image;
 use std::num::NonZeroU32;
+use std::ops::Range;
 
 /// What to render of a world.
 #[derive(Clone, Copy, Debug, Default)]
@@ -19,6 +20,17 @@ pub struct Job {
     pub stride: Stride,
     /// What is seen past all surfaces.
     pub behind: Behind,
+}
+
+impl Job {
+    /// The columns out of `xs` that are rendered of a row.
+    pub(super) fn columns(&self, y: u32, xs: Range<u32>) -> impl Iterator<Item = u32> {
+        let (tiles, stride, from) = (self.tiles, self.stride.get(), xs.start);
+        let wanted = move |tile: &u32| tiles.is_none_or(|tiles| tiles.contain([tile * Tiles::SIDE, y]));
+        let runs = (xs.start / Tiles::SIDE..xs.end.div_ceil(Tiles::SIDE)).filter(wanted);
+        let run = move |tile: u32| (tile * Tiles::SIDE).max(xs.start)..((tile + 1) * Tiles::SIDE).min(xs.end);
+        runs.flat_map(run).filter(move |x| (x - from).is_multiple_of(stride))
+    }
 }
 
 /// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any case.

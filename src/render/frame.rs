@@ -1,7 +1,7 @@
 //! From world to film: pixels in tiles of one row each, on all threads of the pool.
 
 use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
-use super::film::{Counts, Crop, Film, Job, Stride, Values};
+use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
 use super::ray::Ray;
 use super::sampler::Key;
@@ -22,8 +22,9 @@ impl<S: Geometry> World<S> {
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         match self.scene.settings().mode {
             Mode::Zbuffer => {
-                let (mut depths, coverage, counts) =
-                    self.tiles(whole, job.stride, proceed, |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel))?;
+                let job = Job { tiles: None, ..*job };
+                let depth = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel);
+                let (mut depths, coverage, counts) = self.rows(whole, &job, proceed, depth)?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
                 let coverage = part(&coverage, whole, crop).copied().collect();
@@ -31,17 +32,17 @@ impl<S: Geometry> World<S> {
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
-                let (pixels, coverage, counts) = self.tiles(crop, job.stride, proceed, pixel)?;
+                let (pixels, coverage, counts) = self.rows(crop, job, proceed, pixel)?;
                 Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
             }
         }
     }
 
     /// The values and the coverage of all pixels of a rectangle, row by row, and the rays they took.
-    fn tiles<T: Send + Clone + Default, const F: u32>(
+    fn rows<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
-        stride: Stride,
+        job: &Job,
         proceed: &(dyn Fn(u64) -> bool + Sync),
         value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
     ) -> Option<(Vec<T>, Vec<f32>, Counts)> {
@@ -49,10 +50,10 @@ impl<S: Geometry> World<S> {
         let (mut pixels, mut coverage) = (vec![T::default(); count], vec![0.0; count]);
         let row = |((y, row), shares): ((u32, &mut [T]), &mut [f32])| {
             let mut tracer = Tracer::new(self);
-            for ((x, pixel), share) in (crop.x..).zip(row).zip(shares).step_by(stride.get() as usize) {
-                let before = tracer.counts;
-                *pixel = value(&mut tracer, [x, y]);
-                *share = tracer.counts.coverage_since(&before);
+            for x in job.columns(y, crop.x..crop.x + crop.width) {
+                let (before, place) = (tracer.counts, (x - crop.x) as usize);
+                row[place] = value(&mut tracer, [x, y]);
+                shares[place] = tracer.counts.coverage_since(&before);
                 if !proceed(tracer.counts.rays() - before.rays()) {
                     return None;
                 }
@@ -61,18 +62,15 @@ impl<S: Geometry> World<S> {
         };
         let width = (crop.width as usize).max(1);
         let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
-        let rows = rows.zip(coverage.par_chunks_mut(width)).step_by(stride.get() as usize);
+        let rows = rows.zip(coverage.par_chunks_mut(width)).step_by(job.stride.get() as usize);
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some((pixels, coverage, counts))
     }
 }
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
-    /// The mean of all sub-samples and points of the lens; black outside the tiles.
+    /// The mean of all sub-samples and points of the lens.
     fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> [f64; 3] {
-        if job.tiles.is_some_and(|tiles| !tiles.contain(pixel)) {
-            return [0.0; 3];
-        }
         self.pixel = pixel;
         let scene = self.scene();
         let camera = scene.camera();

@@ -53,13 +53,11 @@ impl<S: Geometry> World<S> {
         let tone = self.scene.settings().mode.tone();
         let row = |((y, row), shares): ((u32, &mut [[f64; 3]]), &mut [f32])| {
             let mut tracer = Tracer::new(self, &lights, path, strategy).before(job.behind);
-            for ((x, pixel), share) in (crop.x..).zip(row).zip(shares) {
-                let before = tracer.counts;
-                if job.tiles.is_none_or(|tiles| tiles.contain([x, y])) {
-                    let radiance = tracer.pixel([x, y], job.seeds).to_array();
-                    *pixel = if job.values == Values::Display { tone.display(radiance) } else { radiance };
-                    *share = tracer.counts.coverage_since(&before);
-                }
+            for x in job.columns(y, crop.x..crop.x + crop.width) {
+                let (before, place) = (tracer.counts, (x - crop.x) as usize);
+                let radiance = tracer.pixel([x, y], job.seeds).to_array();
+                row[place] = if job.values == Values::Display { tone.display(radiance) } else { radiance };
+                shares[place] = tracer.counts.coverage_since(&before);
                 if !proceed(tracer.counts.rays() - before.rays()) {
                     return None;
                 }
@@ -69,6 +67,7 @@ impl<S: Geometry> World<S> {
         let rows = (crop.y..crop.y + crop.height).into_par_iter();
         let width = (crop.width as usize).max(1);
         let rows = rows.zip(pixels.par_chunks_mut(width)).zip(coverage.par_chunks_mut(width));
+        let rows = rows.step_by(job.stride.get() as usize);
         let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
     }
