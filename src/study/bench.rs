@@ -19,6 +19,16 @@ pub(super) struct Time {
     pub(super) wall: f64,
 }
 
+impl Time {
+    pub(super) fn plus(self, other: Self) -> Self {
+        Self { cpu: self.cpu + other.cpu, wall: self.wall + other.wall }
+    }
+
+    pub(super) fn over(self, count: f64) -> Self {
+        Self { cpu: self.cpu / count, wall: self.wall / count }
+    }
+}
+
 impl Clock<'_> {
     /// Does a piece of work on the calling thread, and says how many seconds that took.
     fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {

@@ -10,6 +10,9 @@ const WORTH: f64 = 0.99;
 /// Errors that differ by less than a thousandth are the same: so much is in how hits at edges are rounded.
 const SAME: f64 = 1.001;
 
+/// So many times the rays are no more of a cost, unless seconds tell.
+const SAME_COST: f64 = 1.02;
+
 /// Settings from the least work up, each with the knob raised that the model says lessens the error most for the work;
 /// until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
@@ -48,37 +51,48 @@ pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
 
 /// What a row of the table costs and is worth.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub(super) struct Point {
     /// Seconds: the interval they lie in.
-    pub seconds: [f64; 2],
+    pub(super) seconds: [f64; 2],
     /// Rays, which decide where seconds can't.
-    pub rays: u64,
+    pub(super) rays: u64,
     /// The error.
-    pub error: f64,
+    pub(super) error: f64,
 }
 
 impl Point {
-    /// Whether this one costs no more than the other, for an error no larger, and is better in one of the two; or is as good,
-    /// and the `first` of them.
-    fn dominates(&self, other: &Self, first: bool) -> bool {
-        let apart = self.seconds[1] < other.seconds[0] || other.seconds[1] < self.seconds[0];
-        let (cheaper, dearer) = if apart {
-            (self.seconds[1] < other.seconds[0], other.seconds[1] < self.seconds[0])
-        } else {
-            (self.rays < other.rays, other.rays < self.rays)
-        };
-        !dearer && self.error <= SAME * other.error && (cheaper || first || SAME * self.error < other.error)
+    fn is_clearly_cheaper(&self, other: &Self) -> bool {
+        self.seconds[1] < other.seconds[0]
+    }
+
+    /// Whether neither seconds nor rays set it apart from a point that comes before it.
+    fn costs_the_same(&self, before: &Self) -> bool {
+        !before.is_clearly_cheaper(self) && self.rays as f64 <= SAME_COST * before.rays as f64
     }
 }
 
-/// For each point whether no other dominates it; of equals the first stands.
-#[must_use]
-pub fn front(points: &[Point]) -> Vec<bool> {
-    let stands = |(place, point): (usize, &Point)| {
-        let mut others = (0..).zip(points).filter(|(other, _)| *other != place);
-        !others.any(|(other, better)| better.dominates(point, other < place))
-    };
-    points.iter().enumerate().map(stands).collect()
+/// The points from the cheapest up, each with whether it is on the front: what costs more errs less there.
+pub(super) fn ranking(points: &[Point]) -> Vec<(usize, bool)> {
+    let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
+    for place in by_cost(points) {
+        let point = &points[place];
+        order.push(place);
+        if front.last().is_none_or(|last| SAME * point.error < points[*last].error) {
+            front.pop_if(|last| point.costs_the_same(&points[*last]));
+            front.push(place);
+        }
+    }
+    order.into_iter().map(|place| (place, front.contains(&place))).collect()
+}
+
+/// The places of the points, no point before one that is clearly cheaper, and else by their rays.
+fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
+    let mut left: Vec<_> = (0..points.len()).collect();
+    std::iter::from_fn(move || {
+        let is_next = |place: usize| !left.iter().any(|other| points[*other].is_clearly_cheaper(&points[place]));
+        let next = (0..left.len()).filter(|index| is_next(left[*index])).min_by_key(|index| points[left[*index]].rays);
+        next.map(|index| left.remove(index))
+    })
 }
 
 #[cfg(test)]
@@ -89,18 +103,32 @@ mod tests {
         Point { seconds: [0.99 * seconds, 1.01 * seconds], rays, error }
     }
 
+    /// The places of the points from the cheapest up, those of the front as they are, all others below 0.
+    fn ranked(points: &[Point]) -> Vec<isize> {
+        ranking(points)
+            .into_iter()
+            .map(|(place, front)| if front { place as isize } else { -1 - place as isize })
+            .collect()
+    }
+
     #[test]
     fn the_front_is_what_nothing_dominates() {
-        let points = [point(1.0, 10, 4.0), point(2.0, 20, 5.0), point(2.0, 20, 2.0), point(4.0, 40, 2.0)];
-        assert_eq!(front(&points), [true, false, true, false]);
+        let points = [point(4.0, 40, 2.0), point(2.0, 20, 5.0), point(2.0, 20, 2.0), point(1.0, 10, 4.0)];
+        assert_eq!(ranked(&points), [3, -2, 2, -1]);
     }
 
     #[test]
     fn rays_decide_where_seconds_cannot() {
         let points = [point(1.0, 11, 3.0), point(1.005, 10, 3.0), point(1.001, 12, 1.0)];
-        assert_eq!(front(&points), [false, true, true]);
+        assert_eq!(ranked(&points), [1, -1, 2]);
         let rounded = [point(1.0, 10, 3.000_1), point(2.0, 10, 3.0), point(4.0, 10, 2.99)];
-        assert_eq!(front(&rounded), [true, false, true], "errors as good as the same");
-        assert_eq!(front(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]), [true, false], "of equals the first");
+        assert_eq!(ranked(&rounded), [0, -2, 2], "errors as good as the same");
+        assert_eq!(ranked(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]), [0, -2], "of equals the first");
+    }
+
+    #[test]
+    fn of_two_that_cost_the_same_the_better_is_on_the_front() {
+        let points = [point(1.01, 1000, 3.1), point(1.0, 1001, 3.0), point(1.0, 1100, 2.0)];
+        assert_eq!(ranked(&points), [-1, 1, 2]);
     }
 }

@@ -24,7 +24,6 @@ mod target;
 pub use bench::{Bench, Clock};
 pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
-pub use front::{Point, front};
 pub use knob::{Knob, Setting, idle};
 pub use metrics::{Errors, LEVELS, rmse};
 pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
@@ -52,9 +51,9 @@ impl Effort {
     /// Seconds.
     pub const QUICK: Self = Self(60_000_000);
     /// About a minute for a simple scene.
-    pub const DEFAULT: Self = Self(400_000_000);
+    pub const DEFAULT: Self = Self(300_000_000);
     /// Ten times that.
-    pub const THOROUGH: Self = Self(4_000_000_000);
+    pub const THOROUGH: Self = Self(3_000_000_000);
 }
 
 /// How much of the work goes where, in hundredths.
@@ -141,8 +140,8 @@ impl Scope {
 
     /// As many tiles as can have a good reference, and be rendered in the scene's own setting.
     fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
-        /// Samples of a pixel that make a good reference for the default effort.
-        const GOOD: f64 = 1024.0;
+        /// Samples of a pixel that make a good reference for so many rays.
+        const GOOD: [f64; 2] = [1024.0, 4e8];
         /// Fewer tiles say nothing of a picture.
         const FEWEST: usize = 4;
         if self.sampling.is_empty() {
@@ -152,7 +151,7 @@ impl Scope {
         let setting = self.at(2);
         let counts = pilot.shoot(setting, reference::independent(1))?.counts;
         let rays = counts.rays() as f64 / counts.camera.max(1) as f64;
-        let samples = GOOD * (self.effort.0 as f64 / Effort::DEFAULT.0 as f64).sqrt();
+        let samples = GOOD[0] * (self.effort.0 as f64 / GOOD[1]).sqrt();
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let pixels = of_reference.min(of_own);
@@ -218,11 +217,12 @@ impl Scope {
                 tiles: run.shot.tiles,
             }
         };
-        let mut rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
+        let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
         let points: Vec<_> = rows.iter().map(Row::point).collect();
-        rows.iter_mut().zip(front(&points)).for_each(|(row, front)| row.front = front);
-        rows.sort_by(|a, b| a.seconds.value.total_cmp(&b.seconds.value));
-        Ok((rows, race.wall_over_cpu))
+        let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
+        let ranked = front::ranking(&points).into_iter();
+        let ranked = ranked.filter_map(|(place, front)| Some(Row { front, ..rows[place].take()? }));
+        Ok((ranked.collect(), race.wall_over_cpu))
     }
 }
 
@@ -237,7 +237,7 @@ impl Grounds {
 }
 
 impl Row {
-    fn point(&self) -> Point {
-        Point { seconds: [self.seconds.low, self.seconds.high], rays: self.rays.all(), error: self.errors.rmse }
+    fn point(&self) -> front::Point {
+        front::Point { seconds: [self.seconds.low, self.seconds.high], rays: self.rays.all(), error: self.errors.rmse }
     }
 }

@@ -138,7 +138,7 @@ pub struct Study {
     pub reference: ReferenceReport,
     /// Each knob alone.
     pub knobs: Vec<KnobReport>,
-    /// Settings as measured, from the least time up.
+    /// Settings as measured, from the cheapest up: by seconds where those tell, else by rays.
     pub rows: Vec<Row>,
     /// What each effect costs.
     pub effects: Vec<EffectCost>,

@@ -29,13 +29,17 @@ pub(super) struct Race {
 }
 
 const FEWEST_ROUNDS: u64 = 3;
-const MOST_ROUNDS: u64 = 15;
+const MOST_ROUNDS: u64 = 9;
 
-/// Times all runners in at least three rounds, those that take few rays in more, of about `budget` rays in all.
+/// Renders of a runner in a round: what is over in a few milliseconds says little of a machine whose speed changes as fast.
+const MOST_REPEATS: u64 = 8;
+
+/// Times all runners in at least three rounds, those that take few rays in more and several times in each, of about `budget`
+/// rays in all.
 pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> Result<Race, Stopped> {
     let mut shots: Vec<Option<Shot>> = runners.iter().map(|_| None).collect();
     let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
-    let mut rounds = vec![FEWEST_ROUNDS; runners.len()];
+    let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
     for round in 0..MOST_ROUNDS {
         let mut order: Vec<_> = (0..runners.len()).filter(|index| rounds[*index] > round || *index == 0).collect();
         if round >= FEWEST_ROUNDS && order.len() < 2 {
@@ -44,14 +48,19 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> 
         chance.shuffle(&mut order);
         times.iter_mut().for_each(|times| times.push(None));
         for index in order {
-            let (shot, time) = runners[index].subject.time(runners[index].setting)?;
+            let Runner { subject, setting } = &runners[index];
+            let (shot, mut time) = subject.time(*setting)?;
             if shots[index].is_none() {
                 let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
-                rounds[index] = fair.clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+                repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
+                rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
             }
             shots[index].get_or_insert(shot);
+            for _ in 1..repeats[index] {
+                time = time.plus(subject.time(*setting)?.1);
+            }
             if let Some(place) = times[index].last_mut() {
-                *place = Some(time);
+                *place = Some(time.over(repeats[index] as f64));
             }
         }
     }

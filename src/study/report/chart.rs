@@ -45,7 +45,8 @@ pub(super) fn front(study: &Study) -> String {
 fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
-        let x = row.seconds.value;
+        // Where seconds can't tell, rows stand by their rays.
+        let x = steps.last().map_or(0.0, |last| last.0).max(row.seconds.value);
         steps.extend(steps.last().map(|last| (x, last.1)));
         steps.push((x, row.errors.rmse));
     }
