@@ -12,7 +12,7 @@ row() { ./target/release/examples/paths "$1" "$2" ${5:-} | sed "s/\$/ $3 | $4 |/
 cat <<END
 # Paths
 
-\`benches/paths.sh\`, one thread of a busy two-core AMD EPYC (Zen 3); 512 × 512 pixels, 8 bounces. Samples are of the camera, in
+\`benches/paths.sh\`, one thread of a two-core AMD EPYC (Zen 3); 512 × 512 pixels, 8 bounces. Samples are of the camera, in
 millions per CPU-second of rendering, the hierarchy included. CPU-seconds and MB are those of the whole process until the picture
 is there. The error, mean of (a − b)²/(b² + 0.01), is that of a picture of 256 × 256 pixels after $seconds CPU-seconds against one of 16
 times its samples. Cycles is bpy 4.5.15 on a like machine, with views and lights of its own.
