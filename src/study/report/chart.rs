@@ -3,7 +3,7 @@
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
 use super::super::outcome::{KnobReport, Row, Study};
-use crate::math::exp;
+use crate::math::{exp, pow};
 use plotters::coord::Shift;
 use plotters::coord::combinators::{IntoLogRange, LogCoord};
 use plotters::prelude::*;
@@ -88,9 +88,13 @@ pub(super) fn knob(report: &KnobReport) -> String {
         knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths | Knob::Precision) => knob.name(),
     };
     plot((400, 300), |root| {
-        let mut chart = axes(root, [xs.clone(), ys], [name, "error in grey levels"], digits)?;
+        let mut chart = axes(root, [xs.clone(), ys.clone()], [name, "error in grey levels"], digits)?;
         if let Some(law) = &report.law {
-            let line = [xs.start, xs.end].map(|x| (x, law.at(x)));
+            const STEPS: u32 = 100;
+            let x = |step: u32| xs.start * pow(xs.end / xs.start, f64::from(step) / f64::from(STEPS));
+            let line = (0..=STEPS).map(|step| (x(step), law.at(x(step))));
+            // What lies outside would be drawn on the edge.
+            let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
         let mark = |(x, rung): &(f64, &super::super::reference::Rung)| {
