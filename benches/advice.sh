@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # How steady the advice of `rtc cost` is on a busy machine: quick studies of a scene with three busy loops beside them, and
 # how often each row is recommended. `advice.sh [RUNS [SCENE]]`: 20 of scenes/mirrors.yaml without. Fails where the usual
-# row is that of fewer than 19 of 20. On two cores that seven others kept busy it was the same in all of 10 studies.
+# row is that of fewer than 19 of 20. On two cores it was the same in all of 20.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 rtc=${RTC:-target/release/rtc}
