@@ -49,18 +49,17 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> 
         times.iter_mut().for_each(|times| times.push(None));
         for index in order {
             let Runner { subject, setting } = &runners[index];
-            let (shot, mut time) = subject.time(*setting)?;
-            if shots[index].is_none() {
-                let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
-                repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
-                rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
-            }
+            let (shot, time) = subject.time(*setting, |shot| {
+                if shots[index].is_none() {
+                    let fair = budget / runners.len() as u64 / shot.counts.rays().max(1);
+                    repeats[index] = (fair / MOST_ROUNDS).clamp(1, MOST_REPEATS);
+                    rounds[index] = (fair / repeats[index]).clamp(FEWEST_ROUNDS, MOST_ROUNDS);
+                }
+                repeats[index]
+            })?;
             shots[index].get_or_insert(shot);
-            for _ in 1..repeats[index] {
-                time = time.plus(subject.time(*setting)?.1);
-            }
             if let Some(place) = times[index].last_mut() {
-                *place = Some(time.over(repeats[index] as f64));
+                *place = Some(time);
             }
         }
     }

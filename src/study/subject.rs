@@ -79,11 +79,20 @@ impl<'bench> Subject<'bench> {
         self.bench.work(|| self.render(&scene, setting.precision, seeds))
     }
 
-    /// Renders in a setting on one thread, and says how long that took.
-    pub(super) fn time(&self, setting: Setting) -> Result<(Shot, Time), Stopped> {
+    /// Renders in a setting on one thread, as often as `repeats` says of the first shot, and says how long that took on the
+    /// mean.
+    pub(super) fn time(&self, setting: Setting, repeats: impl FnOnce(&Shot) -> u64) -> Result<(Shot, Time), Stopped> {
         let scene = self.prove(setting, Seeds::NONE);
-        let (shot, time) = self.bench.measure(|| self.render(&scene, setting.precision, Seeds::NONE));
-        Ok((shot?, time))
+        let render = || self.bench.measure(|| self.render(&scene, setting.precision, Seeds::NONE));
+        let (shot, mut time) = render();
+        let shot = shot?;
+        let count = repeats(&shot);
+        for _ in 1..count {
+            let (again, more) = render();
+            again?;
+            time = time.plus(more);
+        }
+        Ok((shot, time.over(count as f64)))
     }
 
     /// How many seconds each of `rounds` takes to prepare the scene, and beside that to pass over all pixels.
