@@ -8,6 +8,7 @@ use crate::image::Image;
 use crate::ir::{Origins, Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
+use crate::source::Limits;
 use crate::valid::{self, ValidScene};
 
 /// A scene, and the part of its picture that is looked at.
@@ -146,7 +147,7 @@ impl<'bench> Subject<'bench> {
 
 /// The proof of a scene that was proven before, in whatever setting.
 pub(super) fn prove(scene: &Scene) -> ValidScene {
-    let options = valid::Options { allow_huge: true };
+    let options = valid::Options { limits: Limits::NONE };
     let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
     proof.expect("the scene was proven before, and a setting is in range")
 }

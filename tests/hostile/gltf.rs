@@ -1,0 +1,1 @@
+//! Assets that are small and ask for much.
