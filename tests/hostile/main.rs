@@ -7,7 +7,6 @@
     reason = "a test stops at the first surprise, and makes the files it checks"
 )]
 
-mod gltf;
-mod media;
+mod make;
 mod prison;
 mod texts;

@@ -1,1 +1,0 @@
-//! Assets that are small and ask for much.
