@@ -6,7 +6,7 @@ use super::{Diagnostic, Severity};
 const CAPACITY: usize = 10_000;
 
 /// Where every stage pushes its findings.
-#[derive(Default, Debug)]
+#[derive(Clone, Default, Debug)]
 pub struct Sink {
     kept: Vec<Diagnostic>,
     errors: usize,
