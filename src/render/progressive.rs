@@ -6,6 +6,7 @@
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Behind, Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
+use super::heartbeat::Proceed;
 use super::kernel::{choose_of_few, dispatch};
 use super::sampler::Key;
 use super::sequence::Sequence;
@@ -66,19 +67,18 @@ impl Growing {
         &mut self,
         tracer: impl Fn() -> T + Sync,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
     ) -> bool {
         let Self { crop, seed, behind: _, pixels, counts } = self;
         let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
         let row = |(y, row): (usize, &mut [Strands])| {
             let mut tracer = tracer();
             for (i, (x, strands)) in (crop.x..).zip(row).enumerate() {
-                let before = tracer.counts().rays();
                 #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
                 let pixel = [x, crop.y + y as u32];
                 strands.tone = T::TONE;
+                tracer.begin(pixel);
                 strands.lengthen(wanted(y * width + i), &mut tracer, pixel, seed);
-                if !proceed(tracer.counts().rays() - before) {
+                if !tracer.done() {
                     return None;
                 }
             }
@@ -178,6 +178,9 @@ impl Strands {
             let (half, before) = (strand / 2, tracer.counts().hits);
             let number = (seed << 2 | strand as u64).wrapping_add(1);
             for index in self.counts[half]..wanted[half] {
+                if !tracer.goes_on() {
+                    return;
+                }
                 let radiance = tracer.sample(pixel, number, index);
                 let shown = match self.tone {
                     None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
@@ -217,6 +220,15 @@ pub(super) trait Sampling {
 
     /// The rays traced so far.
     fn counts(&self) -> Counts;
+
+    /// Begins a pixel.
+    fn begin(&mut self, pixel: [u32; 2]);
+
+    /// Whether to go on, within a pixel.
+    fn goes_on(&mut self) -> bool;
+
+    /// Ends a pixel; false if that was the last one.
+    fn done(&mut self) -> bool;
 }
 
 impl<S: Geometry> World<S> {
@@ -225,7 +237,7 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
     ) -> bool {
         if let Mode::Path(path) = self.scene.settings().mode {
             return self.grow_paths(path, film, wanted, proceed);
@@ -238,14 +250,14 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
     ) -> bool {
         let tracer = || {
-            let mut tracer: Tracer<'_, S, F> = Tracer::new(self);
+            let mut tracer: Tracer<'_, S, F> = Tracer::new(self, proceed);
             tracer.spread = true;
             tracer
         };
-        film.lengthen(tracer, wanted, proceed)
+        film.lengthen(tracer, wanted)
     }
 }
 
@@ -265,5 +277,17 @@ impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
 
     fn counts(&self) -> Counts {
         self.counts
+    }
+
+    fn begin(&mut self, pixel: [u32; 2]) {
+        self.heartbeat.begin(pixel);
+    }
+
+    fn goes_on(&mut self) -> bool {
+        self.heartbeat.goes_on(&self.counts)
+    }
+
+    fn done(&mut self) -> bool {
+        self.heartbeat.done(&self.counts)
     }
 }

@@ -1,5 +1,6 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
+use super::{Budget, Limits};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -50,13 +51,26 @@ struct SourceFile {
     line_starts: OnceLock<Vec<u32>>,
 }
 
-/// All files of one run, with their names as the user gave them.
+/// All files of one run, with their names as the user gave them, and the budget of the run.
 #[derive(Default)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
+    budget: Budget,
 }
 
 impl SourceMap {
+    /// An empty map of a run with these limits.
+    #[must_use]
+    pub fn with_limits(limits: Limits) -> Self {
+        Self { files: Vec::new(), budget: Budget::new(limits) }
+    }
+
+    /// What the run may still take of the machine. The bytes of the files of the map count as read.
+    #[must_use]
+    pub fn budget(&self) -> &Budget {
+        &self.budget
+    }
+
     /// Adds a file and returns its handle.
     ///
     /// # Panics
@@ -75,6 +89,7 @@ impl SourceMap {
 
     fn push(&mut self, name: String, path: Option<PathBuf>, bytes: Vec<u8>) -> FileId {
         assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
+        self.budget.read(bytes.len());
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
         self.files.push(SourceFile { name, path, bytes, line_starts: OnceLock::new() });
         id

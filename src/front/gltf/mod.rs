@@ -51,10 +51,9 @@ const BOM: &str = "\u{feff}";
 #[must_use]
 pub fn recognise(name: &str, bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes).trim_ascii_start();
-    let named = name.len() >= 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..] == *".gltf";
     let is_json = text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""));
     let says_so = || memchr::memmem::find(text, b"\"asset\"").is_some();
-    container::is_glb(name, bytes) || named || (is_json && says_so())
+    container::is_glb(name, bytes) || name.ends_with(".gltf") || (is_json && says_so())
 }
 
 /// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
