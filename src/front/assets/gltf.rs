@@ -8,7 +8,7 @@ use crate::ir::{
     Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
-use crate::source::{FileId, Found, Kind};
+use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
 use glam::DAffine3;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -23,6 +23,8 @@ const MAX_BYTES: u64 = 1 << 30;
 #[derive(Default)]
 pub(super) struct Assets {
     known: BTreeMap<PathBuf, Option<Placeable>>,
+    /// The budget had no room for one of them: that is said once.
+    is_over: bool,
 }
 
 /// What is placed of an asset; it refers to what was added to the scene.
@@ -51,8 +53,15 @@ impl Assets {
             let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
             Some(add(asset, lowered))
         });
-        if let Some(asset) = asset {
-            asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
+        let Some(asset) = asset.as_ref().filter(|_| !self.is_over) else { return };
+        match asset.charge(porter.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+            Err(fault) => {
+                self.is_over = true;
+                let message = format!("the asset asks for too much: {fault}");
+                let finding = Diagnostic::new(&codes::OVER_LIMIT, message).at(wish.span, "placed here");
+                porter.sink.push(finding.hint(fault.hint()));
+            }
         }
     }
 }
@@ -112,6 +121,15 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
 }
 
 impl Placeable {
+    /// Charges one more of it.
+    fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
+        let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
+        let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
+        let surfaces = self.surfaces.len() as u64;
+        budget.charge(Resource::Surfaces, surfaces)?;
+        budget.charge(Resource::Memory, surfaces * gltf::SURFACE + names + lights)
+    }
+
     /// Puts the asset into its place.
     fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
         let Lowered { scene, origins } = lowered;

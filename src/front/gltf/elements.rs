@@ -97,7 +97,7 @@ impl<'d> Elements<'d> {
             read(&bytes[at * stride..], layout, &mut element);
         }
         let mut vector = [0.0; N];
-        vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(from));
+        vector.iter_mut().zip(&element[..layout.components()]).for_each(|(to, from)| *to = self.fraction(*from));
         vector
     }
 

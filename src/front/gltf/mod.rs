@@ -31,6 +31,8 @@ mod texture;
 mod uri;
 mod usage;
 
+pub(super) use lower::SURFACE;
+
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;

@@ -13,11 +13,13 @@ pub(super) struct Report<'r, 's> {
     options: &'r Options,
     /// What the run may still take.
     pub(super) budget: &'r Budget,
+    /// A limit was passed; that is said once.
+    is_over: bool,
 }
 
 impl<'r, 's> Report<'r, 's> {
     pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options, budget: &'r Budget) -> Self {
-        Self { json, sink, options, budget }
+        Self { json, sink, options, budget, is_over: false }
     }
 
     /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
@@ -28,11 +30,17 @@ impl<'r, 's> Report<'r, 's> {
 
     /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the image`.
     pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
-        self.advise(&codes::OVER_LIMIT, "", at, format!("{what} asks for too much: {fault}"), fault.hint());
+        if !std::mem::replace(&mut self.is_over, true) {
+            self.advise(&codes::OVER_LIMIT, "", at, format!("{what} asks for too much: {fault}"), fault.hint());
+        }
     }
 
-    /// Charges what stands at a node with so much of a resource. False if that is too much; then that is reported.
+    /// Charges what stands at a node with so much of a resource. False if that is too much, here or before: then the
+    /// asset is refused, and what is missing is not worth a finding.
     pub(super) fn charge(&mut self, resource: Resource, amount: u64, at: NodeId, what: &str) -> bool {
+        if self.is_over {
+            return false;
+        }
         let charged = self.budget.charge(resource, amount);
         charged.map_err(|fault| self.exceeded(at, what, &fault)).is_ok()
     }

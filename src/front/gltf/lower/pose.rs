@@ -13,6 +13,9 @@ use crate::source::Resource;
 use glam::{DAffine3, DMat4};
 use std::collections::BTreeMap;
 
+/// Bytes that the weight of a morph target takes: itself, and the bits that tell it from others.
+const WEIGHT: u64 = 32;
+
 /// How all nodes stand.
 pub(super) struct Pose {
     transforms: Vec<Transform>,
@@ -46,7 +49,7 @@ pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_
             let (Some(node), Some(path)) = (channel.node, channel.path) else { continue };
             let sampler = channel.sampler.and_then(|sampler| animation.samplers.get(sampler));
             let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else { continue };
-            let memory = keys.width() as u64 * size_of::<f64>() as u64;
+            let memory = keys.width() as u64 * WEIGHT;
             if path == Path::Weights && !report.charge(Resource::Memory, memory, channel.at, "the channel") {
                 break;
             }
@@ -139,8 +142,9 @@ impl<'d> Keys<'d> {
     fn key(&self, index: usize, part: usize) -> Option<Vec<f64>> {
         let (width, components) = (self.width(), self.output.layout.components());
         let at = if self.is_cubic() { 3 * index + part } else { index } * width;
-        let number = |at: usize| self.output.at::<16>(at / components)[at % components];
-        (at + width <= self.output.count * components).then(|| (at..at + width).map(number).collect())
+        let elements = at / components..(at + width).div_ceil(components);
+        let numbers = elements.flat_map(|element| self.output.at::<16>(element).into_iter().take(components));
+        (at + width <= self.output.count * components).then(|| numbers.skip(at % components).take(width).collect())
     }
 
     /// The value at a time; before the first and after the last keyframe it stands still.

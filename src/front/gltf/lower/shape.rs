@@ -51,7 +51,7 @@ impl<T> Default for Different<T> {
 }
 
 impl<T> Different<T> {
-    fn name(&mut self, list: Vec<T>, numbers: impl Fn(&T) -> Vec<f64>) -> usize {
+    fn name<const N: usize>(&mut self, list: Vec<T>, numbers: impl Fn(&T) -> [f64; N]) -> usize {
         // The sum turns -0 into 0, which is the same shape.
         let bits = list.iter().flat_map(numbers).map(|number| (number + 0.0).to_bits()).collect();
         let Self { known, lists } = self;
@@ -88,7 +88,7 @@ impl Shapes {
         let weights = own.unwrap_or(&mesh.weights);
         let weights = &weights[..weights.len().min(mesh.targets())];
         let last = weights.iter().rposition(|weight| *weight != 0.0);
-        let name = self.weights.name(weights[..last.map_or(0, |last| last + 1)].to_vec(), |weight| vec![*weight]);
+        let name = self.weights.name(weights[..last.map_or(0, |last| last + 1)].to_vec(), |weight| [*weight]);
         if own.is_none() {
             self.of_mesh.insert(of, name);
         }
@@ -109,7 +109,7 @@ impl Shapes {
         if !report.charge(Resource::Memory, JOINT * skin.joints.len() as u64, skin.at, "the skin") {
             return None;
         }
-        let name = self.joints.name(joints(doc, skin, worlds), |matrix| matrix.to_cols_array().to_vec());
+        let name = self.joints.name(joints(doc, skin, worlds), DAffine3::to_cols_array);
         self.of_skin.insert(of, name);
         Some(name)
     }
