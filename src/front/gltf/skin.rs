@@ -1,6 +1,6 @@
 //! Skins: joints in one tree, their matrices, and the weights by which vertices follow them.
 
-use super::accessor::Component;
+use super::accessor::{self, Component, Layout};
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
 use super::document::Document;
@@ -89,11 +89,11 @@ impl Order {
 }
 
 fn check_tree(doc: &Document<'_>, skin: &Skin, forest: &Forest, order: &Order, report: &mut Report<'_, '_>) {
-    if skin.joints.is_empty() {
+    let Some(at) = report.json.get(skin.at, "joints").filter(|at| report.json.items(*at).next().is_some()) else {
         return;
-    }
-    let at = report.json.at_or(skin.at, "joints");
-    let known: Vec<usize> = skin.joints.iter().copied().filter(|joint| *joint < doc.nodes.len()).collect();
+    };
+    let is_node = |joint: &usize| doc.nodes.get(*joint).is_some_and(|node| report.is_part(node.at));
+    let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
     let root = known.first().and_then(|joint| forest.roots[*joint]);
     if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
         let message = "no node lies above all joints".to_owned();
@@ -113,9 +113,7 @@ fn check_matrices(
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
     report: &mut Report<'_, '_>,
 ) {
-    let Some((index, accessor)) = skin.matrices.and_then(|index| Some((index, doc.accessors.get(index)?))) else {
-        return;
-    };
+    let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else { return };
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
     usages.set(index, Usage::InverseBindMatrices, at, report);
     purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
@@ -123,15 +121,15 @@ fn check_matrices(
         let message = "the view of inverse bind matrices has a stride".to_owned();
         report.say(&codes::GLTF_VIEW, "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", at, message);
     }
-    if let Some(layout) = accessor.layout {
-        if layout.columns == 4 && layout.component == Component::F32 && !layout.normalized {
-            demands.add(index, Demand::Affine, at);
-        } else {
-            let message = format!("inverse bind matrices are {}, not mat4 of f32", layout.name());
-            report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
-        }
+    let is_matrix = |layout: Layout| layout.columns == 4 && layout.component == Component::F32 && !layout.normalized;
+    if accessor.layout.is_some_and(is_matrix) {
+        demands.add(index, Demand::Affine, at);
+    } else {
+        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("inverse bind matrices are {found}, not mat4 of f32");
+        report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
-    if let Some(count) = accessor.count.filter(|count| *count < skin.joints.len()) {
+    if let Some(count) = Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len()) {
         let message = format!("{count} matrices for {} joints", skin.joints.len());
         report.say(&codes::GLTF_COUNT, "INVALID_IBM_ACCESSOR_COUNT", at, message);
     }
@@ -145,6 +143,9 @@ fn check_node(
     report: &mut Report<'_, '_>,
 ) {
     let code = &codes::GLTF_SKIN_ODD;
+    if skin.joints.is_empty() {
+        return;
+    }
     let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
     let unmoved = Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
     if forest.parents[index].is_some() {
@@ -187,8 +188,13 @@ fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, re
             Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
         };
         let (Some(own), Some(weights)) = (part(format!("JOINTS_{set}")), part(format!("WEIGHTS_{set}"))) else { break };
+        if set == 0 {
+            vertices.resize(own.count, Vec::new());
+        }
+        if own.count != vertices.len() || weights.count != vertices.len() {
+            return;
+        }
         let (own, weights) = (own.vectors::<4>(), weights.vectors::<4>());
-        vertices.resize(vertices.len().max(own.len().min(weights.len())), Vec::new());
         for (vertex, (own, weights)) in vertices.iter_mut().zip(own.into_iter().zip(weights)) {
             vertex.extend(own.into_iter().zip(weights));
         }
@@ -216,27 +222,33 @@ fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, re
 
 impl Influences {
     fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
-        /// What 8 bits a weight allow the sum to miss for each two weights beyond the first two.
-        const STEP: f64 = 0.003_921_6;
-        const ROUNDING: f64 = 2e-6;
-        let put = |slot: &mut Option<usize>, is_wrong: bool| {
-            if is_wrong {
-                slot.get_or_insert(at);
-            }
+        /// What each weight may add to what the sum misses.
+        const ROUNDING: f64 = 2e-7;
+        let put = |slot: &mut Option<usize>| {
+            slot.get_or_insert(at);
         };
-        let (mut sum, mut used) = (0.0, 0_u32);
+        let (mut sum, mut slack) = (0.0_f64, 0.0);
         for (place, (joint, weight)) in vertex.iter().enumerate() {
-            put(&mut self.out, *joint >= joints);
-            put(&mut self.negative, *weight < 0.0);
-            if *weight == 0.0 {
-                put(&mut self.idle, *joint != 0.0);
-                continue;
+            let is_twice = || vertex[..place].iter().any(|(other, own)| *own != 0.0 && other - joint == 0.0);
+            if *joint >= joints {
+                put(&mut self.out);
+            } else if *weight == 0.0 {
+                if *joint != 0.0 {
+                    put(&mut self.idle);
+                }
+            } else if is_twice() {
+                put(&mut self.twice);
+            } else if *weight < 0.0 {
+                put(&mut self.negative);
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "readers sum in 32 bits")]
+                let added = (sum + weight) as f32;
+                sum = f64::from(added);
+                slack += ROUNDING;
             }
-            put(&mut self.twice, vertex[..place].iter().any(|(other, own)| *own != 0.0 && other - joint == 0.0));
-            sum += weight;
-            used += 1;
         }
-        let slack = STEP * f64::from(used.saturating_sub(1) / 2) + ROUNDING;
-        put(&mut self.sum, (sum - 1.0).abs() > slack);
+        if (sum - 1.0).abs() > slack {
+            put(&mut self.sum);
+        }
     }
 }

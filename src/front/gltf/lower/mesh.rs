@@ -58,11 +58,7 @@ impl Meshes {
         if let Some((_, id)) = self.made.iter().rev().find(|(own, _)| *own == key) {
             return Some(*id);
         }
-        let Some(mesh) = read(doc, wanted) else {
-            let message = "the primitive has points or lines or no positions, so it does not show".to_owned();
-            report.say(&codes::GLTF_REMARK, "", wanted.primitive.at, message);
-            return None;
-        };
+        let mesh = read(doc, wanted)?;
         let Some(left) = self.left.checked_sub(mesh.positions.len() + 3 * mesh.triangles.len()) else {
             let message = "the primitives before this one use the accessors many times over already".to_owned();
             report.say(&codes::GLTF_HUGE, "", wanted.primitive.at, message);

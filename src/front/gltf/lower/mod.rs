@@ -118,7 +118,7 @@ impl Lowering<'_, '_, '_> {
             self.light(*light, world);
         }
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
-        let skin = node.skin.and_then(|skin| doc.skins.get(skin)).filter(|_| mesh.is_skinned());
+        let skin = node.skin.and_then(|skin| doc.skins.get(skin)).filter(|_| mesh.is_skinned() == Some(true));
         let shape = deform::Shape {
             weights: pose.weights(index, mesh),
             skin: skin.map(|skin| deform::joints(doc, skin, worlds)),
