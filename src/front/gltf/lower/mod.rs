@@ -144,7 +144,7 @@ impl Lowering<'_, '_, '_> {
             self.light(*light, world);
         }
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
-        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && mesh.is_skinned());
+        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && mesh.is_skinned() == Some(true));
         let Some(shape) = self.shapes.of_node(doc, (index, skin), (pose, worlds), self.report) else { return };
         let places = match (skin, node.instances) {
             (Some(_), _) => Places::One(DAffine3::IDENTITY),
