@@ -11,6 +11,7 @@ use super::mesh::Mesh;
 use super::node::Node;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
+use std::collections::BTreeSet;
 
 /// An asset.
 #[derive(Debug)]
@@ -34,7 +35,7 @@ pub(super) struct Document<'s> {
     /// The scene that is shown.
     pub(super) scene: Option<usize>,
     /// The names in `extensionsUsed`.
-    pub(super) extensions: Vec<String>,
+    pub(super) extensions: BTreeSet<String>,
     /// It is a `.glb`.
     pub(super) is_glb: bool,
 }
@@ -54,8 +55,8 @@ impl Document<'_> {
         }
         let root = Fields::new(json, json.root());
         let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
-        let extensions: Vec<String> = texts.map(std::borrow::Cow::into_owned).collect();
-        let has_lights = extensions.iter().any(|name| name == "KHR_lights_punctual");
+        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let has_lights = extensions.contains("KHR_lights_punctual");
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {
             buffers: each(root, "buffers", Buffer::read),
@@ -79,6 +80,6 @@ impl Document<'_> {
     }
 
     pub(super) fn uses(&self, extension: &str) -> bool {
-        self.extensions.iter().any(|name| name == extension)
+        self.extensions.contains(extension)
     }
 }
