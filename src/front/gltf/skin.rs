@@ -235,11 +235,11 @@ fn check_influences(
     };
     let sets = accessors.into_iter().map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
     let sets: Vec<[Elements<'_>; 2]> = sets.collect();
-    let vertices = sets.first().map_or(0, |[own, _]| own.count);
-    if sets.as_flattened().iter().any(|part| part.count != vertices) {
+    let count = sets.first().map_or(0, |[own, _]| own.count);
+    if sets.iter().flatten().any(|elements| elements.count != count) {
         return;
     }
-    let work = (vertices as u64).saturating_mul(sets.len() as u64);
+    let work = (count as u64).saturating_mul(sets.len() as u64);
     if !report.charge(Resource::Vertices, work, primitive.at, "the skin") {
         return;
     }
@@ -247,7 +247,7 @@ fn check_influences(
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
     let mut vertex = Vec::new();
-    for at in 0..vertices {
+    for at in 0..count {
         vertex.clear();
         for [own, weights] in &sets {
             vertex.extend(own.at::<4>(at).into_iter().zip(weights.at::<4>(at)));
@@ -276,22 +276,15 @@ impl Influences {
         let put = |slot: &mut Option<usize>| {
             slot.get_or_insert(at);
         };
-        let mut moving: Vec<f64> = Vec::with_capacity(vertex.len());
-        let (mut sum, mut slack) = (0.0_f64, 0.0);
+        let (mut sum, mut slack, mut moving) = (0.0_f64, 0.0, BTreeSet::new());
         for (joint, weight) in vertex {
-            let place = moving.binary_search_by(|own| own.total_cmp(joint));
-            if let Err(place) = place
-                && *weight != 0.0
-            {
-                moving.insert(place, *joint);
-            }
             if *joint >= joints {
                 put(&mut self.out);
             } else if *weight == 0.0 {
                 if *joint != 0.0 {
                     put(&mut self.idle);
                 }
-            } else if place.is_ok() {
+            } else if !moving.insert(joint.to_bits()) {
                 put(&mut self.twice);
             } else if *weight < 0.0 {
                 put(&mut self.negative);

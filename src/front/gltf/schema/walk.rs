@@ -1,7 +1,6 @@
 //! The walk over the JSON of an asset: each object against its table, each extension where it may stand.
 
 use super::core::ROOT;
-use super::extension::Extension;
 use super::{Key, Object, POOLS, Pool, extension};
 use crate::diag::codes;
 use crate::front::gltf::json::{Kind, NodeId};
@@ -20,18 +19,16 @@ pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
         let message = format!("an asset is an object, and this is {kind}");
         return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
     }
-    let texts = |key| {
-        let list = report.json.list(root, key);
-        list.filter_map(|item| report.json.text(item)).map(std::borrow::Cow::into_owned).collect::<BTreeSet<_>>()
-    };
-    let declared = texts("extensionsUsed");
     let json = report.json;
+    let declared = json.list(root, "extensionsUsed").filter_map(|item| json.text(item));
+    let declared = declared.map(std::borrow::Cow::into_owned).collect();
     let slot = |item| if json.kind(item) == Kind::Map { Slot::Unused } else { Slot::NoPart };
     let slots = POOLS.map(|(_, way)| {
         let list = json.at(root, way).filter(|list| json.kind(*list) == Kind::List);
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
-    let mut walk = Walk { report, declared, slots, is_known, open: vec![(root, &ROOT)] };
+    let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
+    let mut walk = Walk { report, declared, slots, present, is_known, open: vec![(root, &ROOT)] };
     while let Some((node, object)) = walk.open.pop() {
         walk.object(node, object);
     }
@@ -55,6 +52,8 @@ pub(super) struct Walk<'w, 'r, 's> {
     declared: BTreeSet<String>,
     /// What is in each pool.
     slots: [Vec<Slot>; POOLS.len()],
+    /// The asset has the extension that the pool lies in, if it lies in one.
+    present: [bool; POOLS.len()],
     /// The asset is glTF 2; else only its header is looked at.
     is_known: bool,
     /// Objects that are still to be checked.
@@ -123,8 +122,11 @@ impl Walk<'_, '_, '_> {
                 continue;
             }
             let Some(extension) = extension::find(&name) else { continue };
-            self.has_root(&name, extension, value, owner);
-            match extension.places.iter().find(|(place, _)| *place == owner.name) {
+            let place = extension.places.iter().find(|(place, _)| *place == owner.name);
+            if place.is_some() {
+                self.has_root(&name, value, owner);
+            }
+            match place {
                 Some((_, object)) if is_object => self.open.push((value, object)),
                 Some((_, object)) => self.missing(value, object, 0),
                 None => {
@@ -136,14 +138,9 @@ impl Walk<'_, '_, '_> {
     }
 
     /// What an extension says of a part leans on what it says of the asset, if it says anything there.
-    fn has_root(&mut self, name: &str, extension: &Extension, value: NodeId, owner: &Object) {
-        let json = self.report.json;
-        let has = |place| extension.places.iter().any(|(own, _)| *own == place);
-        if owner.name != ROOT.name
-            && has(ROOT.name)
-            && has(owner.name)
-            && json.at(json.root(), &["extensions", name]).is_none()
-        {
+    fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
+        let pool = POOLS.iter().position(|(_, way)| way.len() > 1 && way[1] == name);
+        if owner.name != ROOT.name && pool.is_some_and(|pool| !self.present[pool]) {
             let message = format!("this refers to `{name}` of the asset, which has none");
             self.report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", value, message);
         }
@@ -163,8 +160,7 @@ impl Walk<'_, '_, '_> {
     pub(super) fn follow(&mut self, node: NodeId, pool: Pool, index: u64) {
         let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else { return };
         let way = POOLS[at].1;
-        let json = self.report.json;
-        if way.len() > 1 && json.at(json.root(), &way[..2]).is_none() {
+        if !self.present[at] {
             return;
         }
         let (count, pool) = (self.slots[at].len(), way[way.len() - 1]);
