@@ -7,7 +7,7 @@ use super::record::{Found, keys, record};
 use super::value::{Point, Size, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
-use crate::math::{BasisFault, Vec3, camera_basis, fallback_up};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use crate::source::Span;
 
 record! {
@@ -107,7 +107,7 @@ impl Lowering {
 /// The angle that the image spans, in radians, if that is given.
 fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
     let Found::Read(Spanned { value: Opening(degrees), span: Some(span) }) = *fov else { return None };
-    let length = Vec3::from_array(up.value.0).length();
+    let length = length(Vec3::from_array(up.value.0));
     if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
         context.report(&codes::NO_EFFECT, place, message, |d| {
@@ -124,7 +124,7 @@ fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
     let Camera { eye, center, up, fov, .. } = camera;
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     if !fov.is_absent() {
-        upward = upward.normalize_or_zero();
+        upward = unit(upward).unwrap_or(Vec3::ZERO);
     }
     match camera_basis(from, to, upward) {
         Ok(basis) => Some(basis),

@@ -10,7 +10,7 @@ use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir::{self, Field};
-use crate::math::{Vec3, atan2, cos, sin, unit_scale};
+use crate::math::{Vec3, atan2, cos, sin, unit};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -99,8 +99,7 @@ fn texture_axis(radius: &Spanned<Radius>, axis: &Found<Spanned<Vector>>, context
         (Found::Absent | Found::Broken, Some(axis)) => axis,
         (Found::Absent | Found::Broken, None) => return Vec3::Z,
     };
-    let direction = unit_scale(Vec3::from_array(chosen.value.0)).map(|(axis, _)| axis.normalize());
-    direction.unwrap_or_else(|| {
+    unit(Vec3::from_array(chosen.value.0)).unwrap_or_else(|| {
         no_effect(chosen, "the axis has no direction, so the texture is turned about [0, 0, 1]");
         Vec3::Z
     })
