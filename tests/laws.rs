@@ -165,11 +165,12 @@ fn scale_shape(shape: &mut ir::Shape, factor: f64) {
     }
 }
 
-/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each.
+/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each; and
+/// −180 and 140, at which powers of a length leave the range of f64.
 fn powers(scenes: usize, index: usize) -> impl Iterator<Item = i32> {
     let all = std::env::var_os("RTC_ALL_POWERS").is_some();
     let (scenes, index) = (i32::try_from(scenes).unwrap(), i32::try_from(index).unwrap());
-    (-40..=40).filter(move |k| all || (k + 40) % scenes == index)
+    (-40..=40).filter(move |k| all || (k + 40) % scenes == index).chain([-180, 140])
 }
 
 /// The scenes of the course, where they are.
@@ -196,7 +197,7 @@ fn a_scene_times_a_power_of_two_makes_the_same_picture() {
             }
         }
     }
-    assert_eq!(seen.len(), 81);
+    assert_eq!(seen.len(), 83);
 }
 
 /// Whether a camera ray of a pixel, of those in a grid, meets two surfaces at the very same t.

@@ -132,6 +132,94 @@ fn a_rule_for_convex_solids_holds_for_a_tiny_direction() {
     lawful(&text("[-8e+160, -1.7e+161, 1e+162]"));
 }
 
+/// A scene of one shape on a floor, all of it times 2^k, seen by the light of a point in the shade of the shape.
+fn scaled(shape: &dyn Fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) -> String, k: i32) -> String {
+    let (vector, length) = (|v: [f64; 3]| list(v, k), |x: f64| format!("{:e}", ldexp(x, k)));
+    let [eye, center, up] = [[0.5, 3.0, 7.0], [0.0, 1.0, 0.0], [0.0, 0.12, 0.0]].map(vector);
+    let (light, floor) = (vector([-4.0, 6.0, 5.0]), vector([0.0, -40.0, 0.0]));
+    format!(
+        "Camera: {{eye: {eye}, center: {center}, up: {up}, viewSize: [32, 28]}}\nShadows: true\nMaxRecursionDepth: 2\n\
+         Lights: [{{position: {light}, color: [0.9, 0.8, 0.7]}}]\nObjects:\n- {{{}, {MATERIAL}}}\n\
+         - {{type: sphere, position: {floor}, radius: {}, {MATERIAL}}}\n",
+        shape(&vector, &length),
+        length(40.0)
+    )
+}
+
+type Shape = fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) -> String;
+
+/// Shapes, each by its numbers times a power of two.
+const SHAPES: [Shape; 8] = [
+    |v, _| {
+        let corners = [[-1.0, 0.1, 1.0], [1.2, 0.1, 0.6], [1.2, 2.0, 0.1], [-1.0, 1.4, -1.3]].map(v);
+        format!("type: quad, v0: {}, v1: {}, v2: {}, v3: {}", corners[0], corners[1], corners[2], corners[3])
+    },
+    |v, _| {
+        format!(
+            "type: quad, position: {}, up: {}, side: {}",
+            v([-1.0, 0.1, 0.0]),
+            v([0.3, 2.0, 0.1]),
+            v([2.0, 0.1, 0.6])
+        )
+    },
+    |v, l| format!("type: sphere, position: {}, radius: {}", v([0.0, 1.0, 0.0]), l(1.1)),
+    |v, l| format!("type: cone, position: {}, up: {}, radius: {}", v([0.0, 0.1, 0.0]), v([0.4, 2.0, 0.3]), l(1.0)),
+    |v, l| format!("type: cone, position: {}, up: {}, radius: {}", v([0.0, 1.0, 0.0]), v([4e-6, 2e-5, 3e-6]), l(1.0)),
+    |v, l| {
+        format!(
+            "type: torus, position: {}, radius: {}, alpha: {}, direction: [0.3, 1, 0.6]",
+            v([0.0, 1.0, 0.0]),
+            l(0.9),
+            l(0.3)
+        )
+    },
+    |v, l| format!("type: cylinder, p1: {}, p2: {}, radius: {}", v([-0.7, 0.4, 0.3]), v([0.8, 1.6, -0.4]), l(0.6)),
+    |v, _| {
+        format!(
+            "type: prism, v0: {}, v1: {}, v2: {}, up: {}",
+            v([-1.0, 0.1, 0.8]),
+            v([0.9, 0.1, 0.9]),
+            v([0.1, 1.7, 0.7]),
+            v([0.2, 0.1, -1.4])
+        )
+    },
+];
+
+#[test]
+fn a_shape_times_a_power_of_two_makes_the_same_picture() {
+    for shape in SHAPES {
+        let picture = lawful(&scaled(&shape, 0));
+        for k in [-180, -90, -1, 90, 180] {
+            let other = lawful(&scaled(&shape, k));
+            let differing = picture.iter().zip(&other).filter(|(a, b)| a != b).count();
+            assert!(differing == 0, "{differing} values differ at 2^{k}:\n{}", scaled(&shape, 0));
+        }
+    }
+}
+
+/// A cone so flat that nothing is left of its height is the disc of its base, from above, from below and edge on.
+#[test]
+fn a_flat_cone_is_no_wider_than_its_base() {
+    let axis = [0.2, 1.0, 0.1];
+    for eye in ["[0.5, 3, 7]", "[0.3, -2, 6]", "[-4, 1.3, 2]", "[0, 9, 0.5]"] {
+        let seen = |keys: &str| {
+            let text = format!(
+                "Camera: {{eye: {eye}, center: [0, 1, 0], up: [0, 0.12, 0.01], viewSize: [64, 56]}}\nShadows: true\n\
+                 Lights: [{{position: [-4, 6, 5], color: [0.9, 0.8, 0.7]}}]\nObjects:\n\
+                 - {{{keys}, radius: 1.25, {MATERIAL}}}\n- {{type: sphere, position: [0, -40, 0], radius: 40, {MATERIAL}}}\n"
+            );
+            lawful(&text).into_iter().map(f64::from_bits).collect::<Vec<_>>()
+        };
+        let disc = seen(&format!("type: circle, center: [0.1, 1, 0.2], normal: {}", list(axis, 0)));
+        for height in [1e-12, 1e-14, 1e-17, 1e-20, 1e-40, 1e-58] {
+            let up = list(axis.map(|component| component * height), 0);
+            let cone = seen(&format!("type: cone, position: [0.1, 1, 0.2], up: {up}"));
+            let differing = disc.iter().zip(&cone).filter(|(a, b)| (*a - *b).abs() > 1e-9).count();
+            assert!(differing <= 6, "{differing} values differ from {eye} at height {height:e}");
+        }
+    }
+}
+
 /// Objects with a vector whose length means something.
 const LONG: [&str; 4] = [
     "type: cone, position: [0, 0.1, 0], up: VECTOR, radius: 1",
