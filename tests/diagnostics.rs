@@ -18,7 +18,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Codes that no scene text can raise: files, the container, renders, and faults only a hand-made IR can have. Texts
-/// for SY010 and SY011 are too large to keep; `tests/hostile.rs` makes them.
+/// for SY010 and SY011 are too large to keep; `tests/hostile` makes them.
 const ELSEWHERE: &[&str] =
     &["IO", "IR", "RD", "SY010", "SY011", "GL048", "GL049", "VA014", "VA017", "VA018", "VA020", "VA021"];
 

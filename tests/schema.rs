@@ -11,7 +11,7 @@
 use rtc::diag::{Severity, Sink};
 use rtc::front::{self, course};
 use rtc::pipeline;
-use rtc::source::SourceMap;
+use rtc::source::{SourceMap, budget};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,8 @@ fn root() -> PathBuf {
 #[test]
 fn the_committed_schema_and_page_are_current() {
     let schema = format!("{:#}\n", course::schema());
-    for (name, current) in [("scene.schema.json", schema), ("course-format.md", course::page())] {
+    let pages = [("scene.schema.json", schema), ("course-format.md", course::page()), ("limits.md", budget::page())];
+    for (name, current) in pages {
         let path = root().join("schema").join(name);
         if std::env::var_os("RTC_UPDATE").is_some() {
             fs::write(&path, &current).unwrap();

@@ -39,20 +39,33 @@ pub(super) struct Proven {
 impl Input {
     /// Reads the file at `path`, or standard input if it is `-`.
     pub(super) fn read(path: &Path, reading: &Reading) -> Self {
-        let Reading { stdin_name, strict, lenient, asset_root, time, animation, variant, camera, allow_huge } = reading;
+        let Reading {
+            stdin_name,
+            strict,
+            lenient,
+            asset_root,
+            time,
+            animation,
+            variant,
+            camera,
+            limit: _,
+            allow_huge: _,
+        } = reading;
+        let limits = reading.limits();
         let options = Options {
             front: front::Options {
                 strict: *strict,
                 lenient: *lenient,
                 asset_root: asset_root.clone(),
+                home: std::env::home_dir(),
                 time: *time,
                 animation: animation.clone(),
                 variant: variant.clone(),
                 camera: camera.clone(),
             },
-            valid: valid::Options { allow_huge: *allow_huge },
+            valid: valid::Options { limits },
         };
-        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let (mut map, mut sink) = (SourceMap::with_limits(limits), Sink::within(&limits));
         let from_stdin = path.as_os_str() == "-";
         let name = if from_stdin {
             stdin_name.clone().unwrap_or_else(|| "<stdin>".to_owned())
@@ -107,7 +120,7 @@ impl Input {
 
     /// Tells what was found since the last time, and whether the input is fit for use.
     pub(super) fn tell(&mut self, talk: &mut Talk) -> Result<(), Failure> {
-        let sink = std::mem::take(&mut self.sink);
+        let sink = std::mem::replace(&mut self.sink, Sink::within(&self.options.valid.limits));
         let verdict = match self.file {
             None => Err(Failure::Unreadable),
             Some(_) if sink.has_errors() => Err(Failure::Findings),

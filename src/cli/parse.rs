@@ -4,6 +4,7 @@ use crate::image::Backdrop;
 use crate::ir::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
+use crate::source::Resource;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -15,6 +16,28 @@ pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
 pub(super) fn moment(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number: &f64| number.is_finite());
     number.ok_or_else(|| "expected a number of seconds, as 1.5".to_owned())
+}
+
+/// A limit by its name, and its number, which a unit may follow.
+pub(super) fn limit(text: &str) -> Result<(Resource, u64), String> {
+    let expected = || {
+        let names: Vec<_> = Resource::all().map(Resource::name).collect();
+        format!("expected a limit and a number, as memory=2GiB or rays=5000000; there are {}", names.join(", "))
+    };
+    let number = |text: &str| {
+        let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
+        let unit: u64 = match text.strip_prefix(digits)?.trim() {
+            "" => 1,
+            "KiB" => 1 << 10,
+            "MiB" => 1 << 20,
+            "GiB" => 1 << 30,
+            _ => return None,
+        };
+        digits.parse::<u64>().ok()?.checked_mul(unit)
+    };
+    let (name, value) = text.split_once('=').ok_or_else(expected)?;
+    let resource = Resource::all().find(|resource| resource.name() == name.trim()).ok_or_else(expected)?;
+    Ok((resource, number(value.trim()).ok_or_else(expected)?))
 }
 
 /// Finite numbers with commas between them.

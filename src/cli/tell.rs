@@ -4,6 +4,7 @@ use super::args::{Cli, Completions, Format, Man, Schema};
 use super::{Failure, output};
 use crate::codec;
 use crate::front::course;
+use crate::source::budget;
 use clap::CommandFactory;
 
 /// Prints the JSON Schema of a format, or its page.
@@ -12,6 +13,7 @@ pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
         Format::Scene => format!("{:#}\n", course::schema()),
         Format::Ir => format!("{:#}\n", codec::schema()),
         Format::Page => course::page(),
+        Format::Limits => budget::page(),
     };
     output::to_stdout(text.as_bytes())
 }

@@ -1,9 +1,11 @@
 //! Files, their bytes, and spans into them: every byte a person wrote has a place.
 
+pub mod budget;
 mod loader;
 mod map;
 mod search;
 
+pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use loader::{LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
-pub use search::{Found, Missing, Search};
+pub use search::{Folder, Found, Kind, Missing, Search};

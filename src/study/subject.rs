@@ -8,6 +8,7 @@ use crate::image::Image;
 use crate::ir::{Origins, Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
+use crate::source::Limits;
 use crate::valid::{self, ValidScene};
 
 /// A scene, and the part of its picture that is looked at.
@@ -103,7 +104,7 @@ impl<'bench> Subject<'bench> {
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
             let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
-            let work = || render(&scene, &plan(), job, &|rays| self.bench.goes_on(rays));
+            let work = || render(&scene, &plan(), job, &|step| self.bench.goes_on(step));
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -127,7 +128,7 @@ impl<'bench> Subject<'bench> {
         let tiles = Some(Tiles { seed: self.seed, last });
         let job = Job { tiles, seeds, ..Job::default() };
         let plan = Plan::by(arithmetic, scene, Rules::ALL);
-        let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
+        let film = render(scene, &plan, &job, &|step| self.bench.goes_on(step)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
             return Ok(Shot { tiles: vec![film.image], counts });
@@ -146,7 +147,7 @@ impl<'bench> Subject<'bench> {
 
 /// The proof of a scene that was proven before, in whatever setting.
 pub(super) fn prove(scene: &Scene) -> ValidScene {
-    let options = valid::Options { allow_huge: true };
+    let options = valid::Options { limits: Limits::NONE };
     let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
     proof.expect("the scene was proven before, and a setting is in range")
 }

@@ -26,14 +26,15 @@ pub use surrounding::Environment;
 
 use crate::diag::Sink;
 use crate::ir::{self, Origins};
+use crate::source::Limits;
 use check::{Check, Counts};
 use std::sync::Arc;
 
 /// What the proof lets pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// Lifts the limits on image size and rays.
-    pub allow_huge: bool,
+    /// On the pixels of the picture, and its rays.
+    pub limits: Limits,
 }
 
 /// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles with an area.

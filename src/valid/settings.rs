@@ -5,15 +5,10 @@ use crate::color::Tone;
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
+use crate::source::Resource;
 use std::num::NonZeroU32;
 
 pub use crate::ir::Pattern;
-
-/// The largest image without `--allow-huge`, in pixels.
-const MAX_PIXELS: u128 = 16_384 * 16_384;
-
-/// The largest number of rays without `--allow-huge`.
-const MAX_RAYS: u128 = 1 << 32;
 
 /// The largest number of bounces: a path keeps a few bytes for each.
 const MAX_DEPTH: u32 = 1_000_000;
@@ -134,20 +129,18 @@ fn at(field: Field) -> Place {
 pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
-    if options.allow_huge {
-        return;
-    }
-    if pixels > MAX_PIXELS {
+    let limit = options.limits.of(Resource::Pixels, 0);
+    if pixels > limit.into() {
         let message = format!("the image is too large: {width} × {height} = {pixels} pixels");
         let finding = Diagnostic::new(&codes::HUGE_IMAGE, message);
-        let finding = finding.hint(format!("at most {MAX_PIXELS} pixels; `--allow-huge` lifts the limit"));
+        let finding = finding.hint(format!("at most {limit} pixels; `--limit pixels=…` sets another limit"));
         check.report(Place::new(Noun::Camera, 0, Field::Size), "", finding);
         return;
     }
-    too_many_rays(scene, pixels, check);
+    too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
 }
 
-fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
+fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
     let ir::Settings { supersampling, max_depth, ref mode, shadows: _, pattern: _, light_samples: _ } = scene.settings;
     let paths = if let ir::Mode::Path(path) = mode { u128::from(path.samples) } else { 1 };
     let ir::Lens { radius, samples } = scene.camera.lens;
@@ -160,7 +153,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
         .saturating_mul(paths)
         .saturating_mul(lens)
         .saturating_mul(glossy.saturating_pow(bounces));
-    if rays <= MAX_RAYS {
+    if rays <= limit.into() {
         return;
     }
     let [width, height] = scene.camera.size;
@@ -174,7 +167,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, check: &mut Check<'_>) {
     let total = if rays == u128::MAX { "more than 2¹²⁸".to_owned() } else { rays.to_string() };
     let finding =
         Diagnostic::new(&codes::TOO_MANY_RAYS, format!("the picture takes too many rays: {product} = {total}"));
-    let finding = finding.hint("at most 2³² = 4294967296 rays from the eye; `--allow-huge` lifts the limit");
+    let finding = finding.hint(format!("at most {limit} rays from the eye; `--limit rays=…` sets another limit"));
     check.report(at(Field::Supersampling), "", finding);
 }
 

@@ -1,7 +1,8 @@
 //! What every command with a scene is told: how to read it, and how to tell findings.
 
-use super::super::parse::{folder, moment};
+use super::super::parse::{folder, limit, moment};
 use crate::diag;
+use crate::source::{Limits, Resource};
 use clap::{ArgAction, Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -32,9 +33,21 @@ pub(in crate::cli) struct Reading {
     /// The camera of a glTF asset: its name, that of its node, or its index [default: the first that shows anything]
     #[arg(long, value_name = "NAME|INDEX")]
     pub(in crate::cli) camera: Option<String>,
-    /// Lift the limits on the size of the picture and the number of rays
+    /// Set a limit on what the run may take, as memory=2GiB; `rtc schema limits` lists them
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = limit)]
+    pub(in crate::cli) limit: Vec<(Resource, u64)>,
+    /// Lift all limits on what the run may take
     #[arg(long)]
     pub(in crate::cli) allow_huge: bool,
+}
+
+impl Reading {
+    /// What the run may take.
+    pub(in crate::cli) fn limits(&self) -> Limits {
+        let mut limits = if self.allow_huge { Limits::NONE } else { Limits::default() };
+        self.limit.iter().for_each(|(resource, limit)| limits.set(*resource, *limit));
+        limits
+    }
 }
 
 /// How findings are told.

@@ -141,6 +141,8 @@ pub(super) enum Format {
     Ir,
     /// Scenes, as a page to read in Markdown
     Page,
+    /// What a run may take of the machine, as a page to read in Markdown
+    Limits,
 }
 
 #[cfg(test)]

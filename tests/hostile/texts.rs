@@ -3,7 +3,8 @@
 //! One test, because the allocator that watches the memory is one for the whole binary. Work is bounded by the bytes
 //! it allocates in all and by the nodes it looks at (SY011), not by a clock.
 
-#![expect(clippy::unwrap_used, unsafe_code, reason = "a test stops at the first surprise; an allocator is unsafe code")]
+#![expect(unsafe_code, reason = "an allocator is unsafe code")]
+
 use rtc::diag::{Severity, Sink};
 use rtc::pipeline;
 use rtc::source::SourceMap;

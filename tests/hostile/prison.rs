@@ -1,0 +1,71 @@
+//! Runs rtc with little memory and time: 256 MiB of addresses, 10 CPU-seconds, two threads. Linux alone has both limits.
+
+use super::make::{self, Repro};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use tempfile::TempDir;
+
+/// How a run ended.
+#[derive(Debug)]
+struct Outcome {
+    /// The exit code; none if a signal ended it.
+    code: Option<i32>,
+    /// What it said.
+    words: String,
+}
+
+impl Outcome {
+    /// True if it ended by itself with a finding of this code.
+    fn is_refused(&self, finding: &str) -> bool {
+        self.code == Some(1) && self.words.contains(&format!("error[{finding}]"))
+    }
+}
+
+/// A folder with these files in it.
+fn folder(files: &[(String, Vec<u8>)]) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    for (name, bytes) in files {
+        fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    folder
+}
+
+/// Runs `rtc` with these arguments in a folder, within the limits.
+fn run(folder: &Path, arguments: &[String]) -> Outcome {
+    let program = env!("CARGO_BIN_EXE_rtc");
+    let output = Command::new("sh")
+        .args(["-c", "ulimit -v 262144; ulimit -t 10; exec \"$@\"", "sh", program])
+        .args(arguments)
+        .current_dir(folder)
+        .env("RAYON_NUM_THREADS", "2")
+        .output()
+        .unwrap();
+    Outcome { code: output.status.code(), words: String::from_utf8_lossy(&output.stderr).into_owned() }
+}
+
+/// Runs each, and complains of those that did not end as expected.
+fn try_all(repros: Vec<Repro>) {
+    let mut faults = String::new();
+    for Repro { name, files, arguments, expected } in repros {
+        let outcome = run(folder(&files).path(), &arguments);
+        let is_fine = expected.map_or(outcome.code == Some(0), |finding| outcome.is_refused(finding));
+        if !is_fine {
+            writeln!(faults, "{name}: {outcome:?}").unwrap();
+        }
+    }
+    assert!(faults.is_empty(), "{faults}");
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn hostile_assets_are_refused_or_harmless() {
+    try_all(make::gltf::all());
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn hostile_images_meshes_and_scenes_are_refused_or_harmless() {
+    try_all(make::media::all());
+}
