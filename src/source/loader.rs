@@ -70,7 +70,8 @@ impl Loader {
 
 /// All there is to read, most likely `expected` bytes.
 fn all(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
-    let mut bytes = Vec::with_capacity(expected);
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(expected).map_err(|_| LoadError::Io(std::io::ErrorKind::OutOfMemory.into()))?;
     reader.take(limit + 1).read_to_end(&mut bytes).map_err(LoadError::Io)?;
     if bytes.len() as u64 > limit {
         return Err(LoadError::TooLarge { limit });

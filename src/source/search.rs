@@ -37,6 +37,31 @@ pub struct Found {
     pub elsewhere: bool,
 }
 
+/// What tells a file from others, by whatever names and links it is reached.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Identity(Key);
+
+#[cfg(unix)]
+type Key = (u64, u64);
+
+#[cfg(not(unix))]
+type Key = PathBuf;
+
+impl Found {
+    /// What tells it from other files; `None` if it has gone.
+    #[must_use]
+    pub fn identity(&self) -> Option<Identity> {
+        #[cfg(unix)]
+        let key = {
+            use std::os::unix::fs::MetadataExt;
+            fs::metadata(&self.path).ok().map(|metadata| (metadata.dev(), metadata.ino()))
+        };
+        #[cfg(not(unix))]
+        let key = Some(self.path.clone());
+        key.map(Identity)
+    }
+}
+
 /// Why there is no such file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Missing {

@@ -1,6 +1,6 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
-use super::{Porter, Wanted, Without};
+use super::{Known, Porter, Wanted, Without};
 use crate::front::{Options, gltf};
 use crate::ir::{
     Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual, Scene, Shape,
@@ -8,42 +8,32 @@ use crate::ir::{
 };
 use crate::math::Vec3;
 use glam::DAffine3;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
-
-/// The assets brought so far, each once: what is to be placed of them, or nothing if they have errors.
-#[derive(Default)]
-pub(super) struct Assets {
-    known: BTreeMap<PathBuf, Option<Placeable>>,
-}
 
 /// What is placed of an asset; it refers to what was added to the scene.
-struct Placeable {
+pub(super) struct Placeable {
     surfaces: Vec<Surface>,
     names: Vec<String>,
     lights: Vec<Light>,
 }
 
-impl Assets {
-    /// Brings an asset and places it; without its file, nothing shows of it.
-    pub(super) fn bring(
-        &mut self,
-        place: [[f64; 3]; 4],
-        wish: &Wanted,
-        lowered: &mut Lowered,
-        porter: &mut Porter<'_>,
-    ) {
-        let Some(found) = porter.find(wish, Without::Object) else { return };
-        let asset = self.known.entry(found.path.clone()).or_insert_with(|| {
-            let file = porter.loader.file(&found.shown, porter.map);
-            let file = file.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
-            let options = Options { camera: None, ..porter.options.clone() };
-            let asset = gltf::lower(file.ok()?, porter.map, &options, porter.sink)?;
-            Some(add(asset, lowered))
-        });
-        if let Some(asset) = asset {
-            asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
-        }
+/// Brings an asset and places it; without its file, nothing shows of it.
+pub(super) fn bring(
+    place: [[f64; 3]; 4],
+    wish: &Wanted,
+    lowered: &mut Lowered,
+    known: &mut Known<Placeable>,
+    porter: &mut Porter<'_>,
+) {
+    let Some(found) = porter.find(wish, Without::Object) else { return };
+    let asset = known.of(&found, || {
+        let file = porter.loader.file(&found.shown, porter.map);
+        let file = file.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+        let options = Options { camera: None, ..porter.options.clone() };
+        let asset = gltf::lower(file.ok()?, porter.map, &options, porter.sink)?;
+        Some(add(asset, lowered))
+    });
+    if let Some(asset) = asset {
+        asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
     }
 }
 

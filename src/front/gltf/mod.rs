@@ -71,7 +71,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
         }
     };
     keys_twice(&tree, sink);
-    let mut report = Report::new(&tree, sink, options);
+    let mut report = Report::new(&tree, sink, options, map.budget());
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
     let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);

@@ -3,6 +3,7 @@
 use super::json::{NodeId, Tree};
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
+use crate::source::{Budget, Exceeded};
 
 /// Takes the findings about one asset.
 pub(super) struct Report<'r, 's> {
@@ -10,17 +11,24 @@ pub(super) struct Report<'r, 's> {
     pub(super) json: &'r Tree<'s>,
     sink: &'r mut Sink,
     options: &'r Options,
+    /// What the run may still take.
+    pub(super) budget: &'r Budget,
 }
 
 impl<'r, 's> Report<'r, 's> {
-    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options) -> Self {
-        Self { json, sink, options }
+    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options, budget: &'r Budget) -> Self {
+        Self { json, sink, options, budget }
     }
 
     /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
     pub(super) fn say(&mut self, code: &'static Code, alias: &'static str, at: NodeId, message: impl Into<String>) {
         let finding = self.finding(code, alias, at, message.into());
         self.sink.push(finding);
+    }
+
+    /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the image`.
+    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
+        self.advise(&codes::OVER_LIMIT, "", at, format!("{what} asks for too much: {fault}"), fault.hint());
     }
 
     /// The same, with what to do.
