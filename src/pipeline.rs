@@ -8,7 +8,7 @@ use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
 use crate::plan::Plan;
-use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job};
+use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, Proceed};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, ValidScene};
@@ -105,9 +105,9 @@ impl Renderer {
 
     /// Renders a picture. `None` if `proceed` said stop.
     ///
-    /// `proceed` is called from all threads after each pixel with the number of rays it took.
+    /// `proceed` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         self.pool.install(|| self.world.render(job, proceed))
     }
 
@@ -136,7 +136,7 @@ pub fn render(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &(dyn Fn(u64) -> bool + Sync),
+    proceed: &Proceed<'_>,
 ) -> Result<Option<Film>, ThreadPoolBuildError> {
     Ok(Renderer::new(scene, plan, threads)?.render(job, proceed))
 }
@@ -150,7 +150,7 @@ pub fn verify(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &(dyn Fn(u64) -> bool + Sync),
+    proceed: &Proceed<'_>,
 ) -> Result<Option<Result<Film, Fault>>, ThreadPoolBuildError> {
     Ok(pool(threads)?.install(|| render::verify(scene, plan, job, proceed)))
 }

@@ -8,7 +8,7 @@ use rtc::image::Image;
 use rtc::ir::{Overrides, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Rules};
-use rtc::render::{Job, render};
+use rtc::render::{Job, Step, render};
 use rtc::source::SourceMap;
 use rtc::study::{self, About, Bench, Clock, Effort, Knob, PowerLaw, Row, Setting, Stopped, Study};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -56,8 +56,8 @@ fn study_by(scene: &Scene, rays: u64, threads: usize, mut pace: impl FnMut() -> 
         Duration::from_secs_f64(read.1 * 1e-6)
     });
     let clock = || tick.lock().unwrap()(traced.load(Ordering::Relaxed));
-    let proceed = |rays| {
-        traced.fetch_add(rays, Ordering::Relaxed);
+    let proceed = |step: Step| {
+        traced.fetch_add(step.rays, Ordering::Relaxed);
         true
     };
     let bench = Bench::new(threads, Clock { cpu: &clock, wall: &clock }, &proceed).unwrap();

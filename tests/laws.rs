@@ -6,6 +6,7 @@
     reason = "a test stops at the first surprise, and says what it skips"
 )]
 
+mod scale;
 mod small;
 
 use rtc::codec::{self, Form};
@@ -16,6 +17,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Crop, Geometry, Job, Seeds, Shear, Tiles, World, camera_ray, image_point};
 use rtc::source::SourceMap;
+use scale::scaled;
 use small::{WHOLE, bits, film, paths, scenes_in, small};
 use std::path::Path;
 
@@ -103,66 +105,6 @@ fn seeds_change_the_noise_alone() {
     }
     mean.pixels.iter_mut().flatten().for_each(|sum| *sum /= seeds as f64);
     assert!(distance(&mean, &truth) < 0.25 * noise, "64 pictures of 1 point are one of 64: {noise}");
-}
-
-/// Every length of the scene times a factor; what is a direction or a colour stays.
-fn scaled(scene: &Scene, factor: f64) -> Scene {
-    let mut scene = scene.clone();
-    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    let ir::Camera { eye, center, right, up, size: _, lens, projection: _ } = &mut scene.camera;
-    for vector in [eye, center, right, up] {
-        scale(vector);
-    }
-    lens.radius *= factor;
-    for light in &mut scene.lights {
-        match light {
-            ir::Light::Point(light) => {
-                scale(&mut light.position);
-                light.radius *= factor;
-            }
-            ir::Light::Punctual(ir::Punctual { emitter: ir::Emitter::Sun { direction: _ }, intensity: _ }) => {}
-            ir::Light::Punctual(_) => panic!("the scenes of the repo have no other lights"),
-        }
-    }
-    for surface in &mut scene.surfaces {
-        scale_shape(&mut surface.shape, factor);
-    }
-    scene
-}
-
-fn scale_shape(shape: &mut ir::Shape, factor: f64) {
-    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    match shape {
-        ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: _ }) => {
-            scale(center);
-            *radius *= factor;
-        }
-        ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
-        ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) => vertices.iter_mut().for_each(scale),
-        ir::Shape::Quad(ir::Quad { vertices }) => vertices.iter_mut().for_each(scale),
-        ir::Shape::Disc(ir::Disc { center, normal: _, radius }) => {
-            scale(center);
-            *radius *= factor;
-        }
-        ir::Shape::Cylinder(ir::Cylinder { base, axis: _, height, radius }) => {
-            scale(base);
-            *height *= factor;
-            *radius *= factor;
-        }
-        ir::Shape::Cone(ir::Cone { base, up, radius }) => {
-            scale(base);
-            scale(up);
-            *radius *= factor;
-        }
-        ir::Shape::Torus(ir::Torus { center, axis: _, major, minor }) => {
-            scale(center);
-            *major *= factor;
-            *minor *= factor;
-        }
-        ir::Shape::Instance(ir::Instance { mesh: _, world_from_object }) => {
-            world_from_object.iter_mut().for_each(scale);
-        }
-    }
 }
 
 /// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each.

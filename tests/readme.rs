@@ -13,6 +13,7 @@
 
 use rtc::diag::Sink;
 use rtc::pipeline::{self, Options};
+use rtc::render::Step;
 use rtc::source::{Loader, SourceMap};
 use rtc::study::{self, About, Bench, Clock, Effort};
 use std::fs;
@@ -135,8 +136,8 @@ fn cheap_study(path: &str) -> String {
     let scene = pipeline::load(file, &mut map, &options, &mut sink).unwrap().scene;
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Relaxed));
-    let proceed = |rays| {
-        traced.fetch_add(rays, Relaxed);
+    let proceed = |step: Step| {
+        traced.fetch_add(step.rays, Relaxed);
         true
     };
     let bench = Bench::new(0, Clock { cpu: &clock, wall: &clock }, &proceed).unwrap();

@@ -79,8 +79,7 @@ fn shipped_code(text: &str) -> String {
 /// The rooms a text names as `crate::room` or within `use crate::{…}`.
 fn rooms_named(text: &str) -> Vec<&'static str> {
     let mut named = Vec::new();
-    for (at, _) in text.match_indices("crate::") {
-        let rest = &text[at + "crate::".len()..];
+    for rest in text.split("crate::").skip(1) {
         let list = match rest.strip_prefix('{') {
             Some(list) => list.split('}').next().unwrap_or(list),
             None => rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(rest),

@@ -1,5 +1,6 @@
 //! How far a long render is: a bar on a terminal, nothing elsewhere; and how long it took.
 
+use crate::render::Step;
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
@@ -23,10 +24,10 @@ impl Progress {
         Self { bar, rays }
     }
 
-    /// One more pixel is done.
-    pub(super) fn pixel(&self, rays: u64) {
-        self.rays.fetch_add(rays, Ordering::Relaxed);
-        self.bar.inc(1);
+    /// A step of the work is done.
+    pub(super) fn step(&self, step: Step) {
+        self.rays.fetch_add(step.rays, Ordering::Relaxed);
+        self.bar.inc(u64::from(step.is_done));
     }
 
     /// A round of `pixels` more begins, of a render of which `words` say how good it is.

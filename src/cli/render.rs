@@ -172,8 +172,8 @@ impl Plan {
         let values = self.look.values(&scene.settings().mode);
         let job = Job { crop: Some(window), values, behind: self.look.behind(), ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
-        let proceed = |rays| {
-            progress.pixel(rays);
+        let proceed = |step| {
+            progress.step(step);
             !interrupt.is_raised()
         };
         let film = if self.verify {
@@ -205,8 +205,8 @@ impl Plan {
         };
         let progress = Progress::start(0, quiet);
         let watch = Watch {
-            proceed: &|rays| {
-                progress.pixel(rays);
+            proceed: &|step| {
+                progress.step(step);
                 !interrupt.is_raised()
             },
             elapsed: &|| progress.elapsed(),

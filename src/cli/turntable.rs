@@ -41,10 +41,11 @@ impl Turntable {
 pub(super) fn name(pattern: &Path, frame: u32) -> PathBuf {
     let number = frame + 1;
     let file = pattern.file_name().unwrap_or_default().to_string_lossy();
-    let placed = file.match_indices('%').find_map(|(at, _)| {
-        let (width, rest) = file[at + 1..].split_once('d')?;
+    let placed = file.match_indices('%').find_map(|(at, sign)| {
+        let (before, after) = file.split_at(at);
+        let (width, rest) = after.strip_prefix(sign)?.split_once('d')?;
         let width: usize = if width.is_empty() { 1 } else { width.parse().ok().filter(|width| *width < 10)? };
-        Some(format!("{}{number:0width$}{rest}", &file[..at]))
+        Some(format!("{before}{number:0width$}{rest}"))
     });
     placed.map_or_else(
         || {

@@ -127,7 +127,7 @@ mod tests {
         let text = r#"{"a": [1, {"b": "x"}, 22], "c": {}}"#;
         let found = |read: &str| {
             let culprit = culprit(text, text.find(read).unwrap() + read.len());
-            (text[culprit.start..culprit.end].to_owned(), culprit.pointer)
+            (text.get(culprit.start..culprit.end).unwrap().to_owned(), culprit.pointer)
         };
         let pair = |text: &str, pointer: &str| (text.to_owned(), pointer.to_owned());
         assert_eq!(found(r#""x""#), pair(r#""x""#, "/a/1/b"));

@@ -95,7 +95,7 @@ impl<'a> Source<'a> {
 
     fn fault(&self, error: &serde_json::Error) -> Box<Diagnostic> {
         let full = error.to_string();
-        let what = full.rfind(" at line ").map_or(full.as_str(), |end| &full[..end]);
+        let what = full.rsplit_once(" at line ").map_or(full.as_str(), |(what, _)| what);
         let read = locate::offset(self.text, error.line(), error.column());
         let place = |start, end| span(self.file, self.base + start, self.base + end);
         match error.classify() {
@@ -115,8 +115,9 @@ impl<'a> Source<'a> {
     fn version_place(&self) -> (usize, usize) {
         let key = "\"irVersion\"";
         let after = self.text.find(key).map_or(0, |at| at + key.len());
-        let number = self.text[after..].find(|c: char| c.is_ascii_digit()).map_or(0, |skip| after + skip);
-        let length = self.text[number..].bytes().take_while(u8::is_ascii_digit).count();
+        let bytes = self.text.as_bytes();
+        let number = (after..bytes.len()).find(|at| bytes[*at].is_ascii_digit()).unwrap_or(0);
+        let length = bytes.iter().skip(number).take_while(|byte| byte.is_ascii_digit()).count();
         (self.base + number, self.base + number + length)
     }
 }

@@ -4,7 +4,7 @@ use super::{Diagnostic, Severity};
 use crate::source::{Limits, Resource};
 
 /// Where every stage pushes its findings.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Sink {
     /// No more findings than this are kept; the rest is counted.
     capacity: usize,

@@ -42,9 +42,7 @@ impl<'a> RadianceFile<'a> {
     /// # Errors
     /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
-        let is_exr = bytes.starts_with(&::exr::meta::magic_number::BYTES);
-        let is_hdr = bytes.starts_with(b"#?RADIANCE") || bytes.starts_with(b"#?RGBE");
-        match (is_exr, is_hdr) {
+        match (is_exr(bytes), is_hdr(bytes)) {
             (true, _) => open_exr(bytes, most_pixels),
             (false, true) => open_hdr(bytes, most_pixels),
             (false, false) => {
@@ -84,6 +82,20 @@ impl<'a> RadianceFile<'a> {
         }
         Ok(Radiance { width: size.width, height: size.height, bytes })
     }
+}
+
+/// Whether a file that begins so is one that [`RadianceFile`] reads.
+#[must_use]
+pub fn is_radiance(head: &[u8]) -> bool {
+    is_exr(head) || is_hdr(head)
+}
+
+fn is_exr(head: &[u8]) -> bool {
+    head.starts_with(&::exr::meta::magic_number::BYTES)
+}
+
+fn is_hdr(head: &[u8]) -> bool {
+    head.starts_with(b"#?RADIANCE") || head.starts_with(b"#?RGBE")
 }
 
 fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {

@@ -3,6 +3,7 @@
 use super::aov::Aov;
 use super::basic::Basic;
 use super::film::{Crop, Film, Job};
+use super::heartbeat::Proceed;
 use super::plain::PlainShape;
 use super::progressive::Growing;
 use super::shape::Shape;
@@ -68,9 +69,9 @@ impl AnyWorld {
 
     /// Renders a picture; `None` if `proceed` said stop.
     ///
-    /// `proceed` is called from all threads after each pixel with the number of rays it took.
+    /// `proceed` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         match self {
             Self::Basic(world) => world.render(job, proceed),
             Self::All(world) => world.render(job, proceed),
@@ -95,19 +96,14 @@ impl AnyWorld {
     /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many each strand of the halves of
     /// pixel i is to have at least. False if `proceed` said stop; the film is then of no use.
     ///
-    /// `proceed` is called from all threads after each pixel with the number of rays it took.
-    pub fn grow(
-        &self,
-        film: &mut Growing,
-        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
-    ) -> bool {
+    /// `proceed` is called from all threads, after each pixel and within long ones.
+    pub fn grow(&self, film: &mut Growing, wanted: &(dyn Fn(usize) -> [u32; 2] + Sync), proceed: &Proceed<'_>) -> bool {
         each!(self, world => world.grow(film, wanted, proceed))
     }
 }
 
 /// Renders a scene as planned; see [`AnyWorld::render`].
 #[must_use]
-pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
     AnyWorld::prepare(scene, plan).render(job, proceed)
 }

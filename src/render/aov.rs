@@ -117,12 +117,16 @@ fn depth(camera: &Camera, point: Vec3) -> f64 {
 
 /// Who follows the camera rays of a pixel to what they meet first.
 pub(super) trait See {
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums);
+    /// Adds what a pixel sees; false if the observer said stop.
+    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool;
 }
 
 impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) {
+    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool {
         for ray in camera_rays(self.scene(), pixel) {
+            if !self.goes_on() {
+                return false;
+            }
             let first = self.world.nearest(&ray).map(|hit| {
                 let view = self.view_of(&ray, hit, Key::new(pixel, 0));
                 let shape = &self.world.surfaces[hit.surface].shape;
@@ -138,6 +142,7 @@ impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
             });
             sums.add(ray.direction, first);
         }
+        self.heartbeat.done(&self.counts)
     }
 }
 
@@ -147,21 +152,16 @@ impl<S: Geometry> World<S> {
         match self.scene.settings().mode {
             Mode::Path(path) => self.layers_of_paths(path, wanted, crop, proceed),
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-                let tracer = || Tracer::<'_, S, { Features::EVERYTHING.0 }>::new(self);
-                self.layers_by(tracer, wanted, crop, proceed)
+                let proceed = |_| proceed();
+                let tracer = || Tracer::<'_, S, { Features::EVERYTHING.0 }>::new(self, &proceed);
+                self.layers_by(tracer, wanted, crop)
             }
         }
     }
 
     /// Renders layers by what `eye` makes for each row.
     #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float, or to infinity")]
-    pub(super) fn layers_by<E: See>(
-        &self,
-        eye: impl Fn() -> E + Sync,
-        wanted: &[Aov],
-        crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Layers> {
+    pub(super) fn layers_by<E: See>(&self, eye: impl Fn() -> E + Sync, wanted: &[Aov], crop: Crop) -> Option<Layers> {
         let camera = self.scene.camera();
         let crop = crop.within(camera.width.get(), camera.height.get());
         let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).copied().collect();
@@ -171,13 +171,12 @@ impl<S: Geometry> World<S> {
             let mut eye = eye();
             for (x, pixel) in (crop.x..).zip(row.chunks_mut(names.len())) {
                 let mut sums = Sums::default();
-                eye.see([x, y], &mut sums);
+                if !eye.see([x, y], &mut sums) {
+                    return None;
+                }
                 let means = wanted.iter().map(|aov| (sums.values(*aov, camera), aov.channels().len()));
                 let means = means.flat_map(|(values, count)| values.into_iter().take(count));
                 pixel.iter_mut().zip(means).for_each(|(value, mean)| *value = mean as f32);
-                if !proceed() {
-                    return None;
-                }
             }
             Some(())
         };

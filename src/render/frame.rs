@@ -3,6 +3,7 @@
 use super::camera::{Twist, image_point, lens_point, lens_samples, ray_through};
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
+use super::heartbeat::Proceed;
 use super::ray::Ray;
 use super::sampler::Key;
 use super::whitted::Tracer;
@@ -15,7 +16,7 @@ use rayon::prelude::*;
 
 impl<S: Geometry> World<S> {
     /// Renders with the features `F`; `None` if `proceed` said stop.
-    pub(super) fn render_with<const F: u32>(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    pub(super) fn render_with<const F: u32>(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         let camera = self.scene.camera();
         let (width, height) = (camera.width.get(), camera.height.get());
         let whole = Crop { x: 0, y: 0, width, height };
@@ -43,18 +44,19 @@ impl<S: Geometry> World<S> {
         &self,
         crop: Crop,
         job: &Job,
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
         value: impl Fn(&mut Tracer<'_, S, F>, [u32; 2]) -> T + Sync,
     ) -> Option<(Vec<T>, Vec<f32>, Counts)> {
         let count = crop.width as usize * crop.height as usize;
         let (mut pixels, mut coverage) = (vec![T::default(); count], vec![0.0; count]);
         let row = |((y, row), shares): ((u32, &mut [T]), &mut [f32])| {
-            let mut tracer = Tracer::new(self);
+            let mut tracer = Tracer::new(self, proceed);
             for x in job.columns(y, crop.x..crop.x + crop.width) {
                 let (before, place) = (tracer.counts, (x - crop.x) as usize);
+                tracer.heartbeat.begin([x, y]);
                 row[place] = value(&mut tracer, [x, y]);
                 shares[place] = tracer.counts.coverage_since(&before);
-                if !proceed(tracer.counts.rays() - before.rays()) {
+                if !tracer.heartbeat.done(&tracer.counts) {
                     return None;
                 }
             }
@@ -71,7 +73,6 @@ impl<S: Geometry> World<S> {
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// The mean of all sub-samples and points of the lens.
     fn pixel(&mut self, pixel: [u32; 2], job: &Job) -> [f64; 3] {
-        self.pixel = pixel;
         let scene = self.scene();
         let camera = scene.camera();
         let hits = self.counts.hits;
@@ -93,6 +94,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                 let target = image_point(camera, pixel, place);
                 let twist = Twist::new(job.seeds.lens, key);
                 for k in 0..points {
+                    if !self.goes_on() {
+                        return [0.0; 3];
+                    }
                     let radiance = match first.filter(|_| sight == Sight::Uniform) {
                         Some(first) => first,
                         None => {

@@ -2,6 +2,7 @@
 
 use super::film::{Film, Job};
 use super::geometry::Geometry;
+use super::heartbeat::Proceed;
 use super::path::Strategy;
 use super::world::World;
 use crate::plan::Features;
@@ -76,7 +77,7 @@ pub(super) use dispatch;
 impl<S: Geometry> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
             return self.render_paths(path, Strategy::Both, job, proceed);
         }
@@ -85,7 +86,7 @@ impl<S: Geometry> World<S> {
 
     /// As [`Self::render`], by one of the [`FEW`] integrators.
     #[must_use]
-    pub fn render_by_few(&self, job: &Job, proceed: &(dyn Fn(u64) -> bool + Sync)) -> Option<Film> {
+    pub fn render_by_few(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
             return self.render_paths(path, Strategy::Both, job, proceed);
         }

@@ -6,6 +6,7 @@
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Behind, Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
+use super::heartbeat::{Heartbeat, Proceed};
 use super::kernel::{choose_of_few, dispatch};
 use super::sampler::Key;
 use super::sequence::Sequence;
@@ -62,23 +63,23 @@ impl Growing {
     }
 
     /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`super::AnyWorld::grow`].
-    pub(super) fn lengthen<T: Sampling>(
+    pub(super) fn lengthen<'run, T: Sampling<'run>>(
         &mut self,
         tracer: impl Fn() -> T + Sync,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
     ) -> bool {
         let Self { crop, seed, behind: _, pixels, counts } = self;
         let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
         let row = |(y, row): (usize, &mut [Strands])| {
             let mut tracer = tracer();
             for (i, (x, strands)) in (crop.x..).zip(row).enumerate() {
-                let before = tracer.counts().rays();
                 #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
                 let pixel = [x, crop.y + y as u32];
                 strands.tone = T::TONE;
+                tracer.heartbeat().begin(pixel);
                 strands.lengthen(wanted(y * width + i), &mut tracer, pixel, seed);
-                if !proceed(tracer.counts().rays() - before) {
+                let so_far = tracer.counts();
+                if !tracer.heartbeat().done(&so_far) {
                     return None;
                 }
             }
@@ -173,11 +174,15 @@ impl Strands {
     }
 
     /// Takes the samples of a pixel that the strands lack of those wanted.
-    fn lengthen(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling, pixel: [u32; 2], seed: u64) {
+    fn lengthen<'run>(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling<'run>, pixel: [u32; 2], seed: u64) {
         for strand in 0..4_usize {
             let (half, before) = (strand / 2, tracer.counts().hits);
             let number = (seed << 2 | strand as u64).wrapping_add(1);
             for index in self.counts[half]..wanted[half] {
+                let so_far = tracer.counts();
+                if !tracer.heartbeat().goes_on(&so_far) {
+                    return;
+                }
                 let radiance = tracer.sample(pixel, number, index);
                 let shown = match self.tone {
                     None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
@@ -208,7 +213,7 @@ fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
 }
 
 /// What takes samples of pixels.
-pub(super) trait Sampling {
+pub(super) trait Sampling<'run> {
     /// How the mean of its samples is shown; none where each is clamped to [0, 1].
     const TONE: Option<Tone>;
 
@@ -217,6 +222,9 @@ pub(super) trait Sampling {
 
     /// The rays traced so far.
     fn counts(&self) -> Counts;
+
+    /// Tells of the pixel under way, and whether to go on with it.
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
 }
 
 impl<S: Geometry> World<S> {
@@ -225,7 +233,7 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
     ) -> bool {
         if let Mode::Path(path) = self.scene.settings().mode {
             return self.grow_paths(path, film, wanted, proceed);
@@ -238,21 +246,21 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
     ) -> bool {
         let tracer = || {
-            let mut tracer: Tracer<'_, S, F> = Tracer::new(self);
+            let mut tracer: Tracer<'_, S, F> = Tracer::new(self, proceed);
             tracer.spread = true;
             tracer
         };
-        film.lengthen(tracer, wanted, proceed)
+        film.lengthen(tracer, wanted)
     }
 }
 
 /// Keeps the numbers of strands apart from those of the paths through them.
 const STRAND: u64 = u64::MAX - 2;
 
-impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
+impl<'world, S: Geometry, const F: u32> Sampling<'world> for Tracer<'world, S, F> {
     const TONE: Option<Tone> = None;
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
@@ -265,5 +273,9 @@ impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
 
     fn counts(&self) -> Counts {
         self.counts
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'world> {
+        &mut self.heartbeat
     }
 }

@@ -105,10 +105,10 @@ impl Lobe {
         self.basis.to_world(Vec3::new(sine * x, sine * y, cosine)).normalize()
     }
 
-    /// How many directions lie on the side of `normal`.
+    /// How many directions lie on the side of `normal`, as long as the count goes on.
     #[must_use]
-    pub(super) fn count_above(&self, normal: Vec3) -> u32 {
-        let above = (0..self.count).filter(|k| self.direction(*k).dot(normal) > 0.0).count();
+    pub(super) fn count_above(&self, normal: Vec3, mut goes_on: impl FnMut() -> bool) -> u32 {
+        let above = (0..self.count).take_while(|_| goes_on()).filter(|k| self.direction(*k).dot(normal) > 0.0).count();
         u32::try_from(above).unwrap_or(self.count)
     }
 }

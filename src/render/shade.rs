@@ -69,6 +69,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             if !plan.kept {
                 continue;
             }
+            if !self.goes_on() {
+                break;
+            }
             let mut term = view.color * view.material.ka.get();
             let ambient = term;
             if Self::can(Features::LIGHT) && plan.direct {
@@ -79,8 +82,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     let key = view.key.child(index as u64);
                     let points = DiscPoints::new(samples, key, self.spread);
                     let points = on_soft_light(light, view.interaction.point, samples, points);
-                    let direct = points.map(|point| self.direct(view, point, shadowed)).sum::<Vec3>();
-                    term += direct / f64::from(samples);
+                    let direct = points.map_while(|point| self.goes_on().then(|| self.direct(view, point, shadowed)));
+                    term += direct.sum::<Vec3>() / f64::from(samples);
                 }
             }
             self.verify(Effect::DirectLight, "a light left out shines", |plan| {
@@ -135,11 +138,14 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration" (SIGGRAPH 1998), in the
     /// course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 + ks·max(0, R·V)ⁿ·c_l`.
     #[must_use]
-    pub(super) fn gooch(&self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
+    pub(super) fn gooch(&mut self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
         let Gooch { b, y, alpha, beta } = *parameters;
         let (kd, n) = (view.material.kd.get(), view.material.n.get());
         let mut sum = Vec3::ZERO;
         for light in self.scene().lights() {
+            if !self.goes_on() {
+                break;
+            }
             let Some(incidence) = view.incidence(light.position) else { continue };
             let tone = light.color * view.color * kd;
             let cool = Vec3::new(0.0, 0.0, b) + tone * alpha;

@@ -4,6 +4,7 @@
 use super::any;
 use super::film::{Film, Job};
 use super::geometry::Geometry;
+use super::heartbeat::Proceed;
 use super::plain::PlainShape;
 use super::shape::Shape;
 use super::world::World;
@@ -47,12 +48,7 @@ impl Verify {
 ///
 /// # Errors
 /// If something that was left out adds something.
-pub fn verify(
-    scene: &ValidScene,
-    plan: &Plan,
-    job: &Job,
-    proceed: &(dyn Fn(u64) -> bool + Sync),
-) -> Option<Result<Film, Fault>> {
+pub fn verify(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Result<Film, Fault>> {
     let planned = any::render(scene, plan, job, proceed)?;
     let (naive, verify) = match plan.arithmetic {
         Arithmetic::Robust => naively::<Shape>(scene, plan, job, proceed)?,
@@ -67,12 +63,7 @@ pub fn verify(
 }
 
 /// The film without rules, and what it shows of a plan.
-fn naively<S: Geometry>(
-    scene: &ValidScene,
-    plan: &Plan,
-    job: &Job,
-    proceed: &(dyn Fn(u64) -> bool + Sync),
-) -> Option<(Film, Verify)> {
+fn naively<S: Geometry>(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<(Film, Verify)> {
     let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
     world.verify = Some(Verify { plan: plan.clone(), first: Mutex::new(None) });
     let naive = world.render_by_few(job, proceed)?;

@@ -3,6 +3,7 @@
 
 use super::film::Counts;
 use super::geometry::Geometry;
+use super::heartbeat::{Heartbeat, Proceed};
 use super::instance::{Asked, Details};
 use super::optics::{reflect, refract};
 use super::ray::{Interaction, Ray};
@@ -54,8 +55,8 @@ struct Fan {
 pub(super) struct Tracer<'world, S, const F: u32> {
     pub(super) world: &'world World<S>,
     pending: Vec<Pending>,
-    /// The pixel under way.
-    pub(super) pixel: [u32; 2],
+    /// Tells of the pixel under way, and whether to go on with it.
+    pub(super) heartbeat: Heartbeat<'world>,
     /// Whether the path under way counts 0 times: then nothing it meets says anything about a plan.
     pub(super) weightless: bool,
     /// Whether points of soft lights are spread without bias, however few they are.
@@ -65,11 +66,17 @@ pub(super) struct Tracer<'world, S, const F: u32> {
 }
 
 impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
-    /// A tracer of the world.
+    /// A tracer of the world, watched by `proceed`.
     #[must_use]
-    pub(super) fn new(world: &'world World<S>) -> Self {
-        let (pixel, counts) = ([0; 2], Counts::default());
-        Self { world, pending: Vec::new(), pixel, weightless: false, spread: false, counts }
+    pub(super) fn new(world: &'world World<S>, proceed: &'world Proceed<'world>) -> Self {
+        let (heartbeat, counts) = (Heartbeat::new(proceed), Counts::default());
+        Self { world, pending: Vec::new(), heartbeat, weightless: false, spread: false, counts }
+    }
+
+    /// Whether to go on: false from when the observer said stop, and nothing counts any more.
+    #[inline]
+    pub(super) fn goes_on(&mut self) -> bool {
+        self.heartbeat.goes_on(&self.counts)
     }
 
     /// The scene traced.
@@ -97,7 +104,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             && let Some(verify) = &self.world.verify
             && is_fault(&verify.plan)
         {
-            verify.report(self.pixel, effect, what);
+            verify.report(self.heartbeat.pixel(), effect, what);
         }
     }
 
@@ -236,7 +243,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             return;
         }
         let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
-        let above = lobe.count_above(view.normal);
+        let above = lobe.count_above(view.normal, || self.goes_on());
         let ray = Ray { direction: mirror, ..path.ray };
         let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored) else { return };
         let fan = Fan { lobe, from: view.interaction, normal: view.normal, next: 0, count: glossy_samples.get(), path };
@@ -259,10 +266,14 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
     fn next_path(&mut self) -> Option<Path> {
         let path = loop {
+            if !self.goes_on() {
+                self.pending.clear();
+                return None;
+            }
             match self.pending.pop()? {
                 Pending::Path(path) => break path,
                 Pending::Lobe(mut fan) => {
-                    let Some(path) = fan.take() else { continue };
+                    let Some(path) = fan.take(|| self.goes_on()) else { continue };
                     self.pending.push(Pending::Lobe(fan));
                     break path;
                 }
@@ -278,8 +289,8 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
 impl Fan {
     /// The path along the next direction above the surface.
-    fn take(&mut self) -> Option<Path> {
-        while self.next < self.count {
+    fn take(&mut self, mut goes_on: impl FnMut() -> bool) -> Option<Path> {
+        while self.next < self.count && goes_on() {
             let k = self.next;
             self.next += 1;
             let direction = self.lobe.direction(k);

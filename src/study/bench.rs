@@ -1,5 +1,6 @@
 //! What a study runs on: threads, a clock, and someone who may say stop.
 
+use crate::render::{Proceed, Step};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Duration;
 
@@ -42,7 +43,7 @@ impl Clock<'_> {
 /// Threads, a clock, and someone who may say stop.
 pub struct Bench<'a> {
     clock: Clock<'a>,
-    proceed: &'a (dyn Fn(u64) -> bool + Sync),
+    proceed: &'a Proceed<'a>,
     /// All threads, for what is not timed.
     wide: ThreadPool,
     /// One thread, for what is: its processor time is the work, however busy the machine.
@@ -50,23 +51,19 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel,
-    /// with the rays it took.
+    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel
+    /// and within long ones.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn new(
-        threads: usize,
-        clock: Clock<'a>,
-        proceed: &'a (dyn Fn(u64) -> bool + Sync),
-    ) -> Result<Self, ThreadPoolBuildError> {
+    pub fn new(threads: usize, clock: Clock<'a>, proceed: &'a Proceed<'a>) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Self { clock, proceed, wide: pool(threads)?, narrow: pool(1)? })
     }
 
-    /// Whether to go on after a pixel of so many rays.
-    pub(super) fn goes_on(&self, rays: u64) -> bool {
-        (self.proceed)(rays)
+    /// Whether to go on after a step of a render.
+    pub(super) fn goes_on(&self, step: Step) -> bool {
+        (self.proceed)(step)
     }
 
     /// Does a piece of work with all threads.

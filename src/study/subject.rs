@@ -104,7 +104,7 @@ impl<'bench> Subject<'bench> {
         let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
         let seconds = |job| {
             let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
-            let work = || render(&scene, &plan(), job, &|rays| self.bench.goes_on(rays));
+            let work = || render(&scene, &plan(), job, &|step| self.bench.goes_on(step));
             self.bench.measure(work).1.cpu
         };
         let round = |_| {
@@ -128,7 +128,7 @@ impl<'bench> Subject<'bench> {
         let tiles = Some(Tiles { seed: self.seed, last });
         let job = Job { tiles, seeds, ..Job::default() };
         let plan = Plan::by(arithmetic, scene, Rules::ALL);
-        let film = render(scene, &plan, &job, &|rays| self.bench.goes_on(rays)).ok_or(Stopped)?;
+        let film = render(scene, &plan, &job, &|step| self.bench.goes_on(step)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
             return Ok(Shot { tiles: vec![film.image], counts });

@@ -10,7 +10,7 @@ use super::noise::{Allotment, Noise};
 use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
-use crate::render::{AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Strands, Tiles, Values};
+use crate::render::{AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Proceed, Step, Strands, Tiles, Values};
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -42,7 +42,7 @@ pub struct Order {
 /// Who looks on.
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with the rays it took; false means stop.
-    pub proceed: &'a (dyn Fn(u64) -> bool + Sync),
+    pub proceed: &'a Proceed<'a>,
     /// The time since the start.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
     /// Told before each round.
@@ -142,9 +142,9 @@ fn in_rounds(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'
         let Some(wanted) = next_round(&film, &noise, tail, &order.goal, (watch.elapsed)()) else { return Ok(reached) };
         (watch.round)(Progress { pixels: film.pixels.len() as u64, error: Some(error) });
         let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
-        if !world.grow(&mut film, &|index| wanted[index], &|rays| (watch.proceed)(rays) && !is_late()) {
+        if !world.grow(&mut film, &|index| wanted[index], &|step| (watch.proceed)(step) && !is_late()) {
             // A round cut short has favoured pixels at the top: the picture before it stands.
-            return if (watch.proceed)(0) { Ok(reached) } else { Err(Stopped) };
+            return if (watch.proceed)(Step::default()) { Ok(reached) } else { Err(Stopped) };
         }
     }
     unreachable!("rounds end when all strands are as long as can be")
@@ -195,7 +195,7 @@ fn light_samples(
     for count in [2, 4, 8, 16, 32] {
         let mut film = Growing::new(order.crop, order.seed);
         spread(world, scene, count);
-        if !world.grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(0)) {
+        if !world.grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(Step::default())) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);

@@ -41,7 +41,7 @@ fn number_after(file: &[u8], words: &str) -> usize {
     let length = u32::from_le_bytes(file[12..16].try_into().unwrap()) as usize;
     let header = std::str::from_utf8(&file[20..20 + length]).unwrap();
     let rest = header.split_once(words).unwrap_or_else(|| panic!("{words} is not in {header}")).1;
-    rest[..rest.find(|c: char| !c.is_ascii_digit()).unwrap()].parse().unwrap()
+    rest.split(|c: char| !c.is_ascii_digit()).next().unwrap().parse().unwrap()
 }
 
 /// A scene whose mesh has columns of both precisions.
@@ -123,7 +123,7 @@ fn sections_that_lie_are_refused() {
     for (key, value, expected) in cases {
         let bad = with_header(&file, |mut header| {
             let start = last(key, &header);
-            let end = start + header[start..].find([',', '}']).unwrap();
+            let end = start + header.split_at(start).1.find([',', '}']).unwrap();
             header.replace_range(start..end, value);
             header
         });

@@ -30,8 +30,8 @@ fn on(threads: usize, work: impl FnOnce() -> Reached + Send) -> Reached {
 fn with_clock(scene: &Scene, goal: Goal) -> Reached {
     let rays = AtomicU64::new(0);
     let watch = Watch {
-        proceed: &|more| {
-            rays.fetch_add(more, Relaxed);
+        proceed: &|step| {
+            rays.fetch_add(step.rays, Relaxed);
             true
         },
         elapsed: &|| Duration::from_micros(rays.load(Relaxed)),
@@ -108,8 +108,11 @@ fn a_time_is_kept_and_more_of_it_is_less_error() {
 #[test]
 fn stop_means_stop() {
     let (scene, rays) = (scene(3, SIZE), AtomicU64::new(0));
-    let watch =
-        Watch { proceed: &|more| rays.fetch_add(more, Relaxed) < 50_000, elapsed: &|| Duration::ZERO, round: &|_| {} };
+    let watch = Watch {
+        proceed: &|step| rays.fetch_add(step.rays, Relaxed) < 50_000,
+        elapsed: &|| Duration::ZERO,
+        round: &|_| {},
+    };
     let goal = Goal { error: Some(0.01), time: None };
     assert_eq!(approach(&mut world(&scene), &scene, &order(&scene, goal, 0), &watch).err(), Some(Stopped));
 }

@@ -136,7 +136,7 @@ mod tests {
         let file = map.add("x", text.to_vec());
         let span = mark(&map, Span::new(file, start, end));
         let window = Window::new(&map, &[span]);
-        (window.text[window.range(span)].to_owned(), window.text.clone())
+        (window.text.get(window.range(span)).unwrap().to_owned(), window.text.clone())
     }
 
     #[test]

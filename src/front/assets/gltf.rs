@@ -1,13 +1,21 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
 use super::{Known, Porter, Wanted, Without};
+use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
     Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual, Scene, Shape,
     Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
+use crate::source::{FileId, Found, Kind};
 use glam::DAffine3;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf::begins };
+
+/// The largest asset read, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
 
 /// What is placed of an asset; it refers to what was added to the scene.
 pub(super) struct Placeable {
@@ -26,15 +34,26 @@ pub(super) fn bring(
 ) {
     let Some(found) = porter.find(wish, Without::Object) else { return };
     let asset = known.of(&found, || {
-        let file = porter.loader.file(&found.shown, porter.map);
-        let file = file.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+        let bytes = porter.loader.found(&found, MAX_BYTES);
+        let bytes = bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+        let file = add_asset(&found, bytes.ok()?, wish, porter)?;
         let options = Options { camera: None, ..porter.options.clone() };
-        let asset = gltf::lower(file.ok()?, porter.map, &options, porter.sink)?;
+        let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
         Some(add(asset, lowered))
     });
     if let Some(asset) = asset {
         asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
     }
+}
+
+/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of another kind.
+fn add_asset(found: &Found, bytes: Vec<u8>, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
+    if gltf::recognise("", &bytes) {
+        return Some(porter.map.add_found(found, bytes));
+    }
+    let message = format!("`{}` is no glTF asset", found.shown.display());
+    porter.refuse(Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"), Without::Object);
+    None
 }
 
 /// Adds what an asset is made of to a scene.

@@ -3,13 +3,16 @@
 use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::pixels::{self, Refused};
-use crate::image::{DecodeError, Opacity, Pixels};
+use crate::image::{DecodeError, Opacity, Pixels, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
-use crate::source::Found;
+use crate::source::{Found, Kind};
 use std::collections::BTreeMap;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored plainly.
 const MAX_BYTES: u64 = 1 << 30;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["png", "jpg", "jpeg", "webp"], begins: is_picture };
 
 /// Brings one image, or the one that the same file became before, whatever it was called; `None` without a file.
 pub(super) fn bring(
@@ -52,7 +55,7 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
-    match porter.loader.bytes(&found.path, MAX_BYTES) {
+    match porter.loader.found(found, MAX_BYTES) {
         Ok(bytes) => {
             porter.map.budget().read(bytes.len());
             let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());

@@ -72,11 +72,12 @@ fn in_base(digits: &str, radix: u32) -> Option<f64> {
 /// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
 fn is_decimal(word: &str) -> bool {
     let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
-    let whole = digits(word);
-    let rest = &word[whole..];
-    let fraction = rest.strip_prefix('.').map(digits);
-    let rest = &rest[fraction.map_or(0, |digits| digits + 1)..];
-    if whole + fraction.unwrap_or(0) == 0 {
+    let (whole, rest) = word.split_at(digits(word));
+    let (fraction, rest) = match rest.strip_prefix('.') {
+        Some(rest) => rest.split_at(digits(rest)),
+        None => ("", rest),
+    };
+    if whole.is_empty() && fraction.is_empty() {
         return false;
     }
     match rest.strip_prefix(['e', 'E']) {

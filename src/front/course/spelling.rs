@@ -41,7 +41,7 @@ fn distance(a: &str, b: &str) -> usize {
 pub(super) fn clip(word: &str) -> Cow<'_, str> {
     const SHOWN: usize = 40;
     match word.char_indices().nth(SHOWN) {
-        Some((end, _)) => Cow::Owned(format!("{}…", word[..end].escape_debug())),
+        Some((end, _)) => Cow::Owned(format!("{}…", word.split_at(end).0.escape_debug())),
         None if word.contains(char::is_control) => Cow::Owned(word.escape_debug().to_string()),
         None => Cow::Borrowed(word),
     }

@@ -26,8 +26,7 @@ pub(super) struct Parts {
 
 /// True if the bytes are a `.glb`, be it with a damaged beginning; `name` decides where they don't.
 pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
-    let named = name.len() >= 4 && name.is_char_boundary(name.len() - 4) && name[name.len() - 4..] == *".glb";
-    bytes.starts_with(MAGIC) || bytes.get(16..20) == Some(JSON) || named
+    bytes.starts_with(MAGIC) || bytes.get(16..20) == Some(JSON) || name.ends_with(".glb")
 }
 
 /// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.

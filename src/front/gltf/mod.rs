@@ -50,11 +50,20 @@ const BOM: &str = "\u{feff}";
 /// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is that of the file.
 #[must_use]
 pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+    let says_so = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
+    container::is_glb(name, bytes) || name.ends_with(".gltf") || (opens_object(bytes) && says_so())
+}
+
+/// Whether a file that begins so may be a glTF asset.
+#[must_use]
+pub fn begins(head: &[u8]) -> bool {
+    container::is_glb("", head) || opens_object(head)
+}
+
+/// True if the bytes open a JSON object with a key.
+fn opens_object(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes).trim_ascii_start();
-    let named = name.len() >= 5 && name.is_char_boundary(name.len() - 5) && name[name.len() - 5..] == *".gltf";
-    let is_json = text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""));
-    let says_so = || memchr::memmem::find(text, b"\"asset\"").is_some();
-    container::is_glb(name, bytes) || named || (is_json && says_so())
+    text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""))
 }
 
 /// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.

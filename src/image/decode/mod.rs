@@ -128,6 +128,13 @@ impl Size {
     }
 }
 
+/// Whether a file that begins so is one that [`PixelFile`] reads.
+#[must_use]
+pub fn is_picture(head: &[u8]) -> bool {
+    ::image::guess_format(head)
+        .is_ok_and(|format| matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP))
+}
+
 impl<'a> PixelFile<'a> {
     /// Reads the header of a pixel file.
     ///

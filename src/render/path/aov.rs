@@ -22,14 +22,18 @@ impl<S: Geometry> World<S> {
         proceed: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         let lights = Lights::new(self, Strategy::Both);
-        let tracer = || Tracer::new(self, &lights, path, Strategy::Both).knowing_all();
-        self.layers_by(tracer, wanted, crop, proceed)
+        let proceed = |_| proceed();
+        let tracer = || Tracer::new(self, &lights, path, Strategy::Both, &proceed).knowing_all();
+        self.layers_by(tracer, wanted, crop)
     }
 }
 
 impl<S: Geometry> See for Tracer<'_, S> {
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) {
+    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool {
         for index in 0..self.path.samples.get() {
+            if !self.heartbeat.goes_on(&self.counts) {
+                return false;
+            }
             let sobol = Sobol::new(pixel, index, Seeds::NONE);
             let mut walk = Walk::new(self.camera_ray(pixel, &sobol), sobol);
             let first = self.meet(&mut walk).map(|corner| First {
@@ -41,5 +45,6 @@ impl<S: Geometry> See for Tracer<'_, S> {
             });
             sums.add(walk.ray.direction, first);
         }
+        self.heartbeat.done(&self.counts)
     }
 }

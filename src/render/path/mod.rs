@@ -13,6 +13,7 @@ mod tracer;
 
 use super::film::{Counts, Crop, Film, Job, Values};
 use super::geometry::Geometry;
+use super::heartbeat::Proceed;
 use super::progressive::Growing;
 use super::world::World;
 use crate::image::Image;
@@ -36,13 +37,7 @@ pub enum Strategy {
 impl<S: Geometry> World<S> {
     /// Renders by tracing paths; `None` if `proceed` said stop.
     #[must_use]
-    pub fn render_paths(
-        &self,
-        path: Path,
-        strategy: Strategy,
-        job: &Job,
-        proceed: &(dyn Fn(u64) -> bool + Sync),
-    ) -> Option<Film> {
+    pub fn render_paths(&self, path: Path, strategy: Strategy, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         let camera = self.scene.camera();
         let (width, height) = (camera.width.get(), camera.height.get());
         let whole = Crop { x: 0, y: 0, width, height };
@@ -52,13 +47,14 @@ impl<S: Geometry> World<S> {
         let (mut pixels, mut coverage) = (vec![[0.0; 3]; count], vec![0.0; count]);
         let tone = self.scene.settings().mode.tone();
         let row = |((y, row), shares): ((u32, &mut [[f64; 3]]), &mut [f32])| {
-            let mut tracer = Tracer::new(self, &lights, path, strategy).before(job.behind);
+            let mut tracer = Tracer::new(self, &lights, path, strategy, proceed).before(job.behind);
             for x in job.columns(y, crop.x..crop.x + crop.width) {
                 let (before, place) = (tracer.counts, (x - crop.x) as usize);
+                tracer.heartbeat.begin([x, y]);
                 let radiance = tracer.pixel([x, y], job.seeds).to_array();
                 row[place] = if job.values == Values::Display { tone.display(radiance) } else { radiance };
                 shares[place] = tracer.counts.coverage_since(&before);
-                if !proceed(tracer.counts.rays() - before.rays()) {
+                if !tracer.heartbeat.done(&tracer.counts) {
                     return None;
                 }
             }
@@ -78,11 +74,11 @@ impl<S: Geometry> World<S> {
         path: Path,
         film: &mut Growing,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &(dyn Fn(u64) -> bool + Sync),
+        proceed: &Proceed<'_>,
     ) -> bool {
         let lights = Lights::new(self, Strategy::Both);
         let behind = film.behind;
-        let tracer = || Tracer::new(self, &lights, path, Strategy::Both).before(behind);
-        film.lengthen(tracer, wanted, proceed)
+        let tracer = || Tracer::new(self, &lights, path, Strategy::Both, proceed).before(behind);
+        film.lengthen(tracer, wanted)
     }
 }

@@ -4,6 +4,7 @@ use super::super::bsdf::Bsdf;
 use super::super::camera::{image_point, ray_through};
 use super::super::film::{Behind, Counts, Seeds};
 use super::super::geometry::Geometry;
+use super::super::heartbeat::{Heartbeat, Proceed};
 use super::super::instance::Asked;
 use super::super::progressive::Sampling;
 use super::super::ray::{Interaction, Ray};
@@ -36,6 +37,8 @@ pub(super) struct Tracer<'world, S> {
     asked: Vec<Asked>,
     /// What a ray of the camera that meets nothing shows.
     behind: Behind,
+    /// Tells of the pixel under way, and whether to go on with it.
+    pub(super) heartbeat: Heartbeat<'world>,
     /// The rays traced so far.
     pub(super) counts: Counts,
 }
@@ -76,6 +79,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         lights: &'world Lights<'world, S>,
         path: Path,
         strategy: Strategy,
+        proceed: &'world Proceed<'world>,
     ) -> Self {
         Self {
             world,
@@ -85,6 +89,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             veils: Veils::of(world),
             asked: world.scene.standards().iter().map(asked).collect(),
             behind: Behind::default(),
+            heartbeat: Heartbeat::new(proceed),
             counts: Counts::default(),
         }
     }
@@ -102,8 +107,8 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let count = self.path.samples.get();
-        let sum = (0..count).map(|index| self.sample_of(pixel, index, seeds)).sum::<Vec3>();
-        sum / f64::from(count)
+        let sample = |index| self.heartbeat.goes_on(&self.counts).then(|| self.sample_of(pixel, index, seeds));
+        (0..count).map_while(sample).sum::<Vec3>() / f64::from(count)
     }
 
     /// The radiance along path `index` of a pixel.
@@ -140,7 +145,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
                 return walk.found;
             };
             self.counts.hits += u64::from(walk.corners == 0);
-            if !self.scatter(&mut walk, &corner) {
+            if !self.heartbeat.goes_on(&self.counts) || !self.scatter(&mut walk, &corner) {
                 return walk.found;
             }
             walk.corners += 1;
@@ -293,7 +298,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 }
 
-impl<S: Geometry> Sampling for Tracer<'_, S> {
+impl<'world, S: Geometry> Sampling<'world> for Tracer<'world, S> {
     const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
@@ -302,6 +307,10 @@ impl<S: Geometry> Sampling for Tracer<'_, S> {
 
     fn counts(&self) -> Counts {
         self.counts
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'world> {
+        &mut self.heartbeat
     }
 }
 

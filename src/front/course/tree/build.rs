@@ -1,11 +1,12 @@
 //! Parser events to nodes, bounded in depth; duplicate keys are found as each map closes.
 
 use super::text::{MAX_WORD, text, to_u32, too_long};
-use super::{Kind, Node, NodeId, Tree, fault};
+use super::{Kind, Node, NodeId, Tree, fault, inside_quotes};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::source::{FileId, Span};
-use granit_parser::{Event, Parser, StructureStyle};
+use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// How deep lists and maps may lie in each other.
 pub(super) const MAX_DEPTH: usize = 128;
@@ -59,9 +60,11 @@ type Step = Result<(), Box<Diagnostic>>;
 
 impl<'s> Build<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
-        if let Event::Scalar(value, _, anchor, tag) = event {
+        if let Event::Scalar(value, style, anchor, tag) = event {
             self.tag(tag.is_some(), start, end);
-            self.scalar(value, anchor, start, end)
+            let kind = self.scalar(value, style, start, end)?;
+            self.word(kind, anchor, start, end);
+            Ok(())
         } else if let Event::Alias(anchor) = event {
             self.alias(anchor, start, end)
         } else if let Event::SequenceStart(style, anchor, tag) = event {
@@ -96,23 +99,38 @@ impl<'s> Build<'s, '_> {
         }
     }
 
-    fn scalar(&mut self, value: Cow<'s, str>, anchor: usize, start: u32, end: u32) -> Step {
+    /// What kind of word this is, and its link. The style says so: a block may begin with a quote.
+    fn scalar(
+        &mut self,
+        value: Cow<'s, str>,
+        style: ScalarStyle,
+        start: u32,
+        end: u32,
+    ) -> Result<(Kind, u32), Box<Diagnostic>> {
         if value.len() > MAX_WORD {
             return Err(Box::new(too_long(self.tree.file, (start + self.tree.base) as usize)));
         }
-        let written = &self.tree.source[start as usize..end as usize];
-        let quoted = written.len() >= 2 && written.starts_with(['"', '\'']);
-        let (kind, link) = if written.is_empty() || written == value {
-            (Kind::Plain, 0)
-        } else if quoted && written[1..written.len() - 1] == value {
-            (Kind::Quoted, 0)
-        } else {
-            self.tree.cooked.push(value.into_owned());
-            (Kind::Cooked, to_u32(self.tree.cooked.len() - 1))
+        let is_written = |range: Range<u32>| self.tree.written(range) == Some(value.as_ref());
+        let kind = match style {
+            ScalarStyle::Plain if start == end || is_written(start..end) => Kind::Plain,
+            ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted if is_written(inside_quotes(start, end)) => {
+                Kind::Quoted
+            }
+            ScalarStyle::Plain
+            | ScalarStyle::SingleQuoted
+            | ScalarStyle::DoubleQuoted
+            | ScalarStyle::Literal
+            | ScalarStyle::Folded => {
+                self.tree.cooked.push(value.into_owned());
+                return Ok((Kind::Cooked, to_u32(self.tree.cooked.len() - 1)));
+            }
         };
+        Ok((kind, 0))
+    }
+
+    fn word(&mut self, (kind, link): (Kind, u32), anchor: usize, start: u32, end: u32) {
         self.last_end = end;
         self.push(Node { start, end, link, kind }, anchor);
-        Ok(())
     }
 
     fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {

@@ -9,11 +9,11 @@ use granit_parser::{ErrorKind, ScanError};
 
 /// The finding for a text that is not YAML; `bracket` is the innermost one still open.
 pub(super) fn syntax(tree: &Tree<'_>, bracket: Option<NodeId>, error: &ScanError) -> Box<Diagnostic> {
-    let at = error.marker().byte_offset().unwrap_or(0).min(tree.source.len());
+    let at = tree.source.floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
     let here = character_at(tree, at);
     let bracket = bracket.map(|id| Span { end: tree.span(id).start + 1, ..tree.span(id) });
     let kind = error.kind();
-    let ran_on = |span: &Span| tree.source[(span.start - tree.base) as usize..at].contains('\n');
+    let ran_on = |span: &Span| tree.written(span.start - tree.base..to_u32(at)).is_some_and(|text| text.contains('\n'));
     Box::new(match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => too_deep(here),
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
@@ -35,7 +35,7 @@ pub(super) fn too_deep(span: Span) -> Diagnostic {
 }
 
 fn character_at(tree: &Tree<'_>, at: usize) -> Span {
-    let next = tree.source[at..].chars().next().filter(|next| *next != '\n');
+    let next = tree.source.get(at..).and_then(|rest| rest.chars().next()).filter(|next| *next != '\n');
     let end = at + next.map_or(0, char::len_utf8);
     Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
 }

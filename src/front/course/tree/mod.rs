@@ -10,6 +10,7 @@ mod text;
 pub(super) use build::parse;
 
 use crate::source::{FileId, Span};
+use std::ops::Range;
 
 /// Names a node of a [`Tree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -73,6 +74,11 @@ impl Tree<'_> {
         self.nodes.len()
     }
 
+    /// The text written in these bytes, unless they cut a character.
+    fn written(&self, range: Range<u32>) -> Option<&str> {
+        self.source.get(range.start as usize..range.end as usize)
+    }
+
     fn node(&self, id: NodeId) -> Node {
         self.nodes[id.0 as usize]
     }
@@ -92,10 +98,10 @@ impl Tree<'_> {
     /// What the node is, aliases followed.
     pub(super) fn shape(&self, id: NodeId) -> Shape<'_> {
         let node = self.node(self.target(id));
-        let range = node.start as usize..node.end as usize;
+        let written = |range| self.written(range).expect("a word was read where it was written");
         match node.kind {
-            Kind::Plain => Shape::Word(&self.source[range]),
-            Kind::Quoted => Shape::Text(&self.source[range.start + 1..range.end - 1]),
+            Kind::Plain => Shape::Word(written(node.start..node.end)),
+            Kind::Quoted => Shape::Text(written(inside_quotes(node.start, node.end))),
             Kind::Cooked => Shape::Text(&self.cooked[node.link as usize]),
             Kind::List => Shape::List,
             Kind::Map => Shape::Map,
@@ -143,6 +149,11 @@ impl Tree<'_> {
     }
 }
 
+/// The bytes between the quotes of a quoted word.
+fn inside_quotes(start: u32, end: u32) -> Range<u32> {
+    start + 1..end.saturating_sub(1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -174,6 +185,22 @@ mod tests {
             let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
             assert_eq!((list.start, list.end, alias.start, alias.end), (9, 27, 31, 33));
         });
+    }
+
+    #[test]
+    fn a_block_is_text_whatever_it_begins_with() {
+        for (text, word) in [
+            ("a: |\n  \"b \u{1cc}", "\"b \u{1cc}"),
+            ("a: |\n  'b \u{e9}", "'b \u{e9}"),
+            ("a: >\n  \"b\"", "\"b\""),
+            ("a: |-\n  '\n", "'"),
+            ("a: |\n  5", "5"),
+        ] {
+            with(text, |tree| {
+                let (_, value) = tree.pairs(tree.root()).next().unwrap();
+                assert_eq!(tree.shape(value), Shape::Text(word), "{text:?}");
+            });
+        }
     }
 
     #[test]

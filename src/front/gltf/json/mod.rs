@@ -92,7 +92,7 @@ impl<'s> Tree<'s> {
     /// As written.
     pub(super) fn written(&self, id: NodeId) -> &'s str {
         let node = self.node(id);
-        &self.text[node.start as usize..node.end as usize]
+        self.text.get(node.start as usize..node.end as usize).expect("a node starts and ends between characters")
     }
 
     /// The items of a list; of a map, its keys and values in turn.

@@ -30,39 +30,49 @@ fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
 
 /// What a text says; `written` has its quotes and is sound.
 pub(super) fn value(written: &str) -> Cow<'_, str> {
-    let inside = &written[1..written.len() - 1];
+    let inside = written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).expect("a text has its quotes");
     if !inside.contains('\\') {
         return Cow::Borrowed(inside);
     }
     let mut said = String::with_capacity(inside.len());
     let mut rest = inside;
-    while let Some(at) = rest.find('\\') {
-        said.push_str(&rest[..at]);
-        let (character, length) = unescape(&rest[at..]);
+    while let Some((before, escape)) = rest.split_once('\\') {
+        said.push_str(before);
+        let (character, after) = unescape(escape);
         said.push(character);
-        rest = &rest[at + length..];
+        rest = after;
     }
     Cow::Owned(said + rest)
 }
 
-/// The character that `escape` starts with, and its length; half of a surrogate pair is the replacement character.
-fn unescape(escape: &str) -> (char, usize) {
-    let unit = |from: usize| escape.get(from..from + 4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
-    let second = || if escape.get(6..8) == Some("\\u") { unit(8) } else { None };
-    match escape.as_bytes()[1] {
-        b'u' => match (unit(2), second()) {
-            (Some(high @ 0xd800..0xdc00), Some(low @ 0xdc00..0xe000)) => {
-                let character = char::decode_utf16([high, low]).next().and_then(Result::ok);
-                (character.unwrap_or(char::REPLACEMENT_CHARACTER), 12)
-            }
-            (Some(unit), _) => (char::from_u32(u32::from(unit)).unwrap_or(char::REPLACEMENT_CHARACTER), 6),
-            (None, _) => unreachable!("`end` has seen four hexadecimal digits"),
-        },
-        b'b' => ('\u{8}', 2),
-        b'f' => ('\u{c}', 2),
-        b'n' => ('\n', 2),
-        b'r' => ('\r', 2),
-        b't' => ('\t', 2),
-        other => (char::from(other), 2),
+/// The character that an escape stands for, and what follows it; `escape` starts after the backslash.
+fn unescape(escape: &str) -> (char, &str) {
+    let mut rest = escape.chars();
+    let letter = rest.next().expect("`end` has seen a letter after each backslash");
+    let rest = rest.as_str();
+    match letter {
+        'u' => unicode(rest),
+        'b' => ('\u{8}', rest),
+        'f' => ('\u{c}', rest),
+        'n' => ('\n', rest),
+        'r' => ('\r', rest),
+        't' => ('\t', rest),
+        other => (other, rest),
+    }
+}
+
+/// The character that follows `\u`; half of a surrogate pair is the replacement character.
+fn unicode(digits: &str) -> (char, &str) {
+    let unit = |text| {
+        let (hex, rest) = str::split_at_checked(text, 4)?;
+        Some((u16::from_str_radix(hex, 16).ok()?, rest))
+    };
+    let (first, rest) = unit(digits).expect("`end` has seen four hexadecimal digits");
+    match (first, rest.strip_prefix("\\u").and_then(unit)) {
+        (high @ 0xd800..0xdc00, Some((low @ 0xdc00..0xe000, rest))) => {
+            let character = char::decode_utf16([high, low]).next().and_then(Result::ok);
+            (character.unwrap_or(char::REPLACEMENT_CHARACTER), rest)
+        }
+        (unit, _) => (char::from_u32(u32::from(unit)).unwrap_or(char::REPLACEMENT_CHARACTER), rest),
     }
 }
