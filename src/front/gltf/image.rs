@@ -7,7 +7,8 @@ use super::field::Fields;
 use super::json::{Kind, NodeId};
 use super::report::Report;
 use crate::diag::codes;
-use crate::image::{DecodeError, MAX_PIXELS, decode};
+use crate::front::pixels::{self, Refused};
+use crate::image::{DecodeError, Opacity};
 
 /// An image.
 #[derive(Debug)]
@@ -136,7 +137,6 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
 
 /// Looks at the bytes of each image, and decodes it once to see that it is sound.
 pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
-    let mut budget = MAX_PIXELS;
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else { continue };
@@ -158,8 +158,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
             let message = format!("the image has {what}, and that is not followed");
             report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_FEATURES_UNSUPPORTED", at, message);
         }
-        let is_sound = format.ends_early(bytes).then(|| ends_early(at, report)).is_none()
-            && decodes(bytes, at, &mut budget, report);
+        let is_sound = format.ends_early(bytes).then(|| ends_early(at, report)).is_none() && decodes(bytes, at, report);
         let image = &mut doc.images[index];
         (image.format, image.is_sound) = (Some(format), is_sound);
     }
@@ -170,32 +169,28 @@ fn ends_early(at: NodeId, report: &mut Report<'_, '_>) {
     report.say(&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", at, message);
 }
 
-/// Decodes an image within the pixels that are left for all of them.
-fn decodes(bytes: &[u8], at: NodeId, budget: &mut u64, report: &mut Report<'_, '_>) -> bool {
-    match decode(bytes) {
+/// Decodes an image within the budget of the run.
+fn decodes(bytes: &[u8], at: NodeId, report: &mut Report<'_, '_>) -> bool {
+    let fault = match pixels::decode(bytes, Opacity::Kept, report.budget) {
         Ok(pixels) => {
-            let count = u64::from(pixels.width) * u64::from(pixels.height);
             if !pixels.width.is_power_of_two() || !pixels.height.is_power_of_two() {
                 let message = format!("the image has {} × {} pixels", pixels.width, pixels.height);
                 report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
             }
-            if count > *budget {
-                let message = "the images together have more than 16384 × 16384 pixels".to_owned();
-                report.say(&codes::GLTF_HUGE_IMAGE, "", at, message);
-                return false;
-            }
-            *budget -= count;
-            true
+            return true;
         }
-        Err(fault) => {
-            let message = format!("the image {fault}");
-            match fault {
-                DecodeError::TooLarge { width: _, height: _ } => report.say(&codes::GLTF_HUGE_IMAGE, "", at, message),
-                DecodeError::Format(_) | DecodeError::Damaged(_) => {
-                    report.say(&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID", at, message);
-                }
-            }
-            false
+        Err(Refused::Limit(fault)) => {
+            report.exceeded(at, "the image", &fault);
+            return false;
+        }
+        Err(Refused::File(fault)) => fault,
+    };
+    let message = format!("the image {fault}");
+    match fault {
+        DecodeError::TooLarge { width: _, height: _ } => report.say(&codes::GLTF_HUGE_IMAGE, "", at, message),
+        DecodeError::Format(_) | DecodeError::Damaged(_) => {
+            report.say(&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID", at, message);
         }
     }
+    false
 }

@@ -130,6 +130,7 @@ impl Resources {
         }
         match Loader.found(&found, MAX_BYTES) {
             Ok(bytes) => {
+                report.budget.read(bytes.len());
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
                 self.files.insert(found.path, Rc::clone(&bytes));
                 Some(bytes)

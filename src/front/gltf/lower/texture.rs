@@ -4,7 +4,7 @@ use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::report::Report;
 use crate::diag::codes;
-use crate::image::decode_with_alpha;
+use crate::image::{Opacity, PixelFile};
 use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Pixels, Place, Sampled, Scene, TextureId, Wrap};
 use crate::math::{cos, sin};
 
@@ -89,15 +89,16 @@ impl Textures {
             return *known;
         }
         let image = &doc.images[index];
-        let decoded = doc.image_bytes(image).and_then(|bytes| decode_with_alpha(bytes).ok());
-        let id = decoded.map(|(pixels, has_alpha)| {
+        // It was decoded before, and charged then.
+        let decode = |bytes| PixelFile::open(bytes, Opacity::Kept, u64::MAX).and_then(PixelFile::decode).ok();
+        let id = doc.image_bytes(image).and_then(decode).map(|pixels| {
             let at = scene.images.len();
             origins.record(Place::new(Noun::Image, at, Field::Whole), report.json.span(image.at));
             scene.images.push(ir::Image {
                 name: image.name.clone(),
                 width: pixels.width,
                 height: pixels.height,
-                kind: if has_alpha { Pixels::Rgba8 } else { Pixels::Rgb8 },
+                kind: if pixels.has_alpha { Pixels::Rgba8 } else { Pixels::Rgb8 },
                 pixels: pixels.bytes.into(),
             });
             ImageId(super::mesh::to_u32(at))
