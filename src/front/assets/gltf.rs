@@ -1,6 +1,6 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
-use super::{Known, Porter, Wanted, Without};
+use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
@@ -17,38 +17,50 @@ pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf:
 /// The largest asset read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
+/// The assets brought so far: what is to be placed of them.
+#[derive(Default)]
+pub(super) struct Assets {
+    known: Known<Placeable>,
+    /// The budget had no room for one of them: that is said once.
+    is_over: bool,
+}
+
 /// What is placed of an asset; it refers to what was added to the scene.
-pub(super) struct Placeable {
+struct Placeable {
     surfaces: Vec<Surface>,
     names: Vec<String>,
     lights: Vec<Light>,
 }
 
-/// Brings an asset and places it; without its file, nothing shows of it.
-pub(super) fn bring(
-    place: [[f64; 3]; 4],
-    wish: &Wanted,
-    lowered: &mut Lowered,
-    known: &mut Known<Placeable>,
-    porter: &mut Porter<'_>,
-) {
-    let Some(found) = porter.find(wish, Without::Object) else { return };
-    let asset = known.of(&found, || {
-        let bytes = porter.loader.found(&found, MAX_BYTES);
-        let bytes = bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
-        let file = add_asset(&found, bytes.ok()?, wish, porter)?;
-        let options = Options { camera: None, ..porter.options.clone() };
-        let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
-        Some(add(asset, lowered))
-    });
-    let Some(asset) = asset.filter(|_| !porter.is_full) else { return };
-    match asset.charge(porter.map.budget()) {
-        Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
-        Err(fault) => {
-            porter.is_full = true;
-            let message = format!("the asset asks for too much: {fault}");
-            let finding = Diagnostic::new(&codes::OVER_LIMIT, message).at(wish.span, "placed here");
-            porter.sink.push(finding.hint(fault.hint()));
+impl Assets {
+    /// Brings an asset and places it; without its file, nothing shows of it.
+    pub(super) fn bring(
+        &mut self,
+        place: [[f64; 3]; 4],
+        wish: &Wanted,
+        lowered: &mut Lowered,
+        porter: &mut Porter<'_>,
+    ) {
+        if self.is_over {
+            return;
+        }
+        let Some(found) = porter.find(wish, Without::Object) else { return };
+        let asset = self.known.of(&found, || {
+            let bytes = porter.loader.found(&found, MAX_BYTES);
+            let bytes =
+                bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+            let file = add_asset(&found, bytes.ok()?, wish, porter)?;
+            let options = Options { camera: None, ..porter.options.clone() };
+            let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
+            Some(add(asset, lowered))
+        });
+        let Some(asset) = asset else { return };
+        match asset.charge(porter.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+            Err(fault) => {
+                self.is_over = true;
+                porter.sink.push(over_limit("the asset", &fault).at(wish.span, "placed here"));
+            }
         }
     }
 }

@@ -36,8 +36,9 @@ pub fn bring(
     }
     let folder = map.folder(scene);
     let search = Search::new(folder, options.asset_root.as_deref()).with_parent(folder, options.home.as_deref());
-    let mut porter = Porter { search, options, loader: Loader, map, sink, is_full: false };
-    let (mut images, mut meshes, mut assets) = (Known::default(), Known::default(), Known::default());
+    let mut porter = Porter { search, options, loader: Loader, map, sink };
+    let (mut images, mut meshes) = (Known::default(), Known::default());
+    let mut assets = gltf::Assets::default();
     // Which image and which mesh came of each that was wanted.
     let (mut image_of, mut mesh_of) = (BTreeMap::new(), BTreeMap::new());
     for wish in wanted {
@@ -49,7 +50,7 @@ pub fn bring(
                 mesh_of.insert(id.0, mesh::bring(id, &wish, lowered, &mut meshes, &mut porter));
             }
             Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
-            Asset::Gltf(place) => gltf::bring(place, &wish, lowered, &mut assets, &mut porter),
+            Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
         }
     }
     image::settle(&image_of, &mut lowered.scene);
@@ -86,8 +87,6 @@ struct Porter<'run> {
     loader: Loader,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
-    /// The budget had no room for an asset: that is said once.
-    is_full: bool,
 }
 
 /// What a lenient run does without a file.

@@ -20,6 +20,8 @@ pub(super) struct Document<'s> {
     pub(super) views: Vec<View>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
+    /// What the images were decoded to, without names.
+    pub(super) pictures: Vec<crate::ir::Image>,
     pub(super) samplers: Vec<Sampler>,
     pub(super) textures: Vec<Texture>,
     /// Where each material was written; its many optional parts are read when it is lowered.
@@ -88,6 +90,7 @@ impl Document<'_> {
             views: each(root, "bufferViews", View::read),
             accessors: each(root, "accessors", Accessor::read),
             images: each(root, "images", Image::read),
+            pictures: Vec::new(),
             samplers: each(root, "samplers", Sampler::read),
             textures: each(root, "textures", Texture::read),
             materials: each(root, "materials", |fields| fields.at),

@@ -1,14 +1,17 @@
 //! Images: where their bytes are, what they say of themselves, and whether they can be decoded.
 
-use super::buffer::{Bytes, Purpose, Purposes};
+use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
 use super::features;
 use super::field::Fields;
 use super::json::{Kind, NodeId};
 use super::report::Report;
-use crate::diag::codes;
+use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity};
+use crate::ir;
+use crate::source::{Budget, Exceeded};
+use std::collections::BTreeMap;
 
 /// An image.
 #[derive(Debug)]
@@ -22,8 +25,8 @@ pub(super) struct Image {
     pub(super) format: Option<Format>,
     /// The bytes of its file or URI; those of a view stay there.
     pub(super) bytes: Option<Bytes<'static>>,
-    /// It was decoded once and is sound.
-    pub(super) is_sound: bool,
+    /// Which picture of the document it is, if it is sound.
+    pub(super) picture: Option<usize>,
 }
 
 /// A format of images.
@@ -98,7 +101,7 @@ impl Image {
             media: fields.text("mimeType"),
             format: None,
             bytes: None,
-            is_sound: false,
+            picture: None,
         }
     }
 }
@@ -135,8 +138,12 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
     }
 }
 
-/// Looks at the bytes of each image, and decodes it once to see that it is sound.
+/// Why an image is refused: a code, the validator's name for it, and words.
+type Fault = (&'static Code, &'static str, String);
+
+/// Looks at the bytes of each image, and decodes them; images of the same bytes are one picture.
 pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else { continue };
@@ -158,39 +165,62 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
             let message = format!("the image has {what}, and that is not followed");
             report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_FEATURES_UNSUPPORTED", at, message);
         }
-        let is_sound = format.ends_early(bytes).then(|| ends_early(at, report)).is_none() && decodes(bytes, at, report);
+        let own = stretch(bytes);
+        let picture = match known.get(&own) {
+            Some(picture) => picture.clone(),
+            None => match picture(format, bytes, report.budget) {
+                Ok(picture) => {
+                    doc.pictures.push(picture);
+                    Ok(doc.pictures.len() - 1)
+                }
+                Err(Refusal::Limit(fault)) => return report.exceeded(at, "the image", &fault),
+                Err(Refusal::Fault(fault)) => Err(fault),
+            },
+        };
+        match &picture {
+            Ok(picture) => remark_size(&doc.pictures[*picture], at, report),
+            Err((code, alias, message)) => report.say(code, alias, at, message.clone()),
+        }
         let image = &mut doc.images[index];
-        (image.format, image.is_sound) = (Some(format), is_sound);
+        (image.format, image.picture) = (Some(format), picture.as_ref().ok().copied());
+        known.insert(own, picture);
     }
 }
 
-fn ends_early(at: NodeId, report: &mut Report<'_, '_>) {
-    let message = "the image ends before it tells its size".to_owned();
-    report.say(&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", at, message);
+fn remark_size(picture: &ir::Image, at: NodeId, report: &mut Report<'_, '_>) {
+    let ir::Image { width, height, .. } = picture;
+    if !width.is_power_of_two() || !height.is_power_of_two() {
+        let message = format!("the image has {width} × {height} pixels");
+        report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
+    }
+}
+
+enum Refusal {
+    Fault(Fault),
+    Limit(Exceeded),
 }
 
 /// Decodes an image within the budget of the run.
-fn decodes(bytes: &[u8], at: NodeId, report: &mut Report<'_, '_>) -> bool {
-    let fault = match pixels::decode(bytes, Opacity::Kept, report.budget) {
-        Ok(pixels) => {
-            if !pixels.width.is_power_of_two() || !pixels.height.is_power_of_two() {
-                let message = format!("the image has {} × {} pixels", pixels.width, pixels.height);
-                report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
-            }
-            return true;
-        }
-        Err(Refused::Limit(fault)) => {
-            report.exceeded(at, "the image", &fault);
-            return false;
-        }
-        Err(Refused::File(fault)) => fault,
-    };
-    let message = format!("the image {fault}");
-    match fault {
-        DecodeError::TooLarge { width: _, height: _ } => report.say(&codes::GLTF_HUGE_IMAGE, "", at, message),
-        DecodeError::Format(_) | DecodeError::Damaged(_) => {
-            report.say(&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID", at, message);
-        }
+fn picture(format: Format, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
+    if format.ends_early(bytes) {
+        let message = "the image ends before it tells its size".to_owned();
+        return Err(Refusal::Fault((&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", message)));
     }
-    false
+    let pixels = pixels::decode(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
+        Refused::Limit(fault) => Refusal::Limit(fault),
+        Refused::File(fault) => {
+            let (code, alias) = match fault {
+                DecodeError::TooLarge { width: _, height: _ } => (&codes::GLTF_HUGE_IMAGE, ""),
+                DecodeError::Format(_) | DecodeError::Damaged(_) => (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID"),
+            };
+            Refusal::Fault((code, alias, format!("the image {fault}")))
+        }
+    })?;
+    Ok(ir::Image {
+        name: String::new(),
+        width: pixels.width,
+        height: pixels.height,
+        kind: if pixels.has_alpha { ir::Pixels::Rgba8 } else { ir::Pixels::Rgb8 },
+        pixels: pixels.bytes.into(),
+    })
 }

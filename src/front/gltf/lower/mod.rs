@@ -33,7 +33,7 @@ const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
 
 /// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of its parts.
-pub(in crate::front) const SURFACE: u64 = 512;
+pub(in crate::front) const SURFACE: u64 = 1024;
 
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
