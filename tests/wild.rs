@@ -35,11 +35,16 @@ fn shared() -> PathBuf {
 
 /// All scene files of a folder and the folders in it.
 fn scenes(folder: &Path) -> Vec<PathBuf> {
+    files(folder, &["yaml", "yml"])
+}
+
+/// All files of a folder and the folders in it with one of these extensions.
+fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let (mut open, mut found) = (vec![folder.to_owned()], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
             open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
+        } else if path.extension().is_some_and(|extension| extensions.iter().any(|wanted| extension == *wanted)) {
             found.push(path);
         }
     }
@@ -119,4 +124,29 @@ fn the_files_of_the_course_render() {
     }
     let (all, rendered) = render_all(&shared().join("course/scenes"));
     assert_eq!(rendered, all);
+}
+
+/// What is said of where the files lie that a scene names, a line each.
+fn places(path: &Path) -> Vec<String> {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    pipeline::load(file, &mut map, &Options::default(), &mut sink);
+    let name = path.strip_prefix(shared()).unwrap().display();
+    let of_places = sink.kept().iter().filter(|finding| ["RE001", "RE002", "RE003"].contains(&finding.code.id));
+    let line = |finding: &rtc::diag::Diagnostic| format!("{} {name}: {}", finding.code, finding.message);
+    of_places.map(|finding| line(finding).replace(&format!("{}/", shared().display()), "")).collect()
+}
+
+/// The table was made before the folder above a scene's lent only what is asked for.
+#[test]
+fn the_files_that_scenes_name_are_found_where_they_were() {
+    if !shared().join("wild").exists() {
+        println!("skipped: there is no ../shared/wild");
+        return;
+    }
+    let folders = ["course", "wild", "wild-2"].map(|folder| files(&shared().join(folder), &["yaml", "yml", "json"]));
+    let mut told: Vec<String> = folders.iter().flatten().flat_map(|path| places(path)).collect();
+    told.sort();
+    let table = include_str!("wild-files.txt").lines().filter(|line| !line.starts_with('#'));
+    assert_eq!(told, table.collect::<Vec<_>>());
 }

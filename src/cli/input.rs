@@ -57,6 +57,7 @@ impl Input {
                 strict: *strict,
                 lenient: *lenient,
                 asset_root: asset_root.clone(),
+                home: std::env::home_dir(),
                 time: *time,
                 animation: animation.clone(),
                 variant: variant.clone(),

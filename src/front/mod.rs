@@ -17,6 +17,8 @@ pub struct Options {
     pub lenient: bool,
     /// A folder beside that of the scene below which files named by the scene may lie.
     pub asset_root: Option<PathBuf>,
+    /// The home of the user, which lends no files to the scenes in its folders.
+    pub home: Option<PathBuf>,
     /// Of a glTF asset: the moment at which it is shown, in seconds; at rest without.
     pub time: Option<f64>,
     /// Of a glTF asset: the animation that the moment is of; without, the first.

@@ -70,9 +70,19 @@ pub fn decode_with_alpha(bytes: &[u8]) -> Result<(Pixels, bool), DecodeError> {
     Ok((Pixels { width, height, bytes }, has_alpha))
 }
 
+/// Whether a file that begins so is one that [`decode`] reads.
+#[must_use]
+pub fn is_picture(head: &[u8]) -> bool {
+    ::image::guess_format(head).is_ok_and(is_read)
+}
+
+fn is_read(format: ImageFormat) -> bool {
+    matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)
+}
+
 fn picture(bytes: &[u8]) -> Result<DynamicImage, DecodeError> {
     let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
-    if !matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP) {
+    if !is_read(format) {
         return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/"))));
     }
     let mut decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(|e| damaged(&e))?;

@@ -7,9 +7,9 @@ mod look;
 mod png;
 mod radiance;
 
-pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha};
+pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha, is_picture};
 pub use look::{Association, Backdrop, Look};
-pub use radiance::{Radiance, decode_radiance};
+pub use radiance::{Radiance, decode_radiance, is_radiance};
 
 use std::fmt;
 

@@ -28,9 +28,7 @@ pub struct Radiance {
 /// # Errors
 /// If the bytes are no such file, damaged, hold a value that is not finite, or ask for too much.
 pub fn decode_radiance(bytes: &[u8]) -> Result<Radiance, DecodeError> {
-    let is_exr = bytes.starts_with(&::exr::meta::magic_number::BYTES);
-    let is_hdr = bytes.starts_with(b"#?RADIANCE") || bytes.starts_with(b"#?RGBE");
-    let mut radiance = match (is_exr, is_hdr) {
+    let mut radiance = match (is_exr(bytes), is_hdr(bytes)) {
         (true, _) => exr(bytes)?,
         (false, true) => hdr(bytes)?,
         (false, false) => {
@@ -46,6 +44,20 @@ pub fn decode_radiance(bytes: &[u8]) -> Result<Radiance, DecodeError> {
     }
     radiance.pixels.as_flattened_mut().iter_mut().for_each(|channel| *channel = channel.max(0.0));
     Ok(radiance)
+}
+
+/// Whether a file that begins so is one that [`decode_radiance`] reads.
+#[must_use]
+pub fn is_radiance(head: &[u8]) -> bool {
+    is_exr(head) || is_hdr(head)
+}
+
+fn is_exr(head: &[u8]) -> bool {
+    head.starts_with(&::exr::meta::magic_number::BYTES)
+}
+
+fn is_hdr(head: &[u8]) -> bool {
+    head.starts_with(b"#?RADIANCE") || head.starts_with(b"#?RGBE")
 }
 
 fn hdr(bytes: &[u8]) -> Result<Radiance, DecodeError> {

@@ -6,7 +6,7 @@
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Behind, Counts, Crop, Values, coverage};
 use super::geometry::Geometry;
-use super::heartbeat::Proceed;
+use super::heartbeat::{Heartbeat, Proceed};
 use super::kernel::{choose_of_few, dispatch};
 use super::sampler::Key;
 use super::sequence::Sequence;
@@ -63,7 +63,7 @@ impl Growing {
     }
 
     /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`super::AnyWorld::grow`].
-    pub(super) fn lengthen<T: Sampling>(
+    pub(super) fn lengthen<'run, T: Sampling<'run>>(
         &mut self,
         tracer: impl Fn() -> T + Sync,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
@@ -76,9 +76,10 @@ impl Growing {
                 #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
                 let pixel = [x, crop.y + y as u32];
                 strands.tone = T::TONE;
-                tracer.begin(pixel);
+                tracer.heartbeat().begin(pixel);
                 strands.lengthen(wanted(y * width + i), &mut tracer, pixel, seed);
-                if !tracer.done() {
+                let so_far = tracer.counts();
+                if !tracer.heartbeat().done(&so_far) {
                     return None;
                 }
             }
@@ -173,12 +174,13 @@ impl Strands {
     }
 
     /// Takes the samples of a pixel that the strands lack of those wanted.
-    fn lengthen(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling, pixel: [u32; 2], seed: u64) {
+    fn lengthen<'run>(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling<'run>, pixel: [u32; 2], seed: u64) {
         for strand in 0..4_usize {
             let (half, before) = (strand / 2, tracer.counts().hits);
             let number = (seed << 2 | strand as u64).wrapping_add(1);
             for index in self.counts[half]..wanted[half] {
-                if !tracer.goes_on() {
+                let so_far = tracer.counts();
+                if !tracer.heartbeat().goes_on(&so_far) {
                     return;
                 }
                 let radiance = tracer.sample(pixel, number, index);
@@ -211,7 +213,7 @@ fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
 }
 
 /// What takes samples of pixels.
-pub(super) trait Sampling {
+pub(super) trait Sampling<'run> {
     /// How the mean of its samples is shown; none where each is clamped to [0, 1].
     const TONE: Option<Tone>;
 
@@ -221,14 +223,8 @@ pub(super) trait Sampling {
     /// The rays traced so far.
     fn counts(&self) -> Counts;
 
-    /// Begins a pixel.
-    fn begin(&mut self, pixel: [u32; 2]);
-
-    /// Whether to go on, within a pixel.
-    fn goes_on(&mut self) -> bool;
-
-    /// Ends a pixel; false if that was the last one.
-    fn done(&mut self) -> bool;
+    /// Tells of the pixel under way, and whether to go on with it.
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
 }
 
 impl<S: Geometry> World<S> {
@@ -264,7 +260,7 @@ impl<S: Geometry> World<S> {
 /// Keeps the numbers of strands apart from those of the paths through them.
 const STRAND: u64 = u64::MAX - 2;
 
-impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
+impl<'world, S: Geometry, const F: u32> Sampling<'world> for Tracer<'world, S, F> {
     const TONE: Option<Tone> = None;
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
@@ -279,15 +275,7 @@ impl<S: Geometry, const F: u32> Sampling for Tracer<'_, S, F> {
         self.counts
     }
 
-    fn begin(&mut self, pixel: [u32; 2]) {
-        self.heartbeat.begin(pixel);
-    }
-
-    fn goes_on(&mut self) -> bool {
-        self.heartbeat.goes_on(&self.counts)
-    }
-
-    fn done(&mut self) -> bool {
-        self.heartbeat.done(&self.counts)
+    fn heartbeat(&mut self) -> &mut Heartbeat<'world> {
+        &mut self.heartbeat
     }
 }

@@ -56,7 +56,7 @@ const TABLE: [Row; COUNT] = [
     Row {
         resource: Resource::Vertices,
         name: "vertices",
-        base: 1 << 25,
+        base: 1 << 24,
         per_kib: 1 << 10,
         text: "vertices made, each as often as it is made: for every primitive, morph target and pose",
     },

@@ -1,9 +1,13 @@
 //! The one file that reads: a file or standard input, within a limit of size, most often into the source map.
+//!
+//! What the user names is opened as it is. What a scene names is opened first, and judged by what was opened: a path can
+//! lead elsewhere the next time it is followed.
 
-use super::{FileId, SourceMap};
+use super::{FileId, Found, SourceMap};
 use std::fmt;
-use std::io::Read;
-use std::path::Path;
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, Read, Seek};
+use std::path::{Path, PathBuf};
 
 /// The largest file read, in bytes: offsets are 32 bits, and a larger scene text is a mistake.
 const MAX_BYTES: u64 = 1 << 30;
@@ -12,7 +16,7 @@ const MAX_BYTES: u64 = 1 << 30;
 #[derive(Debug)]
 pub enum LoadError {
     /// The system said no.
-    Io(std::io::Error),
+    Io(io::Error),
     /// The file is larger than the limit, given in bytes.
     TooLarge {
         /// The limit in bytes.
@@ -50,22 +54,110 @@ impl Loader {
         Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
     }
 
-    /// Reads the file at `path`, of at most `limit` bytes.
+    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found.
+    ///
+    /// # Errors
+    /// What the system says, or that the file is too large.
+    pub fn found(&self, found: &Found, limit: u64) -> Result<Vec<u8>, LoadError> {
+        found.opened().bytes(limit)
+    }
+
+    /// Reads the file at `path`, which the user names, of at most `limit` bytes.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
     #[expect(clippy::disallowed_methods, reason = "this is the one place that reads")]
     pub fn bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, LoadError> {
-        let file = std::fs::File::open(path).map_err(LoadError::Io)?;
-        let metadata = file.metadata().map_err(LoadError::Io)?;
-        if metadata.is_dir() {
-            return Err(LoadError::Io(std::io::ErrorKind::IsADirectory.into()));
-        }
-        if metadata.len() > limit {
-            return Err(LoadError::TooLarge { limit });
-        }
-        all(file, usize::try_from(metadata.len()).unwrap_or(0), limit)
+        whole(&File::open(path).map_err(LoadError::Io)?, limit)
     }
+}
+
+/// A regular file that was opened, and where it lies.
+#[derive(Debug)]
+pub(super) struct Opened {
+    path: PathBuf,
+    /// Or why the system did not open it.
+    file: io::Result<File>,
+}
+
+impl Opened {
+    /// Opens the file at `path`; `None` if there is none, or what is there is no regular file.
+    pub(super) fn at(path: &Path) -> Option<Self> {
+        // To open a device may already do something, so it is not even tried.
+        if !fs::metadata(path).ok()?.is_file() {
+            return None;
+        }
+        let file = without_waiting().open(path);
+        let path = fs::canonicalize(path).ok()?;
+        if let Ok(file) = &file {
+            let (opened, there) = (file.metadata().ok()?, fs::metadata(&path).ok()?);
+            if !opened.is_file() || !is_same(&opened, &there) {
+                return None;
+            }
+        }
+        Some(Self { path, file })
+    }
+
+    /// Where it lies, free of links.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The first bytes, of at most 64 KiB; none if it can't be read.
+    pub(super) fn head(&self) -> Vec<u8> {
+        let mut head = Vec::new();
+        if let Ok(file) = &self.file
+            && file.take(1 << 16).read_to_end(&mut head).is_err()
+        {
+            head.clear();
+        }
+        head
+    }
+
+    fn bytes(&self, limit: u64) -> Result<Vec<u8>, LoadError> {
+        match &self.file {
+            Ok(file) => {
+                (&*file).rewind().map_err(LoadError::Io)?;
+                whole(file, limit)
+            }
+            Err(error) => {
+                Err(LoadError::Io(error.raw_os_error().map_or(error.kind().into(), io::Error::from_raw_os_error)))
+            }
+        }
+    }
+}
+
+/// Reads without waiting for a writer, should a pipe have come to where a file was.
+fn without_waiting() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
+    options
+}
+
+/// True if both are of one file, as far as the system tells.
+#[cfg(unix)]
+fn is_same(a: &Metadata, b: &Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (a.dev(), a.ino()) == (b.dev(), b.ino())
+}
+
+#[cfg(not(unix))]
+fn is_same(a: &Metadata, b: &Metadata) -> bool {
+    (a.len(), a.modified().ok()) == (b.len(), b.modified().ok())
+}
+
+/// All of an open file.
+fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
+    let metadata = file.metadata().map_err(LoadError::Io)?;
+    if metadata.is_dir() {
+        return Err(LoadError::Io(io::ErrorKind::IsADirectory.into()));
+    }
+    if metadata.len() > limit {
+        return Err(LoadError::TooLarge { limit });
+    }
+    all(file, usize::try_from(metadata.len()).unwrap_or(0), limit)
 }
 
 /// All there is to read, most likely `expected` bytes.

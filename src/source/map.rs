@@ -1,7 +1,7 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
-use super::{Budget, Limits};
-use std::path::{Path, PathBuf};
+use super::{Budget, Folder, Found, Limits};
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// Names one file of a [`SourceMap`].
@@ -44,8 +44,8 @@ pub struct LineColumn {
 
 struct SourceFile {
     name: String,
-    /// Where it was read from, unless it came through a stream.
-    path: Option<PathBuf>,
+    /// The folder it was read from, unless it came through a stream.
+    folder: Option<Folder>,
     bytes: Vec<u8>,
     /// Found when a line is first asked for: most files are never pointed at, and some are large and binary.
     line_starts: OnceLock<Vec<u32>>,
@@ -84,21 +84,30 @@ impl SourceMap {
     /// # Panics
     /// As [`Self::add`].
     pub fn add_from(&mut self, path: &Path, bytes: Vec<u8>) -> FileId {
-        self.push(path.display().to_string(), Some(path.to_owned()), bytes)
+        let folder = Folder::new(path.parent().unwrap_or(Path::new("")));
+        self.push(path.display().to_string(), folder, bytes)
     }
 
-    fn push(&mut self, name: String, path: Option<PathBuf>, bytes: Vec<u8>) -> FileId {
+    /// Adds a file that was found; it is called as the user would write it.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_found(&mut self, found: &Found, bytes: Vec<u8>) -> FileId {
+        self.push(found.shown.display().to_string(), found.folder(), bytes)
+    }
+
+    fn push(&mut self, name: String, folder: Option<Folder>, bytes: Vec<u8>) -> FileId {
         assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
         self.budget.read(bytes.len());
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(SourceFile { name, path, bytes, line_starts: OnceLock::new() });
+        self.files.push(SourceFile { name, folder, bytes, line_starts: OnceLock::new() });
         id
     }
 
     /// The folder the file was read from; none for what came through a stream.
     #[must_use]
-    pub fn folder(&self, file: FileId) -> Option<&Path> {
-        self.file(file).path.as_deref().map(|path| path.parent().unwrap_or(Path::new("")))
+    pub fn folder(&self, file: FileId) -> Option<&Folder> {
+        self.file(file).folder.as_ref()
     }
 
     /// The name the user gave the file.

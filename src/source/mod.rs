@@ -8,4 +8,4 @@ mod search;
 pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use loader::{LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
-pub use search::{Found, Missing, Search};
+pub use search::{Folder, Found, Kind, Missing, Search};

@@ -1,33 +1,53 @@
 //! Where a file lies that a scene names: only below the scene's folder, its parent, or a folder the user allows.
 //!
 //! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the longest tail of it that
-//! exists below those folders is taken instead. So is, last, a name that differs in case only. Links are resolved
-//! before they are judged, and only regular files are found.
+//! exists below those folders is taken instead. So is, last, a name that differs in case only. A file is opened before
+//! it is judged, and only regular files are found. The parent is not the scene's own: what it lends is shown by its name
+//! and its first bytes to be what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
 
+use super::loader::Opened;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// The most components of a name that are looked at, from its end.
 const MAX_COMPONENTS: usize = 16;
+
+/// Folders of the system, which lend nothing, nor does any folder below.
+const OF_THE_SYSTEM: [&str; 5] = ["/proc", "/sys", "/dev", "/etc", "/private/etc"];
+
+/// Folders of homes.
+const OF_HOMES: [&str; 3] = ["/home", "/Users", "C:\\Users"];
 
 /// The folders in which files are looked for, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct Search {
     folders: Vec<Folder>,
+    /// The last of them is the parent of the scene's folder.
+    has_parent: bool,
     /// The folder the user allows, resolved.
     allowed: Option<PathBuf>,
 }
 
+/// A folder.
 #[derive(Clone, Debug)]
-struct Folder {
+pub struct Folder {
     /// As the user would write it.
     shown: PathBuf,
     /// Without links and `..`.
     resolved: PathBuf,
 }
 
-/// A file that was found.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A kind of file that scenes name.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// What its names end in, in lower case.
+    pub extensions: &'static [&'static str],
+    /// Whether a file that begins with these bytes, at most 64 KiB, is one.
+    pub begins: fn(&[u8]) -> bool,
+}
+
+/// A file that was found, and is open.
+#[derive(Debug)]
 pub struct Found {
     /// Its path, free of links.
     pub path: PathBuf,
@@ -35,6 +55,7 @@ pub struct Found {
     pub shown: PathBuf,
     /// It has not the name, or lies not where the name says.
     pub elsewhere: bool,
+    opened: Opened,
 }
 
 /// Why there is no such file.
@@ -46,6 +67,52 @@ pub enum Missing {
     Absent(Vec<PathBuf>),
     /// The name leads out of the folders, and nothing like it is at these places.
     Outside(Vec<PathBuf>),
+}
+
+impl Folder {
+    /// The folder that the user writes so; `None` if there is none. Nothing stands for the current one.
+    #[must_use]
+    pub fn new(shown: &Path) -> Option<Self> {
+        let path = if shown.as_os_str().is_empty() { Path::new(".") } else { shown };
+        Some(Self { shown: shown.to_owned(), resolved: fs::canonicalize(path).ok()? })
+    }
+
+    /// A folder free of links, shown by the first of these names that leads there.
+    fn named(resolved: &Path, names: impl IntoIterator<Item = PathBuf>) -> Self {
+        let leads_there = |folder: &Self| folder.resolved == resolved;
+        let folder = names.into_iter().find_map(|name| Self::new(&name).filter(leads_there));
+        folder.unwrap_or_else(|| Self { shown: resolved.to_owned(), resolved: resolved.to_owned() })
+    }
+
+    fn parent(&self) -> Option<Self> {
+        let lexical = self.shown.parent().filter(|_| !self.shown.ends_with("..")).map(Path::to_owned);
+        Some(Self::named(self.resolved.parent()?, lexical.into_iter().chain([self.shown.join("..")])))
+    }
+
+    /// Whether it may lend files to scenes in a folder within; `home` is that of the user.
+    fn lends(&self, home: Option<&Path>) -> bool {
+        let path = &self.resolved;
+        let names = path.components().filter(|part| matches!(part, Component::Normal(_))).count();
+        let of_system = OF_THE_SYSTEM.iter().any(|folder| path.starts_with(folder));
+        let is_home = home == Some(path) || OF_HOMES.iter().any(|homes| path.parent() == Some(Path::new(homes)));
+        names >= 2 && !of_system && !is_home
+    }
+}
+
+impl Found {
+    fn new(opened: Opened, shown: PathBuf, elsewhere: bool) -> Self {
+        Self { path: opened.path().to_owned(), shown, elsewhere, opened }
+    }
+
+    /// The folder it lies in.
+    #[must_use]
+    pub fn folder(&self) -> Option<Folder> {
+        Some(Folder::named(self.path.parent()?, self.shown.parent().map(Path::to_owned)))
+    }
+
+    pub(super) fn opened(&self) -> &Opened {
+        &self.opened
+    }
 }
 
 /// A name as a scene writes it, on any system.
@@ -94,57 +161,59 @@ impl<'a> Name<'a> {
 
 /// What is at a place.
 enum At {
-    File(PathBuf),
-    LinkOut,
+    File(Opened),
+    /// What may not be read, be it there or not.
+    Withheld,
     Nothing,
 }
 
 impl Search {
-    /// Looks in `folder`, that of the scene, in `allowed`, and in the parent of `folder`.
+    /// Looks in `folder`, that of the scene, and in `allowed`.
     #[must_use]
-    pub fn new(folder: Option<&Path>, allowed: Option<&Path>) -> Self {
-        let open = |shown: &Path| {
-            let path = if shown.as_os_str().is_empty() { Path::new(".") } else { shown };
-            Some(Folder { shown: shown.to_owned(), resolved: fs::canonicalize(path).ok()? })
-        };
-        let scene = folder.and_then(open);
-        let parent = scene.as_ref().and_then(|scene| {
-            let above = scene.shown.join("..");
-            let shown = scene.shown.parent().filter(|_| !scene.shown.ends_with("..")).unwrap_or(&above);
-            Some(Folder { shown: shown.to_owned(), resolved: scene.resolved.parent()?.to_owned() })
-        });
-        let given = allowed.and_then(open);
+    pub fn new(folder: Option<&Folder>, allowed: Option<&Path>) -> Self {
+        let given = allowed.and_then(Folder::new);
         let allowed = given.as_ref().map(|folder| folder.resolved.clone());
-        Self { folders: [scene, given, parent].into_iter().flatten().collect(), allowed }
+        Self { folders: folder.cloned().into_iter().chain(given).collect(), has_parent: false, allowed }
     }
 
-    /// The file that a scene names `written`.
+    /// Looks last in the parent of the scene's `folder` too, unless that is `home` or lends nothing for another reason.
+    #[must_use]
+    pub fn with_parent(mut self, folder: Option<&Folder>, home: Option<&Path>) -> Self {
+        let home = home.and_then(|home| fs::canonicalize(home).ok());
+        let lends = |parent: &Folder| parent.lends(home.as_deref()) || self.is_allowed(&parent.resolved);
+        let parent = folder.and_then(Folder::parent).filter(lends);
+        self.has_parent = parent.is_some();
+        self.folders.extend(parent);
+        self
+    }
+
+    /// The file of a kind that a scene names `written`.
     ///
     /// # Errors
     /// Why there is none, with the places that were looked at.
-    pub fn find(&self, written: &str) -> Result<Found, Missing> {
+    pub fn find(&self, written: &str, kind: &Kind) -> Result<Found, Missing> {
         let Some(scene) = self.folders.first() else { return Err(Missing::NoFolder) };
         let name = Name::new(written);
         let mut outside = name.leads_out();
-        if let Some(path) = self.climb(scene, &name) {
+        if let Some(opened) = self.climb(scene, &name) {
             let shown = scene.shown.join(written.trim().replace('\\', "/"));
-            return Ok(Found { path, shown, elsewhere: name.trimmed });
+            return Ok(Found::new(opened, shown, name.trimmed));
         }
         let mut looked: Vec<PathBuf> = Vec::new();
         for (index, tail) in name.tails().enumerate() {
             let elsewhere = index > 0 || name.leads_out() || name.trimmed;
-            for folder in &self.folders {
+            for (place, folder) in self.folders.iter().enumerate() {
                 let shown = folder.shown.join(&tail);
-                match self.at(folder, &tail) {
-                    At::File(path) => return Ok(Found { path, shown, elsewhere }),
-                    At::LinkOut => outside = true,
+                match self.at(place, &tail, kind) {
+                    At::File(opened) => return Ok(Found::new(opened, shown, elsewhere)),
+                    At::Withheld => outside = true,
                     At::Nothing => {}
                 }
                 looked.push(shown);
             }
         }
-        let other_case =
-            name.tails().find_map(|tail| self.folders.iter().find_map(|folder| self.other_case(folder, &tail)));
+        let places = 0..self.folders.len();
+        let other_case = name.tails().find_map(|tail| places.clone().find_map(|at| self.other_case(at, &tail, kind)));
         other_case.ok_or(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
     }
 
@@ -154,18 +223,19 @@ impl Search {
     /// # Errors
     /// Why there is none, with the places that were looked at.
     pub fn below(&self, written: &str) -> Result<Found, Missing> {
-        let Some(scene) = self.folders.first() else { return Err(Missing::NoFolder) };
+        let own = self.folders.len() - usize::from(self.has_parent);
+        if own == 0 {
+            return Err(Missing::NoFolder);
+        }
         let name = Name::new(written);
         if name.leads_out() || written.contains('\\') {
             return Err(Missing::Outside(Vec::new()));
         }
-        let allowed = self.folders.iter().skip(1).find(|folder| Some(&folder.resolved) == self.allowed.as_ref());
         let (mut looked, mut outside) = (Vec::new(), false);
-        for folder in std::iter::once(scene).chain(allowed) {
-            let shown = folder.shown.join(written);
-            match self.at(folder, Path::new(written)) {
-                At::File(path) => return Ok(Found { path, shown, elsewhere: false }),
-                At::LinkOut => outside = true,
+        for (folder, shown) in self.folders[..own].iter().map(|folder| (folder, folder.shown.join(written))) {
+            match self.within(folder, Path::new(written)) {
+                At::File(opened) => return Ok(Found::new(opened, shown, false)),
+                At::Withheld => outside = true,
                 At::Nothing => {}
             }
             looked.push(shown);
@@ -173,24 +243,39 @@ impl Search {
         Err(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
     }
 
-    /// The file at a name with `..` in front, which only the folder the user allows can hold.
-    fn climb(&self, scene: &Folder, name: &Name) -> Option<PathBuf> {
-        let allowed = self.allowed.as_ref().filter(|_| name.climbs > 0 && !name.is_absolute)?;
-        let above = scene.resolved.ancestors().nth(name.climbs)?;
-        let path = fs::canonicalize(above.join(name.components.iter().collect::<PathBuf>())).ok()?;
-        (path.starts_with(allowed) && path.is_file()).then_some(path)
+    fn is_allowed(&self, path: &Path) -> bool {
+        self.allowed.as_ref().is_some_and(|allowed| path.starts_with(allowed))
     }
 
-    fn at(&self, folder: &Folder, tail: &Path) -> At {
-        let Some(path) = fs::canonicalize(folder.resolved.join(tail)).ok().filter(|path| path.is_file()) else {
-            return At::Nothing;
-        };
-        let inside = |root: &PathBuf| path.starts_with(root);
-        if inside(&folder.resolved) || self.allowed.as_ref().is_some_and(inside) { At::File(path) } else { At::LinkOut }
+    /// The file at a name with `..` in front, which only the folder the user allows can hold.
+    fn climb(&self, scene: &Folder, name: &Name) -> Option<Opened> {
+        self.allowed.as_ref().filter(|_| name.climbs > 0 && !name.is_absolute)?;
+        let above = scene.resolved.ancestors().nth(name.climbs)?;
+        let opened = Opened::at(&above.join(name.components.iter().collect::<PathBuf>()))?;
+        self.is_allowed(opened.path()).then_some(opened)
+    }
+
+    /// What is below the folder at `place`; of the parent only what it lends.
+    fn at(&self, place: usize, tail: &Path, kind: &Kind) -> At {
+        let folder = &self.folders[place];
+        match self.within(folder, tail) {
+            At::File(opened) if self.has_parent && place + 1 == self.folders.len() => {
+                let is_lent = self.is_allowed(opened.path()) || kind.is_lent(&opened, &folder.resolved);
+                if is_lent { At::File(opened) } else { At::Withheld }
+            }
+            at => at,
+        }
+    }
+
+    fn within(&self, folder: &Folder, tail: &Path) -> At {
+        let Some(opened) = Opened::at(&folder.resolved.join(tail)) else { return At::Nothing };
+        let is_inside = opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path());
+        if is_inside { At::File(opened) } else { At::Withheld }
     }
 
     /// The file whose last component differs from that of `tail` in case only; the first by name, if there are more.
-    fn other_case(&self, folder: &Folder, tail: &Path) -> Option<Found> {
+    fn other_case(&self, place: usize, tail: &Path, kind: &Kind) -> Option<Found> {
+        let folder = &self.folders[place];
         let wanted = tail.file_name()?.to_str()?.to_lowercase();
         let entries = fs::read_dir(folder.resolved.join(tail).parent()?).ok()?;
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
@@ -198,10 +283,22 @@ impl Search {
         alike.sort();
         alike.into_iter().find_map(|name| {
             let tail = tail.with_file_name(name);
-            match self.at(folder, &tail) {
-                At::File(path) => Some(Found { path, shown: folder.shown.join(&tail), elsewhere: true }),
-                At::LinkOut | At::Nothing => None,
+            match self.at(place, &tail, kind) {
+                At::File(opened) => Some(Found::new(opened, folder.shown.join(&tail), true)),
+                At::Withheld | At::Nothing => None,
             }
         })
+    }
+}
+
+impl Kind {
+    /// Whether a file below a folder is of this kind, by its name and its first bytes, and not hidden there.
+    fn is_lent(&self, opened: &Opened, folder: &Path) -> bool {
+        let extension = opened.path().extension().and_then(|extension| extension.to_str()).map(str::to_lowercase);
+        let below = opened.path().strip_prefix(folder).unwrap_or(opened.path());
+        let is_hidden = below.components().any(|part| part.as_os_str().as_encoded_bytes().starts_with(b"."));
+        !is_hidden
+            && extension.is_some_and(|extension| self.extensions.contains(&extension.as_str()))
+            && (self.begins)(&opened.head())
     }
 }

@@ -78,7 +78,6 @@ fn faults_of_mesh_files_have_their_place_there() {
         (format!("{corners}f /1 2 3\n"), "m.obj:4:3 the corner `/1` has no vertex"),
         (format!("{corners}f a b c\n"), "m.obj:4:3 `a` is not a whole number"),
         (corners.to_owned(), "m.obj:1:1 the mesh has no faces"),
-        (String::new(), "m.obj:1:1 the mesh file is empty"),
         ("OFF\n3 1 0\n0 0 0\n".to_owned(), "m.obj:2:1 the file ends before the last of 3 vertices"),
         ("OFF\n99999999999999 1 0\n0 0 0\n".to_owned(), "m.obj:2:1 the file ends before the last of 99999999999999"),
         ("OFF\n-1 1 0\n".to_owned(), "m.obj:2:1 there can't be -1 vertices"),
@@ -92,6 +91,22 @@ fn faults_of_mesh_files_have_their_place_there() {
         let findings = mesh(&text).findings;
         assert!(findings.starts_with(&format!("RE006 error {expected}")), "{text}: {findings}");
     }
+}
+
+#[test]
+fn nothing_is_told_from_a_file_that_is_no_mesh() {
+    for text in
+        ["root:x:0:0:root:/root:/bin/sh\n", "TOKEN=secret", "# secret\n", "f secret secret secret\n", "s secret\nv"]
+    {
+        let findings = mesh(text).findings;
+        assert!(findings.starts_with("RE006 error scene.yaml:1:3 `"), "{findings}");
+        assert!(
+            findings.ends_with("/inner/m.obj` is neither OBJ nor OFF\n") && !findings.contains("secret"),
+            "{findings}"
+        );
+    }
+    let findings = mesh("").findings;
+    assert!(findings.starts_with("RE006 error scene.yaml:1:3 the mesh file `") && findings.ends_with("is empty\n"));
 }
 
 #[test]

@@ -3,12 +3,13 @@
 super::codes! { RE:
     FILE_NOT_FOUND = "RE001", Error, "a file named by the scene can't be found",
         "Textures and meshes are looked for beside the scene file, in the folder given by `--asset-root`, and in the \
-         folder above the scene's. If they are at none of these places, the last components of the name alone are looked \
+         folder above the scene's, unless that is a home, `/`, a folder in `/`, or one of the system. If they are at none of these places, the last components of the name alone are looked \
          for there, and last a name that differs in upper and lower case only. With `--lenient` the texture falls back \
          to the colour, or the object is left out, with a warning.";
     FILE_OUTSIDE = "RE002", Error, "a file named by the scene lies where scenes may not read",
-        "A scene may come from anywhere, so it may not read any file: only those below its own folder, the folder above \
-         for the same name, and the folder given by `--asset-root`. A path from the root, from a Windows drive or \
+        "A scene may come from anywhere, so it may not read any file: only those below its own folder and the folder given \
+         by `--asset-root`, and in the folder above its own those that are what it asks for: their extension and first \
+         bytes are of a picture, a mesh or an asset, and nothing of their path there is hidden. A path from the root, from a Windows drive or \
          through `..`, and a link that leads out, are not followed; only a file of that name inside is taken. Put the \
          file beside the scene, or allow its folder by `--asset-root`.";
     FILE_ELSEWHERE = "RE003", Note, "a file was found under another name than the scene gives",
@@ -22,7 +23,7 @@ super::codes! { RE:
         "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
          16384 pixels, and 1 GiB while it is decoded; an environment has at most 8192 × 4096. Scale the picture down.";
     BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
-        "Meshes are Wavefront OBJ or OFF. The label is at the first place that can't be: a number that is missing or not \
+        "Meshes are Wavefront OBJ or OFF; of a file that is neither, nothing is shown. The label is at the first place that can't be: a number that is missing or not \
          finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \
          again. With `--lenient` the object is left out, with a warning.";
     NOT_DRAWN = "RE007", Warning, "a mesh file holds elements that don't show",

@@ -2,16 +2,20 @@
 
 use super::{Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
-use crate::image::{DecodeError, Radiance, decode_radiance};
+use crate::image::{DecodeError, Radiance, decode_radiance, is_radiance};
 use crate::ir::{Image, ImageId, Lowered, Pixels};
+use crate::source::Kind;
 
 /// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;
 
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["hdr", "pic", "exr"], begins: is_radiance };
+
 /// Brings the image of the environment; without its file there is none.
 pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
     let found = porter.find(wish, Without::Environment);
-    let image = found.and_then(|found| match porter.loader.bytes(&found.path, MAX_BYTES) {
+    let image = found.and_then(|found| match porter.loader.found(&found, MAX_BYTES) {
         Ok(bytes) => {
             let refuse = |fault| {
                 let finding = refusal(&fault, &found.shown.display().to_string()).at(wish.span, "named here");

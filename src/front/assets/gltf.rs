@@ -1,20 +1,30 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
 use super::{Porter, Wanted, Without};
+use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
     Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual, Scene, Shape,
     Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
+use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
 use glam::DAffine3;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf::begins };
+
+/// The largest asset read, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
 
 /// The assets brought so far, each once: what is to be placed of them, or nothing if they have errors.
 #[derive(Default)]
 pub(super) struct Assets {
     known: BTreeMap<PathBuf, Option<Placeable>>,
+    /// The budget had no room for one of them: that is said once.
+    is_over: bool,
 }
 
 /// What is placed of an asset; it refers to what was added to the scene.
@@ -35,16 +45,35 @@ impl Assets {
     ) {
         let Some(found) = porter.find(wish, Without::Object) else { return };
         let asset = self.known.entry(found.path.clone()).or_insert_with(|| {
-            let file = porter.loader.file(&found.shown, porter.map);
-            let file = file.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+            let bytes = porter.loader.found(&found, MAX_BYTES);
+            let bytes =
+                bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+            let file = add_asset(&found, bytes.ok()?, wish, porter)?;
             let options = Options { camera: None, ..porter.options.clone() };
-            let asset = gltf::lower(file.ok()?, porter.map, &options, porter.sink)?;
+            let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
             Some(add(asset, lowered))
         });
-        if let Some(asset) = asset {
-            asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
+        let Some(asset) = asset.as_ref().filter(|_| !self.is_over) else { return };
+        match asset.charge(porter.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+            Err(fault) => {
+                self.is_over = true;
+                let message = format!("the asset asks for too much: {fault}");
+                let finding = Diagnostic::new(&codes::OVER_LIMIT, message).at(wish.span, "placed here");
+                porter.sink.push(finding.hint(fault.hint()));
+            }
         }
     }
+}
+
+/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of another kind.
+fn add_asset(found: &Found, bytes: Vec<u8>, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
+    if gltf::recognise("", &bytes) {
+        return Some(porter.map.add_found(found, bytes));
+    }
+    let message = format!("`{}` is no glTF asset", found.shown.display());
+    porter.refuse(Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"), Without::Object);
+    None
 }
 
 /// Adds what an asset is made of to a scene.
@@ -92,6 +121,15 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
 }
 
 impl Placeable {
+    /// Charges one more of it.
+    fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
+        let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
+        let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
+        let surfaces = self.surfaces.len() as u64;
+        budget.charge(Resource::Surfaces, surfaces)?;
+        budget.charge(Resource::Memory, surfaces * gltf::SURFACE + names + lights)
+    }
+
     /// Puts the asset into its place.
     fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
         let Lowered { scene, origins } = lowered;

@@ -2,12 +2,15 @@
 
 use super::{Porter, Wanted, Without};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::image::{DecodeError, Pixels, decode};
+use crate::image::{DecodeError, Pixels, decode, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
-use crate::source::Found;
+use crate::source::{Found, Kind};
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored plainly.
 const MAX_BYTES: u64 = 1 << 30;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["png", "jpg", "jpeg", "webp"], begins: is_picture };
 
 /// Brings one image; without its file no material looks at it.
 pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
@@ -22,7 +25,7 @@ pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
-    match porter.loader.bytes(&found.path, MAX_BYTES) {
+    match porter.loader.found(found, MAX_BYTES) {
         Ok(bytes) => decode(&bytes).map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color)).ok(),
         Err(error) => {
             porter.unreadable(found, &error.to_string(), wish.span, Without::Color);

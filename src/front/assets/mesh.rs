@@ -4,13 +4,16 @@ use super::scan::{Fault, Lines, Word};
 use super::{Porter, Wanted, Without, obj, off};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{Lowered, Mesh, MeshId};
-use crate::source::{FileId, Found};
+use crate::source::{FileId, Found, Kind};
 
 /// The largest mesh file read, in bytes: some two million triangles.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// So many faults of one file are told.
 pub(super) const MAX_FAULTS: usize = 10;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind { extensions: &["obj", "off"], begins: is_mesh };
 
 /// A mesh file as read.
 #[derive(Debug, Default)]
@@ -74,8 +77,18 @@ fn count_of(count: usize) -> String {
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
-    match porter.loader.bytes(&found.path, MAX_BYTES) {
-        Ok(bytes) => Some(porter.map.add(found.shown.display().to_string(), bytes)),
+    match porter.loader.found(found, MAX_BYTES) {
+        Ok(bytes) if is_mesh(&bytes) => Some(porter.map.add_found(found, bytes)),
+        // A finding within would quote a file that is none of the scene's business.
+        Ok(bytes) => {
+            let name = found.shown.display();
+            let message = match bytes.is_empty() {
+                true => format!("the mesh file `{name}` is empty"),
+                false => format!("`{name}` is neither OBJ nor OFF"),
+            };
+            porter.refuse(Diagnostic::new(&codes::BAD_MESH_FILE, message).at(wish.span, "named here"), Without::Object);
+            None
+        }
         Err(error) => {
             porter.unreadable(found, &error.to_string(), wish.span, Without::Object);
             None
@@ -83,20 +96,32 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId>
     }
 }
 
+/// Whether a file that begins so is a mesh: it starts as OFF, or as OBJ and has a vertex.
+fn is_mesh(head: &[u8]) -> bool {
+    let (mut lines, mut words) = (Lines::new(head), Vec::new());
+    let has_words = lines.next(&mut words);
+    if !has_words || !obj::is_keyword(&words[0]) {
+        return has_words && off::is_head(&words[0]);
+    }
+    let is_vertex = |words: &[Word<'_>]| matches!(words, [Word { bytes: b"v", .. }, x, ..] if x.number().is_ok());
+    while !is_vertex(&words) {
+        if !lines.next(&mut words) {
+            return false;
+        }
+    }
+    true
+}
+
 /// Reads a mesh file of either format; the faults are in the order of the file, at least one.
 pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
     let mut words = Vec::new();
-    let has_words = Lines::new(bytes).next(&mut words);
+    Lines::new(bytes).next(&mut words);
     let parsed = match words.first() {
         Some(head) if off::is_head(head) => off::parse(bytes)?,
         Some(_) | None => obj::parse(bytes)?,
     };
     if parsed.mesh.triangles.is_empty() {
-        let (message, label) = match words.first().filter(|_| has_words) {
-            Some(_) => ("the mesh has no faces", "neither OFF nor OBJ with faces"),
-            None => ("the mesh file is empty", "nothing here"),
-        };
-        return Err(vec![words.first().unwrap_or(&Word::START).fault(message, label)]);
+        return Err(vec![words.first().unwrap_or(&Word::START).fault("the mesh has no faces", "nothing is drawn")]);
     }
     Ok(parsed)
 }

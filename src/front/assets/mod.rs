@@ -16,7 +16,7 @@ pub use environment::{environment, refusal};
 use super::{Asset, Options, Wanted};
 use crate::diag::{Diagnostic, Severity, Sink, codes};
 use crate::ir::Lowered;
-use crate::source::{FileId, Found, Loader, Missing, Search, SourceMap, Span};
+use crate::source::{FileId, Found, Kind, Loader, Missing, Search, SourceMap, Span};
 use std::path::PathBuf;
 
 /// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
@@ -33,7 +33,8 @@ pub fn bring(
     if wanted.is_empty() {
         return;
     }
-    let search = Search::new(map.folder(scene), options.asset_root.as_deref());
+    let folder = map.folder(scene);
+    let search = Search::new(folder, options.asset_root.as_deref()).with_parent(folder, options.home.as_deref());
     let mut porter = Porter { search, options, loader: Loader, map, sink };
     let mut assets = gltf::Assets::default();
     for wish in wanted {
@@ -84,7 +85,7 @@ impl Porter<'_> {
         };
         let mut first_fault = None;
         for extension in extensions {
-            match self.search.find(&format!("{}{extension}", wish.path)) {
+            match self.search.find(&format!("{}{extension}", wish.path), kind_of(&wish.asset)) {
                 Ok(found) => {
                     self.tell_where(wish, &found, found.elsewhere || !extension.is_empty());
                     return Some(found);
@@ -118,6 +119,16 @@ impl Porter<'_> {
     fn unreadable(&mut self, found: &Found, why: &str, span: Option<Span>, without: Without) {
         let message = format!("can't read `{}`: {why}", found.shown.display());
         self.refuse(Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"), without);
+    }
+}
+
+/// The kind of file that an asset is in.
+fn kind_of(asset: &Asset) -> &'static Kind {
+    match asset {
+        Asset::Image(_) => &image::KIND,
+        Asset::Mesh(_) => &mesh::KIND,
+        Asset::Environment(_) => &environment::KIND,
+        Asset::Gltf(_) => &gltf::KIND,
     }
 }
 

@@ -13,6 +13,15 @@ type Counts = [usize; 3];
 /// What corners refer to, in the order of their parts.
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
+/// True if the word opens a statement that OBJ files begin with.
+pub(super) fn is_keyword(word: &Word<'_>) -> bool {
+    const KEYWORDS: [&[u8]; 16] = [
+        b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"g", b"o", b"s", b"mg", b"mtllib", b"usemtl", b"maplib",
+        b"usemap",
+    ];
+    KEYWORDS.contains(&word.bytes)
+}
+
 /// Reads an OBJ.
 pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
     let mut check = Check::default();

@@ -11,7 +11,7 @@ use crate::diag::codes;
 const MAX_ZEROS: u64 = 1 << 24;
 
 /// The type of a component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Component {
     I8,
     U8,

@@ -25,7 +25,7 @@ pub(super) struct Animation {
 /// What moves, and how.
 #[derive(Debug)]
 pub(super) struct Channel {
-    at: NodeId,
+    pub(super) at: NodeId,
     pub(super) sampler: Option<usize>,
     pub(super) node: Option<usize>,
     pub(super) path: Option<Path>,

@@ -7,10 +7,10 @@ use super::json::NodeId;
 use super::mesh::{Attribute, Primitive, is_aligned};
 use super::report::{Report, shown};
 use crate::diag::codes;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What an attribute says of a vertex, with the number of its set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Semantic {
     Position,
     Normal,
@@ -77,11 +77,12 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut Report<'_, '_>) {
         ("WEIGHTS", Semantic::Weights),
     ];
     let mut counts = [0; 4];
+    let own: BTreeSet<Semantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
         // A set number that no attribute has ends the sets; what lies beyond it is left over.
         *count =
             semantics.iter().filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0))).count();
-        let gap = (0..*count as u64).find(|set| !semantics.contains(&kind(*set)));
+        let gap = (0..*count as u64).find(|set| !own.contains(&kind(*set)));
         if let Some(gap) = gap {
             let message = format!("there are {count} sets of `{name}`, and none has the number {gap}");
             report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY", at, message);

@@ -1,9 +1,12 @@
 //! What an asset says about itself: its version and its extensions.
 
 use super::field::Fields;
+use super::json::NodeId;
 use super::report::{Report, shown};
 use super::schema;
 use crate::diag::codes;
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of several vendors.
 const PREFIXES: &[&str] = &[
@@ -94,13 +97,17 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
     let json = report.json;
     let texts = |key| -> Vec<_> { json.list(json.root(), key).filter_map(|at| Some((at, json.text(at)?))).collect() };
     let (used, required) = (texts("extensionsUsed"), texts("extensionsRequired"));
+    let names = |list: &[(NodeId, Cow<'_, str>)]| -> BTreeSet<String> {
+        list.iter().map(|(_, name)| name.to_string()).collect()
+    };
+    let (used_names, required_names) = (names(&used), names(&required));
     let has_used = json.get(json.root(), "extensionsUsed").is_some();
     if let Some(at) = json.get(json.root(), "extensionsRequired").filter(|_| !has_used) {
         let message = "extensions are required, and none is listed in `extensionsUsed`".to_owned();
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
-        if has_used && !used.iter().any(|(_, own)| own == name) {
+        if has_used && !used_names.contains(&**name) {
             let message = format!("`{}` is required and not listed in `extensionsUsed`", shown(name));
             report.say(&codes::GLTF_EXTENSION, "UNUSED_EXTENSION_REQUIRED", *at, message);
         }
@@ -111,7 +118,7 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
         }
     }
     for (at, name) in &used {
-        let is_required = required.iter().any(|(_, own)| own == name);
+        let is_required = required_names.contains(&**name);
         let needed = name == "KHR_mesh_quantization";
         if needed && !is_required {
             let message = format!("no reader can do without `{name}`, so it must be required");

@@ -1,7 +1,7 @@
 //! Meshes: primitives with their attributes and morph targets, and whether these go together.
 
 use super::accessor::{Accessor, Component, Layout};
-use super::attribute::{self, Semantic};
+use super::attribute;
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
 use super::document::Document;
@@ -23,6 +23,7 @@ pub(super) struct Mesh {
     pub(super) name: String,
     pub(super) primitives: Vec<Primitive>,
     pub(super) weights: Vec<f64>,
+    is_skinned: bool,
 }
 
 /// Geometry of one material.
@@ -30,6 +31,8 @@ pub(super) struct Mesh {
 pub(super) struct Primitive {
     pub(super) at: NodeId,
     pub(super) attributes: Vec<Attribute>,
+    /// The places of the attributes in the order of their names.
+    sorted: Vec<usize>,
     pub(super) indices: Option<usize>,
     pub(super) material: Option<usize>,
     /// 4 are triangles, 5 a strip, 6 a fan; the others have no surface.
@@ -50,10 +53,12 @@ pub(super) struct Attribute {
 
 impl Mesh {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let primitives: Vec<Primitive> = fields.objects("primitives").map(Primitive::read).collect();
         Self {
             at: fields.at,
             name: fields.name(),
-            primitives: fields.objects("primitives").map(Primitive::read).collect(),
+            is_skinned: primitives.iter().any(|primitive| primitive.find("JOINTS_0").is_some()),
+            primitives,
             weights: fields.numbers("weights").unwrap_or_default(),
         }
     }
@@ -64,26 +69,38 @@ impl Mesh {
     }
 
     pub(super) fn is_skinned(&self) -> bool {
-        self.primitives.iter().any(|primitive| primitive.find("JOINTS_0").is_some())
+        self.is_skinned
     }
 }
 
 impl Primitive {
     fn read(fields: Fields<'_, '_>) -> Self {
+        let attributes = fields.object("attributes").map(read_attributes).unwrap_or_default();
+        let mut sorted: Vec<usize> = (0..attributes.len()).collect();
+        sorted.sort_by_key(|place| &attributes[*place].name);
         Self {
             at: fields.at,
-            attributes: fields.object("attributes").map(attributes).unwrap_or_default(),
+            attributes,
+            sorted,
             indices: fields.index("indices"),
             material: fields.index("material"),
             mode: fields.whole("mode").unwrap_or(TRIANGLES),
-            targets: fields.objects("targets").map(attributes).collect(),
+            targets: fields.objects("targets").map(read_attributes).collect(),
             draco: fields.extension("KHR_draco_mesh_compression").map(|fields| fields.at),
         }
     }
 
     /// The accessor of an attribute.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
-        self.attributes.iter().find(|attribute| attribute.name == name).map(|attribute| attribute.accessor)
+        let own = |place: usize| &self.attributes[place];
+        let first = self.sorted.partition_point(|place| own(*place).name.as_str() < name);
+        self.sorted.get(first).map(|place| own(*place)).filter(|own| own.name == name).map(|own| own.accessor)
+    }
+
+    /// The accessors of the joints that vertices follow, and of their weights, set after set.
+    pub(super) fn influences(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let find = |kind: &str, set: usize| self.find(&format!("{kind}_{set}"));
+        (0..).map_while(move |set| Some([find("JOINTS", set)?, find("WEIGHTS", set)?]))
     }
 
     /// How many vertices there are.
@@ -93,7 +110,7 @@ impl Primitive {
     }
 }
 
-fn attributes(fields: Fields<'_, '_>) -> Vec<Attribute> {
+fn read_attributes(fields: Fields<'_, '_>) -> Vec<Attribute> {
     let attribute = |(key, at): (NodeId, NodeId)| {
         let accessor = usize::try_from(fields.json.whole(at)?).ok()?;
         Some(Attribute { at, name: fields.json.text(key)?.into_owned(), accessor })
@@ -108,6 +125,8 @@ pub(super) struct Links<'l> {
     pub(super) demands: &'l mut Demands,
     /// The accessor that was first seen in each view without a stride.
     pub(super) streams: &'l mut BTreeMap<usize, usize>,
+    /// The textures of each material met so far, each with its set of texture coordinates.
+    pub(super) textures: BTreeMap<NodeId, Vec<(NodeId, u64)>>,
 }
 
 /// Checks all meshes.
@@ -149,7 +168,7 @@ fn check_primitive(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<
     }
     check_indices(doc, primitive, links, report);
     check_targets(doc, primitive, links, report);
-    check_material(doc, primitive, report);
+    check_material(doc, primitive, links, report);
 }
 
 fn check_indices(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
@@ -220,14 +239,13 @@ fn check_targets(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_
     }
 }
 
-fn check_material(doc: &Document<'_>, primitive: &Primitive, report: &mut Report<'_, '_>) {
+fn check_material(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
     let Some(material) = primitive.material.and_then(|material| doc.materials.get(material)) else { return };
-    let has =
-        |set: u64| primitive.attributes.iter().any(|attribute| Semantic::of(&attribute.name) == Semantic::Uv(set));
-    for (binding, set) in material::texture_coordinates(report.json, *material) {
-        if !has(set) {
+    let textures = || material::texture_coordinates(report.json, *material);
+    for (binding, set) in &*links.textures.entry(*material).or_insert_with(textures) {
+        if primitive.find(&format!("TEXCOORD_{set}")).is_none() {
             let at = report.json.at_or(primitive.at, "material");
-            let message = format!("the material needs `TEXCOORD_{set}` for `{}`", report.json.pointer(binding));
+            let message = format!("the material needs `TEXCOORD_{set}` for `{}`", report.json.pointer(*binding));
             report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", at, message);
         }
     }

@@ -31,10 +31,12 @@ mod texture;
 mod uri;
 mod usage;
 
+pub(super) use lower::SURFACE;
+
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
-use crate::source::{FileId, Search, SourceMap, Span};
+use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
 use contents::Demands;
@@ -50,10 +52,20 @@ const BOM: &str = "\u{feff}";
 /// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is that of the file.
 #[must_use]
 pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+    let says_so = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
+    container::is_glb(name, bytes) || name.ends_with(".gltf") || (opens_object(bytes) && says_so())
+}
+
+/// Whether a file that begins so may be a glTF asset.
+#[must_use]
+pub fn begins(head: &[u8]) -> bool {
+    container::is_glb("", head) || opens_object(head)
+}
+
+/// True if the bytes open a JSON object with a key.
+fn opens_object(bytes: &[u8]) -> bool {
     let text = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes).trim_ascii_start();
-    let is_json = text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""));
-    let says_so = || memchr::memmem::find(text, b"\"asset\"").is_some();
-    container::is_glb(name, bytes) || name.ends_with(".gltf") || (is_json && says_so())
+    text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""))
 }
 
 /// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
@@ -70,7 +82,13 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
         }
     };
     keys_twice(&tree, sink);
-    let mut report = Report::new(&tree, sink, options);
+    let mut report = Report::new(&tree, sink, options, map.budget());
+    let root = tree.root();
+    let is_small = report.charge(Resource::Nodes, tree.len() as u64, root, "the asset")
+        && report.charge(Resource::Memory, document::cost(&tree), root, "the asset");
+    if !is_small {
+        return None;
+    }
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
     let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
@@ -109,10 +127,12 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
 
 fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
     for (first, second) in tree.twice() {
-        let key = report::shown(&tree.text(*second).unwrap_or_default());
-        let message = format!("the key `{key}` stands twice in one object");
-        let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
-        sink.push(finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second)));
+        sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
+            let key = report::shown(&tree.text(*second).unwrap_or_default());
+            let message = format!("the key `{key}` stands twice in one object");
+            let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
+            finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second))
+        });
     }
 }
 
@@ -152,8 +172,13 @@ fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
     material::check(doc, report);
     material::check_variants(doc, report);
     let mut streams = std::collections::BTreeMap::new();
-    let mut links =
-        mesh::Links { purposes: &mut purposes, usages: &mut usages, demands: &mut demands, streams: &mut streams };
+    let mut links = mesh::Links {
+        purposes: &mut purposes,
+        usages: &mut usages,
+        demands: &mut demands,
+        streams: &mut streams,
+        textures: std::collections::BTreeMap::new(),
+    };
     mesh::check(doc, &mut links, report);
     let forest = node::check(doc, report);
     skin::check(doc, &forest, (&mut purposes, &mut usages, &mut demands), report);

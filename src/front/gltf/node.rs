@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
+use super::json::{NodeId, Tree};
 use super::mesh::Mesh;
 use super::report::Report;
 use crate::diag::codes;
@@ -80,14 +80,14 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
         check_empty(node, report);
     }
     let mut parents = vec![None; doc.nodes.len()];
+    let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.whole(at)?).ok();
     for (index, node) in doc.nodes.iter().enumerate() {
-        for (place, child) in node.children.iter().enumerate() {
-            match parents.get_mut(*child) {
+        for at in report.json.list(node.at, "children") {
+            let Some(child) = index_at(at, report.json) else { continue };
+            match parents.get_mut(child) {
                 Some(parent @ None) => *parent = Some(index),
                 Some(Some(parent)) if *parent != index => {
                     let before = std::mem::replace(parent, index);
-                    let list = report.json.at_or(node.at, "children");
-                    let at = report.json.items(list).nth(place).unwrap_or(list);
                     let message = format!("node {child} is a child of node {before} already");
                     report.say(&codes::GLTF_NODES, "NODE_PARENT_OVERRIDE", at, message);
                 }
@@ -97,10 +97,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
     }
     let roots = roots(doc, &parents, report);
     for scene in &doc.scenes {
-        for (place, node) in scene.nodes.iter().enumerate() {
-            if parents.get(*node).is_some_and(Option::is_some) {
-                let list = report.json.at_or(scene.at, "nodes");
-                let at = report.json.items(list).nth(place).unwrap_or(list);
+        for at in report.json.list(scene.at, "nodes") {
+            let Some(node) = index_at(at, report.json) else { continue };
+            if parents.get(node).is_some_and(Option::is_some) {
                 let message = format!("node {node} is a child, and a scene lists roots");
                 report.say(&codes::GLTF_NODES, "SCENE_NON_ROOT_NODE", at, message);
             }

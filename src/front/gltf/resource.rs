@@ -128,7 +128,7 @@ impl Resources {
         if let Some(bytes) = self.files.get(&found.path) {
             return Some(Rc::clone(bytes));
         }
-        match Loader.bytes(&found.path, MAX_BYTES) {
+        match Loader.found(&found, MAX_BYTES) {
             Ok(bytes) => {
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
                 self.files.insert(found.path, Rc::clone(&bytes));

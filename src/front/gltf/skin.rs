@@ -12,11 +12,13 @@ use super::node::{Forest, Node, Transform};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
+use crate::source::Resource;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.
 #[derive(Debug)]
 pub(super) struct Skin {
-    at: NodeId,
+    pub(super) at: NodeId,
     pub(super) joints: Vec<usize>,
     pub(super) matrices: Option<usize>,
     skeleton: Option<usize>,
@@ -45,10 +47,66 @@ pub(super) fn check(
         check_tree(doc, skin, forest, &order, report);
         check_matrices(doc, skin, (purposes, usages, demands), report);
     }
+    let mut shows = Shows::new(doc, forest);
+    let mut done = Done::default();
     for (index, node) in doc.nodes.iter().enumerate() {
-        let Some(skin) = node.skin.and_then(|skin| doc.skins.get(skin)) else { continue };
-        check_node(doc, (index, node), skin, forest, report);
+        let Some((of, skin)) = node.skin.and_then(|skin| Some((skin, doc.skins.get(skin)?))) else { continue };
+        let Some((at, mesh)) = node.mesh.and_then(|mesh| Some((mesh, doc.meshes.get(mesh)?))) else { continue };
+        check_node((index, node), forest, report);
+        if shows.apart(forest.roots[index], of) {
+            let message = "a scene shows the mesh and not the joints that move it".to_owned();
+            report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
+        }
+        if done.meshes.insert((at, skin.joints.len())) {
+            for primitive in &mesh.primitives {
+                check_influences(doc, primitive, skin.joints.len(), &mut done, report);
+            }
+        }
     }
+}
+
+/// Which scenes show which trees.
+struct Shows {
+    /// The scenes that show the tree of each root.
+    scenes: BTreeMap<usize, BTreeSet<usize>>,
+    /// The root above the joints of each skin.
+    joints: Vec<Option<usize>>,
+    /// For a tree and a skin, whether some scene shows the one without the other.
+    known: BTreeMap<(usize, usize), bool>,
+}
+
+impl Shows {
+    fn new(doc: &Document<'_>, forest: &Forest) -> Self {
+        let mut scenes: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (index, scene) in doc.scenes.iter().enumerate() {
+            for node in &scene.nodes {
+                scenes.entry(*node).or_default().insert(index);
+            }
+        }
+        let root = |node: &usize| forest.roots.get(*node).copied().flatten();
+        let joints = doc.skins.iter().map(|skin| skin.joints.iter().find_map(root)).collect();
+        Self { scenes, joints, known: BTreeMap::new() }
+    }
+
+    fn apart(&mut self, root: Option<usize>, skin: usize) -> bool {
+        let Some(root) = root else { return false };
+        let Self { scenes, joints, known } = self;
+        let apart = || {
+            let Some(own) = scenes.get(&root) else { return false };
+            let of_joints = joints[skin].and_then(|root| scenes.get(&root));
+            of_joints.is_none_or(|of_joints| !own.is_subset(of_joints))
+        };
+        *known.entry((root, skin)).or_insert_with(apart)
+    }
+}
+
+/// What was checked already.
+#[derive(Default)]
+struct Done {
+    /// Meshes, with a number of joints.
+    meshes: BTreeSet<(usize, usize)>,
+    /// The accessors of joints and weights, with a number of joints.
+    influences: BTreeSet<(Vec<[usize; 2]>, usize)>,
 }
 
 /// The nodes in the order of a walk through their trees: those below one lie in one stretch.
@@ -137,15 +195,8 @@ fn check_matrices(
     }
 }
 
-fn check_node(
-    doc: &Document<'_>,
-    (index, node): (usize, &Node),
-    skin: &Skin,
-    forest: &Forest,
-    report: &mut Report<'_, '_>,
-) {
+fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut Report<'_, '_>) {
     let code = &codes::GLTF_SKIN_ODD;
-    let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
     let unmoved = Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
     if forest.parents[index].is_some() {
         let message = "the node is no root, and transformations above it don't move a skinned mesh".to_owned();
@@ -154,17 +205,6 @@ fn check_node(
     if node.transform != unmoved {
         let message = "the transformation of the node does not move a skinned mesh".to_owned();
         report.say(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
-    }
-    let root_of = |node: usize| forest.roots.get(node).copied().flatten();
-    let joints = skin.joints.iter().find_map(|joint| root_of(*joint));
-    let shows = |root: Option<usize>, nodes: &[usize]| root.is_some_and(|root| nodes.contains(&root));
-    let apart = doc.scenes.iter().any(|scene| shows(root_of(index), &scene.nodes) && !shows(joints, &scene.nodes));
-    if apart {
-        let message = "a scene shows the mesh and not the joints that move it".to_owned();
-        report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
-    }
-    for primitive in &mesh.primitives {
-        check_influences(doc, primitive, skin.joints.len(), report);
     }
 }
 
@@ -179,25 +219,38 @@ struct Influences {
 }
 
 /// Checks which joints each vertex follows, and by how much.
-fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, report: &mut Report<'_, '_>) {
-    let mut vertices: Vec<Vec<(f64, f64)>> = Vec::new();
-    for set in 0.. {
-        let part = |name: String| {
-            let accessor = doc.accessors.get(primitive.find(&name)?)?;
-            Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
-        };
-        let (Some(own), Some(weights)) = (part(format!("JOINTS_{set}")), part(format!("WEIGHTS_{set}"))) else { break };
-        let (own, weights) = (own.vectors::<4>(), weights.vectors::<4>());
-        vertices.resize(vertices.len().max(own.len().min(weights.len())), Vec::new());
-        for (vertex, (own, weights)) in vertices.iter_mut().zip(own.into_iter().zip(weights)) {
-            vertex.extend(own.into_iter().zip(weights));
-        }
+fn check_influences(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    joints: usize,
+    done: &mut Done,
+    report: &mut Report<'_, '_>,
+) {
+    let accessors: Vec<[usize; 2]> = primitive.influences().collect();
+    if !done.influences.insert((accessors.clone(), joints)) {
+        return;
+    }
+    let part = |accessor: usize| {
+        let accessor = doc.accessors.get(accessor)?;
+        Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
+    };
+    let sets = accessors.into_iter().map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
+    let sets: Vec<[Elements<'_>; 2]> = sets.collect();
+    let counts = || sets.iter().map(|[own, weights]| own.count.min(weights.count));
+    let work = counts().map(|count| count as u64).fold(0, u64::saturating_add);
+    if !report.charge(Resource::Vertices, work, primitive.at, "the skin") {
+        return;
     }
     let mut found = Influences::default();
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
-    for (at, vertex) in vertices.iter().enumerate() {
-        found.look(at, vertex, joints);
+    let mut vertex = Vec::new();
+    for at in 0..counts().max().unwrap_or(0) {
+        vertex.clear();
+        for [own, weights] in sets.iter().filter(|[own, weights]| at < own.count.min(weights.count)) {
+            vertex.extend(own.at::<4>(at).into_iter().zip(weights.at::<4>(at)));
+        }
+        found.look(at, &vertex, joints);
     }
     let Influences { out, twice, negative, sum, idle } = found;
     let skin = &codes::GLTF_SKIN;
@@ -224,18 +277,21 @@ impl Influences {
                 slot.get_or_insert(at);
             }
         };
-        let (mut sum, mut used) = (0.0, 0_u32);
-        for (place, (joint, weight)) in vertex.iter().enumerate() {
+        let mut moving: Vec<f64> = Vec::with_capacity(vertex.len());
+        let mut sum = 0.0;
+        for (joint, weight) in vertex {
             put(&mut self.out, *joint >= joints);
             put(&mut self.negative, *weight < 0.0);
             if *weight == 0.0 {
                 put(&mut self.idle, *joint != 0.0);
                 continue;
             }
-            put(&mut self.twice, vertex[..place].iter().any(|(other, own)| *own != 0.0 && other - joint == 0.0));
+            moving.push(*joint);
             sum += weight;
-            used += 1;
         }
+        moving.sort_unstable_by(f64::total_cmp);
+        put(&mut self.twice, moving.windows(2).any(|pair| pair[0].total_cmp(&pair[1]).is_eq()));
+        let used = u32::try_from(moving.len()).unwrap_or(u32::MAX);
         let slack = STEP * f64::from(used.saturating_sub(1) / 2) + ROUNDING;
         put(&mut self.sum, (sum - 1.0).abs() > slack);
     }

@@ -107,7 +107,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let count = self.path.samples.get();
-        let sample = |index| self.goes_on().then(|| self.sample_of(pixel, index, seeds));
+        let sample = |index| self.heartbeat.goes_on(&self.counts).then(|| self.sample_of(pixel, index, seeds));
         (0..count).map_while(sample).sum::<Vec3>() / f64::from(count)
     }
 
@@ -145,7 +145,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
                 return walk.found;
             };
             self.counts.hits += u64::from(walk.corners == 0);
-            if !self.goes_on() || !self.scatter(&mut walk, &corner) {
+            if !self.heartbeat.goes_on(&self.counts) || !self.scatter(&mut walk, &corner) {
                 return walk.found;
             }
             walk.corners += 1;
@@ -298,7 +298,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     }
 }
 
-impl<S: Geometry> Sampling for Tracer<'_, S> {
+impl<'world, S: Geometry> Sampling<'world> for Tracer<'world, S> {
     const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
@@ -309,16 +309,8 @@ impl<S: Geometry> Sampling for Tracer<'_, S> {
         self.counts
     }
 
-    fn begin(&mut self, pixel: [u32; 2]) {
-        self.heartbeat.begin(pixel);
-    }
-
-    fn goes_on(&mut self) -> bool {
-        self.heartbeat.goes_on(&self.counts)
-    }
-
-    fn done(&mut self) -> bool {
-        self.heartbeat.done(&self.counts)
+    fn heartbeat(&mut self) -> &mut Heartbeat<'world> {
+        &mut self.heartbeat
     }
 }
 

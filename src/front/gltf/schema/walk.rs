@@ -5,6 +5,7 @@ use super::{Key, Object, POOLS, Pool, extension};
 use crate::diag::codes;
 use crate::front::gltf::json::{Kind, NodeId};
 use crate::front::gltf::report::{Report, shown};
+use std::collections::BTreeSet;
 
 /// Checks the shape of the whole asset, and that its references lead somewhere.
 pub(in super::super) fn walk(report: &mut Report<'_, '_>) {
@@ -20,7 +21,7 @@ pub(in super::super) fn walk(report: &mut Report<'_, '_>) {
     }
     let texts = |key| {
         let list = report.json.list(root, key);
-        list.filter_map(|item| report.json.text(item)).map(std::borrow::Cow::into_owned).collect::<Vec<_>>()
+        list.filter_map(|item| report.json.text(item)).map(std::borrow::Cow::into_owned).collect::<BTreeSet<_>>()
     };
     let declared = texts("extensionsUsed");
     let counts = POOLS.map(|(_, way)| {
@@ -38,7 +39,7 @@ pub(in super::super) fn walk(report: &mut Report<'_, '_>) {
 pub(super) struct Walk<'w, 'r, 's> {
     pub(super) report: &'w mut Report<'r, 's>,
     /// The extensions in `extensionsUsed`.
-    declared: Vec<String>,
+    declared: BTreeSet<String>,
     /// How many there are in each pool.
     counts: [usize; POOLS.len()],
     /// Which of them something refers to.
@@ -91,7 +92,7 @@ impl Walk<'_, '_, '_> {
         }
         for (key, value) in json.pairs(node) {
             let name = json.text(key).unwrap_or_default();
-            if !self.declared.iter().any(|declared| *declared == name) {
+            if !self.declared.contains(&*name) {
                 let message = format!("the extension `{}` is not listed in `extensionsUsed`", shown(&name));
                 self.report.say(&codes::GLTF_EXTENSION, "UNDECLARED_EXTENSION", value, message);
                 continue;
