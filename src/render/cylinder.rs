@@ -79,7 +79,7 @@ impl Cylinder {
             Part::Base => (local - self.axis * along, -self.axis),
             Part::Top => (local + self.axis * (self.height - along), self.axis),
             Part::Side => {
-                let normal = (local - self.axis * along).normalize();
+                let normal = ray.outward(local - self.axis * along);
                 (self.axis * along + normal * self.radius, normal)
             }
         };

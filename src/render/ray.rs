@@ -31,6 +31,13 @@ impl Ray {
             None => (self, 1.0),
         }
     }
+
+    /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶ times as far as the surface is
+    /// large, rounding may leave that no length: then the surface faces the ray.
+    #[must_use]
+    pub(super) fn outward(&self, out: Vec3) -> Vec3 {
+        out.normalize_or(-self.direction.normalize())
+    }
 }
 
 /// A point of a surface, with a bound on how far rounding may have moved it.

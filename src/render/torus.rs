@@ -207,7 +207,7 @@ impl Torus {
         let local = (ray.origin - self.center) + ray.direction * t;
         let z = local.dot(self.axis);
         let ring = (local - self.axis * z).normalize_or_zero() * self.major;
-        let normal = (local - ring).normalize();
+        let normal = ray.outward(local - ring);
         let point = self.center + ring + normal * self.minor;
         Interaction::new(ray, point, normal, self.center, self.major + self.minor)
     }
