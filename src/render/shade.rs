@@ -46,6 +46,12 @@ struct Incidence {
 }
 
 impl View<'_> {
+    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends that.
+    pub(super) fn geometric(&self) -> Vec3 {
+        let normal = self.interaction.normal;
+        if self.to_viewer.dot(normal) < 0.0 { -normal } else { normal }
+    }
+
     /// `None` if the light stands exactly at the point: it has no direction then, and adds its ambient term only.
     fn incidence(&self, light: Vec3) -> Option<Incidence> {
         let to_light = (light - self.interaction.point).try_normalize()?;

@@ -300,6 +300,9 @@ fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
 }
 
 /// The refracted direction, if the material lets light through and the angle does.
+///
+/// The geometric normal decides where the shading normal can't: where it is turned away from the ray, or totally reflects
+/// what its mirror then sends into the surface. So an eta of 1 bends no ray, whatever the shading normal.
 fn transmit(direction: Vec3, view: &View<'_>) -> Option<Vec3> {
     let Phong { kt, eta, .. } = view.material;
     if kt.get() == 0.0 {
@@ -307,5 +310,13 @@ fn transmit(direction: Vec3, view: &View<'_>) -> Option<Vec3> {
     }
     let enters = direction.dot(view.interaction.normal) <= 0.0;
     let (from, to) = if enters { (1.0, eta.get()) } else { (eta.get(), 1.0) };
-    refract(direction, view.normal, from, to)
+    let (shading, geometric) = (view.normal, view.geometric());
+    if direction.dot(shading) < 0.0 {
+        match refract(direction, shading, from, to) {
+            Some(refracted) => return Some(refracted),
+            None if reflect(direction, shading).dot(geometric) > 0.0 => return None,
+            None => {}
+        }
+    }
+    refract(direction, geometric, from, to)
 }
