@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod closed;
+mod coplanar;
 mod glass;
 
 use rtc::diag::Sink;
