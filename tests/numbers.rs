@@ -65,8 +65,11 @@ fn object(keys: &str) -> String {
     )
 }
 
+/// A scene with a direction in some key.
+type Directed = fn(&str) -> String;
+
 /// Every key that is a direction alone, each in a scene with a direction in that key.
-const KEYS: [(&str, fn(&str) -> String); 12] = [
+const KEYS: [(&str, Directed); 12] = [
     ("cylinder", |v| {
         object(&format!("type: cylinder, position: [0, 0.4, 0], direction: {v}, height: 1.4, radius: 0.6, {MATERIAL}"))
     }),
@@ -133,7 +136,7 @@ fn a_rule_for_convex_solids_holds_for_a_tiny_direction() {
 }
 
 /// A scene of one shape on a floor, all of it times 2^k, seen by the light of a point in the shade of the shape.
-fn scaled(shape: &dyn Fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) -> String, k: i32) -> String {
+fn scaled(shape: Shape, k: i32) -> String {
     let (vector, length) = (|v: [f64; 3]| list(v, k), |x: f64| format!("{:e}", ldexp(x, k)));
     let [eye, center, up] = [[0.5, 3.0, 7.0], [0.0, 1.0, 0.0], [0.0, 0.12, 0.0]].map(vector);
     let (light, floor) = (vector([-4.0, 6.0, 5.0]), vector([0.0, -40.0, 0.0]));
@@ -146,6 +149,7 @@ fn scaled(shape: &dyn Fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) ->
     )
 }
 
+/// What writes a shape, given what writes its vectors and its lengths.
 type Shape = fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) -> String;
 
 /// Shapes, each by its numbers times a power of two.
@@ -188,11 +192,11 @@ const SHAPES: [Shape; 8] = [
 #[test]
 fn a_shape_times_a_power_of_two_makes_the_same_picture() {
     for shape in SHAPES {
-        let picture = lawful(&scaled(&shape, 0));
+        let picture = lawful(&scaled(shape, 0));
         for k in [-180, -90, -1, 90, 180] {
-            let other = lawful(&scaled(&shape, k));
+            let other = lawful(&scaled(shape, k));
             let differing = picture.iter().zip(&other).filter(|(a, b)| a != b).count();
-            assert!(differing == 0, "{differing} values differ at 2^{k}:\n{}", scaled(&shape, 0));
+            assert!(differing == 0, "{differing} values differ at 2^{k}:\n{}", scaled(shape, 0));
         }
     }
 }
