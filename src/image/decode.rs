@@ -76,6 +76,13 @@ pub fn is_picture(head: &[u8]) -> bool {
     ::image::guess_format(head).is_ok_and(is_read)
 }
 
+/// The size that the head of a PNG claims.
+fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
+    let head = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(4..16)?;
+    let number = |at: usize| Some(u32::from_be_bytes(*head.get(at..)?.first_chunk()?));
+    head.starts_with(b"IHDR").then_some((number(4)?, number(8)?))
+}
+
 fn is_read(format: ImageFormat) -> bool {
     matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP)
 }
@@ -84,6 +91,10 @@ fn picture(bytes: &[u8]) -> Result<DynamicImage, DecodeError> {
     let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
     if !is_read(format) {
         return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/"))));
+    }
+    if let Some((width, height)) = png_size(bytes).filter(|(w, h)| u64::from(*w) * u64::from(*h) > MAX_PIXELS) {
+        // Its decoder finds another fault first.
+        return Err(DecodeError::TooLarge { width, height });
     }
     let mut decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder().map_err(|e| damaged(&e))?;
     let (width, height) = decoder.dimensions();

@@ -1,7 +1,7 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
 use super::{Porter, Wanted, Without};
-use crate::diag::{Diagnostic, Sink, codes};
+use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::image::{DecodeError, Pixels, decode, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
 use crate::source::{Found, Kind};
@@ -25,7 +25,7 @@ pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
-    match porter.loader.found(found, MAX_BYTES) {
+    match porter.loader.found(found, MAX_BYTES, porter.map) {
         Ok(bytes) => decode(&bytes).map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color)).ok(),
         Err(error) => {
             porter.unreadable(found, &error.to_string(), wish.span, Without::Color);
@@ -76,7 +76,7 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
         if *known[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
             phong.normal_map = Some(texture);
             phong.bump = None;
-            let message = format!("`{}` holds normals, so it is used as a normal map", images[image].name);
+            let message = format!("`{}` holds normals, so it is used as a normal map", clip_path(&images[image].name));
             let span = lowered.origins.span(Place::new(Noun::Material, index, Field::Bump));
             sink.push(
                 Diagnostic::new(&codes::NORMALS_AS_BUMP, message)

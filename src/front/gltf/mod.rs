@@ -83,7 +83,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
     let mut report = Report::new(&tree, sink, options);
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
+    let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search, map), &mut report);
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -130,7 +130,7 @@ fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
 fn read<'s>(
     tree: &'s Tree<'s>,
     (is_glb, chunk): (bool, Option<&'s [u8]>),
-    mut resources: Resources,
+    mut resources: Resources<'_>,
     report: &mut Report<'_, 's>,
 ) -> Document<'s> {
     schema::walk(report);

@@ -7,7 +7,7 @@ use super::json::NodeId;
 use super::report::{Report, shown};
 use super::uri::{self, Fault, Uri};
 use crate::diag::codes;
-use crate::source::{Loader, Missing, Search};
+use crate::source::{Loader, Missing, Search, SourceMap};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -17,17 +17,18 @@ use std::rc::Rc;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads files, and remembers them.
-pub(super) struct Resources {
+pub(super) struct Resources<'m> {
     search: Search,
+    map: &'m SourceMap,
     files: BTreeMap<PathBuf, Bytes<'static>>,
 }
 
 /// What is behind a URI: bytes, and the media type of a data URI.
 type Found = (Bytes<'static>, Option<String>);
 
-impl Resources {
-    pub(super) fn new(search: Search) -> Self {
-        Self { search, files: BTreeMap::new() }
+impl<'m> Resources<'m> {
+    pub(super) fn new(search: Search, map: &'m SourceMap) -> Self {
+        Self { search, map, files: BTreeMap::new() }
     }
 
     /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
@@ -128,7 +129,7 @@ impl Resources {
         if let Some(bytes) = self.files.get(&found.path) {
             return Some(Rc::clone(bytes));
         }
-        match Loader.found(&found, MAX_BYTES) {
+        match Loader.found(&found, MAX_BYTES, self.map) {
             Ok(bytes) => {
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
                 self.files.insert(found.path, Rc::clone(&bytes));
