@@ -6,8 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 seconds=${1:-20}
-targets=(scene_parser check ir_decode validate render_tiny gltf glb)
-share=$(((seconds + ${#targets[@]} - 1) / ${#targets[@]}))
+targets=(scene_parser check ir_decode validate render_tiny gltf glb mesh image folder arguments)
 # Of the clock, for one input. The tables of the materials, made once a process, take 4 s of CPU time in such a build.
 patience=30
 
@@ -16,10 +15,14 @@ cargo fuzz build -s none
 
 new=$(mktemp -d)
 trap 'rm -rf "$new"' EXIT
-for target in "${targets[@]}"; do
+for index in "${!targets[@]}"; do
+    target=${targets[index]}
+    # Whole seconds, and no more in all than there are; 0 would be for ever.
+    share=$((seconds * (index + 1) / ${#targets[@]} - seconds * index / ${#targets[@]}))
+    ((share > 0)) || continue
     mkdir "$new/$target"
     echo "fuzz $target for $share s"
-    cargo fuzz run -s none "$target" "$new/$target" "fuzz/corpus/$target" scenes tests/codec/v{0,1,2,3} -- \
+    cargo fuzz run -s none "$target" "$new/$target" "fuzz/corpus/$target" fuzz/seeds scenes tests/codec/v{0,1,2,3} -- \
         -max_total_time="$share" -timeout=$patience -rss_limit_mb=2048 -max_len=20000 -dict=fuzz/yaml.dict -verbosity=0 \
         >"$new/log" 2>&1 || { tail -n 40 "$new/log"; exit 1; }
 done

@@ -6,11 +6,17 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, names it, and reads what it checks"
 )]
+#[expect(unreachable_pub, reason = "it is the library of the fuzz targets")]
+#[path = "../fuzz/src/lib.rs"]
+mod inputs;
+
+use rtc::cli;
 use rtc::pipeline::trial;
 use std::path::{Path, PathBuf};
 
 /// The folders every target starts from.
-const SEEDS: &[&str] = &["scenes", "tests/codec/v0", "tests/codec/v1", "tests/codec/v2", "tests/codec/v3"];
+const SEEDS: &[&str] =
+    &["fuzz/seeds", "scenes", "tests/codec/v0", "tests/codec/v1", "tests/codec/v2", "tests/codec/v3"];
 
 fn files(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -64,6 +70,26 @@ fn gltf() {
 #[test]
 fn glb() {
     replay("glb", trial::glb);
+}
+
+#[test]
+fn mesh() {
+    replay("mesh", inputs::mesh);
+}
+
+#[test]
+fn image() {
+    replay("image", inputs::image);
+}
+
+#[test]
+fn folder() {
+    replay("folder", inputs::folder);
+}
+
+#[test]
+fn arguments() {
+    replay("arguments", cli::trial::arguments);
 }
 
 /// A target without a replay would be a target whose finds come back unseen.

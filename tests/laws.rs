@@ -6,6 +6,7 @@
     reason = "a test stops at the first surprise, and says what it skips"
 )]
 
+mod scale;
 mod small;
 
 use rtc::codec::{self, Form};
@@ -16,6 +17,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Crop, Geometry, Job, Seeds, Shear, Tiles, World, camera_ray, image_point};
 use rtc::source::SourceMap;
+use scale::scaled;
 use small::{WHOLE, bits, film, paths, scenes_in, small};
 use std::path::Path;
 
@@ -105,71 +107,12 @@ fn seeds_change_the_noise_alone() {
     assert!(distance(&mean, &truth) < 0.25 * noise, "64 pictures of 1 point are one of 64: {noise}");
 }
 
-/// Every length of the scene times a factor; what is a direction or a colour stays.
-fn scaled(scene: &Scene, factor: f64) -> Scene {
-    let mut scene = scene.clone();
-    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    let ir::Camera { eye, center, right, up, size: _, lens, projection: _ } = &mut scene.camera;
-    for vector in [eye, center, right, up] {
-        scale(vector);
-    }
-    lens.radius *= factor;
-    for light in &mut scene.lights {
-        match light {
-            ir::Light::Point(light) => {
-                scale(&mut light.position);
-                light.radius *= factor;
-            }
-            ir::Light::Punctual(ir::Punctual { emitter: ir::Emitter::Sun { direction: _ }, intensity: _ }) => {}
-            ir::Light::Punctual(_) => panic!("the scenes of the repo have no other lights"),
-        }
-    }
-    for surface in &mut scene.surfaces {
-        scale_shape(&mut surface.shape, factor);
-    }
-    scene
-}
-
-fn scale_shape(shape: &mut ir::Shape, factor: f64) {
-    let scale = |v: &mut [f64; 3]| *v = v.map(|component| component * factor);
-    match shape {
-        ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: _ }) => {
-            scale(center);
-            *radius *= factor;
-        }
-        ir::Shape::Plane(ir::Plane { center, normal: _ }) => scale(center),
-        ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) => vertices.iter_mut().for_each(scale),
-        ir::Shape::Quad(ir::Quad { vertices }) => vertices.iter_mut().for_each(scale),
-        ir::Shape::Disc(ir::Disc { center, normal: _, radius }) => {
-            scale(center);
-            *radius *= factor;
-        }
-        ir::Shape::Cylinder(ir::Cylinder { base, axis: _, height, radius }) => {
-            scale(base);
-            *height *= factor;
-            *radius *= factor;
-        }
-        ir::Shape::Cone(ir::Cone { base, up, radius }) => {
-            scale(base);
-            scale(up);
-            *radius *= factor;
-        }
-        ir::Shape::Torus(ir::Torus { center, axis: _, major, minor }) => {
-            scale(center);
-            *major *= factor;
-            *minor *= factor;
-        }
-        ir::Shape::Instance(ir::Instance { mesh: _, world_from_object }) => {
-            world_from_object.iter_mut().for_each(scale);
-        }
-    }
-}
-
-/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each.
+/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each; and
+/// −180 and 140, at which powers of a length leave the range of f64.
 fn powers(scenes: usize, index: usize) -> impl Iterator<Item = i32> {
     let all = std::env::var_os("RTC_ALL_POWERS").is_some();
     let (scenes, index) = (i32::try_from(scenes).unwrap(), i32::try_from(index).unwrap());
-    (-40..=40).filter(move |k| all || (k + 40) % scenes == index)
+    (-40..=40).filter(move |k| all || (k + 40) % scenes == index).chain([-180, 140])
 }
 
 /// The scenes of the course, where they are.
@@ -196,7 +139,7 @@ fn a_scene_times_a_power_of_two_makes_the_same_picture() {
             }
         }
     }
-    assert_eq!(seen.len(), 81);
+    assert_eq!(seen.len(), 83);
 }
 
 /// Whether a camera ray of a pixel, of those in a grid, meets two surfaces at the very same t.

@@ -51,7 +51,7 @@ impl State {
         self.draft.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    #[expect(clippy::exit, clippy::disallowed_methods, reason = "the thread that works is beyond reach")]
+    #[expect(clippy::disallowed_methods, reason = "the thread that works is beyond reach")]
     fn end(&self) {
         if let Some(draft) = self.draft().take() {
             // There is nobody left to tell.

@@ -17,6 +17,7 @@ mod render;
 mod report;
 mod talk;
 mod tell;
+pub mod trial;
 mod turntable;
 
 use crate::diag::clip_words;

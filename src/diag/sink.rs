@@ -4,7 +4,7 @@ use super::{Diagnostic, Severity};
 use crate::source::{Limits, Resource};
 
 /// Where every stage pushes its findings.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Sink {
     /// No more findings than this are kept; the rest is counted.
     capacity: usize,
@@ -29,10 +29,15 @@ impl Sink {
 
     /// Takes one finding. An error always finds a place among the first of its kind, however many notes came before.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let first_error = diagnostic.severity == Severity::Error && self.errors == 0;
-        self.errors += usize::from(diagnostic.severity == Severity::Error);
+        self.push_with(diagnostic.severity, || diagnostic);
+    }
+
+    /// Takes one finding of this severity, which is made only if it is kept: a flood of them costs little.
+    pub fn push_with(&mut self, severity: Severity, make: impl FnOnce() -> Diagnostic) {
+        let first_error = severity == Severity::Error && self.errors == 0;
+        self.errors += usize::from(severity == Severity::Error);
         if self.kept.len() < self.capacity || first_error {
-            self.kept.push(diagnostic);
+            self.kept.push(make());
         } else {
             self.dropped += 1;
         }

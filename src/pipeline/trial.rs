@@ -4,14 +4,15 @@
 
 use super::{Options, load, prove, render};
 use crate::codec::{self, Form};
-use crate::diag::Sink;
+use crate::diag::{self, Format, Printer, Severity, Sink};
 use crate::front::course;
 use crate::ir::{Lowered, Material, Mode, Origins, Scene};
 use crate::plan::{Plan, Rules};
 use crate::render::Job;
-use crate::source::{FileId, SourceMap};
+use crate::source::{FileId, Loader, SourceMap};
 use crate::valid;
 use arbitrary::{Arbitrary, Unstructured};
+use std::path::Path;
 
 /// The most of anything a scene under trial is rendered with.
 const TINY: u32 = 4;
@@ -54,13 +55,37 @@ pub fn glb(bytes: &[u8]) {
 fn check_as(name: &str, bytes: &[u8]) {
     let mut map = SourceMap::default();
     let file = map.add(name, bytes.to_vec());
+    is_proven_or_refused(file, &mut map);
+}
+
+/// Takes a scene from its file, with the files that it names, to its proof and a few pixels, and prints what was found.
+///
+/// # Panics
+/// As [`check`] and [`picture`], or if a text about the findings could command a terminal.
+pub fn file(path: &Path) {
+    let mut map = SourceMap::default();
+    let Ok(file) = Loader.file(path, &mut map) else { return };
+    let (sink, scene) = is_proven_or_refused(file, &mut map);
+    let name = map.name(file).to_owned();
+    // SARIF says what JSON says, after a long table that is always the same.
+    for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
+        let options = diag::Options { color: false, width: 100, least: Severity::Note, max: 100 };
+        let mut printer = Printer::new(format, options);
+        let text = printer.file(&name, sink.clone(), &map) + &printer.finish();
+        assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{format:?} is harmless text: {text:?}");
+    }
+    scene.into_iter().for_each(is_picture);
+}
+
+/// What was found, and the scene if it was proven.
+fn is_proven_or_refused(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scene>) {
     let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = load(file, &mut map, &options, &mut sink);
+    let lowered = load(file, map, &options, &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| prove(lowered, &options, &mut sink));
     assert_eq!(proven.is_none(), sink.has_errors(), "a proof or an error, never both");
-    if let (Some(Lowered { scene, origins: _ }), Some(_)) = (lowered, proven) {
-        round_trips(&scene);
-    }
+    let scene = lowered.filter(|_| proven.is_some()).map(|lowered| lowered.scene);
+    scene.iter().for_each(round_trips);
+    (sink, scene)
 }
 
 /// Decodes bytes in both forms of the IR.
@@ -94,10 +119,14 @@ pub fn validate(bytes: &[u8]) {
 /// If a pixel is not in [0, 1].
 pub fn picture(bytes: &[u8]) {
     let (mut map, file) = source(bytes);
-    let (mut sink, options) = (Sink::default(), Options::default());
-    let Some(mut lowered) = load(file, &mut map, &options, &mut sink) else { return };
-    make_tiny(&mut lowered.scene);
-    let Some(proven) = prove(&lowered, &options, &mut sink) else { return };
+    let lowered = load(file, &mut map, &Options::default(), &mut Sink::default());
+    lowered.into_iter().for_each(|lowered| is_picture(lowered.scene));
+}
+
+fn is_picture(mut scene: Scene) {
+    make_tiny(&mut scene);
+    let lowered = Lowered { scene, origins: Origins::default() };
+    let Some(proven) = prove(&lowered, &Options::default(), &mut Sink::default()) else { return };
     let film = render(&proven, &Plan::new(&proven, Rules::ALL), &Job::default(), 1, &|_| true)
         .expect("the system gives one thread");
     let image = film.expect("nobody said stop").image;

@@ -56,7 +56,7 @@ const TABLE: [Row; COUNT] = [
     Row {
         resource: Resource::Vertices,
         name: "vertices",
-        base: 1 << 25,
+        base: 1 << 24,
         per_kib: 1 << 10,
         text: "vertices made, each as often as it is made: for every primitive, morph target and pose",
     },
@@ -205,6 +205,16 @@ impl Budget {
         let spend = |spent: u64| spent.checked_add(amount).filter(|total| *total <= limit);
         let spent = self.spent[resource as usize].fetch_update(Relaxed, Relaxed, spend);
         spent.map(|_| ()).map_err(|spent| Exceeded { resource, total: spent.saturating_add(amount), limit })
+    }
+
+    /// Whether so much of a resource is left; nothing is charged.
+    ///
+    /// # Errors
+    /// If there is not so much left.
+    pub fn has(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
+        let limit = self.limit(resource);
+        let total = self.spent[resource as usize].load(Relaxed).saturating_add(amount);
+        if total <= limit { Ok(()) } else { Err(Exceeded { resource, total, limit }) }
     }
 
     /// How much of a resource may be taken in all, by what was read so far.

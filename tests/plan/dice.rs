@@ -1,6 +1,8 @@
 //! Random scenes: each effect present, absent, or present with zero weight; places on a coarse grid, so that things touch,
 //! line up and coincide.
 
+mod extreme;
+
 use rtc::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};
 use rtc::math::{Vec3, view_basis};
 

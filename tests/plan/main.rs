@@ -14,10 +14,13 @@ mod approved;
 mod counters;
 mod cut;
 mod dice;
+mod extreme;
 mod law;
 mod need;
 mod oracle;
 mod precision;
+#[path = "../scale/mod.rs"]
+mod scale;
 mod sensitivity;
 mod stage;
 mod validation;

@@ -1,6 +1,6 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
-use super::{Porter, Wanted, Without};
+use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
@@ -8,10 +8,8 @@ use crate::ir::{
     Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
-use crate::source::{FileId, Found, Kind};
+use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
 use glam::DAffine3;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 /// Such files.
 pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf::begins };
@@ -19,10 +17,12 @@ pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf:
 /// The largest asset read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// The assets brought so far, each once: what is to be placed of them, or nothing if they have errors.
+/// The assets brought so far: what is to be placed of them.
 #[derive(Default)]
 pub(super) struct Assets {
-    known: BTreeMap<PathBuf, Option<Placeable>>,
+    known: Known<Placeable>,
+    /// The budget had no room for one of them: that is said once.
+    is_over: bool,
 }
 
 /// What is placed of an asset; it refers to what was added to the scene.
@@ -41,8 +41,11 @@ impl Assets {
         lowered: &mut Lowered,
         porter: &mut Porter<'_>,
     ) {
+        if self.is_over {
+            return;
+        }
         let Some(found) = porter.find(wish, Without::Object) else { return };
-        let asset = self.known.entry(found.path.clone()).or_insert_with(|| {
+        let asset = self.known.of(&found, || {
             let bytes = porter.loader.found(&found, MAX_BYTES, porter.map);
             let bytes =
                 bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
@@ -51,8 +54,13 @@ impl Assets {
             let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
             Some(add(asset, lowered))
         });
-        if let Some(asset) = asset {
-            asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered);
+        let Some(asset) = asset else { return };
+        match asset.charge(porter.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+            Err(fault) => {
+                self.is_over = true;
+                porter.sink.push(over_limit("the asset", &fault).at(wish.span, "placed here"));
+            }
         }
     }
 }
@@ -112,6 +120,15 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
 }
 
 impl Placeable {
+    /// Charges one more of it.
+    fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
+        let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
+        let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
+        let surfaces = self.surfaces.len() as u64;
+        budget.charge(Resource::Surfaces, surfaces)?;
+        budget.charge(Resource::Memory, surfaces * gltf::SURFACE + names + lights)
+    }
+
     /// Puts the asset into its place.
     fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
         let Lowered { scene, origins } = lowered;

@@ -7,10 +7,10 @@ use super::json::NodeId;
 use super::mesh::{Attribute, Primitive, is_aligned};
 use super::report::{Report, shown};
 use crate::diag::codes;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What an attribute says of a vertex, with the number of its set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Semantic {
     Position,
     Normal,
@@ -77,11 +77,12 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut Report<'_, '_>) {
         ("WEIGHTS", Semantic::Weights),
     ];
     let mut counts = [0; 4];
+    let own: BTreeSet<Semantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
         // A set number that no attribute has ends the sets; what lies beyond it is left over.
         *count =
             semantics.iter().filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0))).count();
-        let gap = (0..*count as u64).find(|set| !semantics.contains(&kind(*set)));
+        let gap = (0..*count as u64).find(|set| !own.contains(&kind(*set)));
         if let Some(gap) = gap {
             let message = format!("there are {count} sets of `{name}`, and none has the number {gap}");
             report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY", at, message);
@@ -107,7 +108,14 @@ pub(super) fn check_format(
         let message = "positions come without `min` and `max`".to_owned();
         report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", attribute.at, message);
     }
-    let Some(layout) = accessor.layout else { return };
+    let Some(layout) = accessor.layout else {
+        if !matches!(semantic, Semantic::Custom | Semantic::None) {
+            let message = format!("`{}` has no element type or no component type", attribute.name);
+            let alias = "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT";
+            report.say(&codes::GLTF_FORMAT, alias, attribute.at, message);
+        }
+        return;
+    };
     let quantized = doc.uses("KHR_mesh_quantization");
     if !allows(semantic, layout, quantized, in_target) {
         let message = format!("`{}` is {}, which no `{}` is", attribute.name, layout.name(), attribute.name);
@@ -152,6 +160,9 @@ pub(super) fn check_place(
     report: &mut Report<'_, '_>,
 ) {
     let Some((index, view)) = accessor.view.and_then(|view| Some((view, doc.views.get(view)?))) else { return };
+    if !report.is_part(view.at) {
+        return;
+    }
     if !is_aligned(accessor, view.stride) {
         let message = "vertices start at multiples of 4 bytes, and these don't".to_owned();
         report.say(&codes::GLTF_ACCESSOR, "MESH_PRIMITIVE_ACCESSOR_UNALIGNED", attribute.at, message);

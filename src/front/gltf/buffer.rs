@@ -23,12 +23,20 @@ pub(super) struct Buffer<'s> {
 /// Bytes that several buffers may share.
 pub(super) type Bytes<'s> = Rc<Cow<'s, [u8]>>;
 
+/// Where bytes are and how many: while the document holds them, what is equal is the same bytes.
+pub(super) type Stretch = (usize, usize);
+
+/// Where these bytes are.
+pub(super) fn stretch(bytes: &[u8]) -> Stretch {
+    (bytes.as_ptr().addr(), bytes.len())
+}
+
 impl Buffer<'_> {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         let compressed = |name| fields.extension(name).is_some_and(|fields| fields.truth("fallback"));
         Self {
             at: fields.at,
-            length: fields.index("byteLength"),
+            length: fields.index("byteLength").filter(|length| *length > 0),
             bytes: None,
             is_fallback: compressed("EXT_meshopt_compression") || compressed("KHR_meshopt_compression"),
         }
@@ -46,7 +54,7 @@ pub(super) struct View {
     /// What its `target` says.
     target: Option<Purpose>,
     /// What was compressed, decompressed.
-    pub(super) decoded: Option<Vec<u8>>,
+    pub(super) decoded: Option<Bytes<'static>>,
 }
 
 /// What the bytes of a view are for.
@@ -78,7 +86,7 @@ impl View {
             at: fields.at,
             buffer: fields.index("buffer"),
             offset: fields.index("byteOffset").unwrap_or(0),
-            length: fields.index("byteLength"),
+            length: fields.index("byteLength").filter(|length| *length > 0),
             stride: fields.index("byteStride").filter(|stride| (4..=252).contains(stride)),
             target: match fields.whole("target") {
                 Some(34962) => Some(Purpose::Vertices),
@@ -92,7 +100,7 @@ impl View {
 
 impl View {
     /// A view of bytes that stand nowhere in the asset.
-    pub(super) fn decoded(at: NodeId, bytes: Vec<u8>) -> Self {
+    pub(super) fn decoded(at: NodeId, bytes: Bytes<'static>) -> Self {
         let (buffer, offset, length, stride, target) = (None, 0, Some(bytes.len()), None, None);
         Self { at, buffer, offset, length, stride, target, decoded: Some(bytes) }
     }

@@ -115,22 +115,36 @@ fn values(elements: &Elements<'_>, accessor: &Accessor, is_exact: bool, report: 
     }
     for (key, own, found) in [("min", &accessor.min, least), ("max", &accessor.max, most)] {
         let Some(own) = own.as_ref().filter(|own| is_exact && own.len() == components) else { continue };
+        let is_float = elements.layout.component.range().is_none();
+        #[expect(clippy::cast_possible_truncation, reason = "bounds of floats are compared as floats")]
+        let own: Vec<f64> = own.iter().map(|own| if is_float { f64::from(*own as f32) } else { *own }).collect();
+        let mut beyond = None;
         for component in 0..components {
-            bound(elements, accessor, (key, component), [own[component], found[component]], report);
+            bound((elements, &own, &mut beyond), accessor, (key, component), found[component], report);
         }
     }
 }
 
-/// Compares one component of a bound with what was found.
+/// How many elements are beyond a bound, for each component.
+fn count_beyond(elements: &Elements<'_>, own: &[f64], is_min: bool) -> [usize; 16] {
+    let mut beyond = [0; 16];
+    elements.each(|_, element| {
+        for ((count, number), own) in beyond.iter_mut().zip(element).zip(own) {
+            *count += usize::from(if is_min { number < own } else { number > own });
+        }
+    });
+    beyond
+}
+
+/// Compares one component of a bound with what was found; the elements beyond the bound are counted when first needed.
 fn bound(
-    elements: &Elements<'_>,
+    (elements, all, beyond): (&Elements<'_>, &[f64], &mut Option<[usize; 16]>),
     accessor: &Accessor,
     (key, component): (&str, usize),
-    [own, found]: [f64; 2],
+    found: f64,
     report: &mut Report<'_, '_>,
 ) {
-    #[expect(clippy::cast_possible_truncation, reason = "bounds of floats are compared as floats")]
-    let own = if elements.layout.component.range().is_none() { f64::from(own as f32) } else { own };
+    let own = all[component];
     if own.total_cmp(&found).is_eq() || own - found == 0.0 || !found.is_finite() {
         return;
     }
@@ -145,11 +159,7 @@ fn bound(
     let message = format!("`{key}` is {own}, and the {} value is {found}", if is_min { "least" } else { "greatest" });
     report.say(&codes::GLTF_BOUNDS, mismatch, at, message);
     if (is_min && found < own) || (!is_min && found > own) {
-        let mut beyond = 0_usize;
-        elements.each(|_, element| {
-            let number = element[component];
-            beyond += usize::from(if is_min { number < own } else { number > own });
-        });
+        let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
         let message = format!("{beyond} elements are beyond `{key}`, which is {own}");
         report.say(&codes::GLTF_BOUNDS, out, at, message);
     }

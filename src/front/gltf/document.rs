@@ -1,16 +1,17 @@
 //! A whole asset, typed: every part with the node it was read from, references as indices.
 
 use super::accessor::Accessor;
-use super::animation::Animation;
+use super::animation::{Animation, Channel, Sampler as Keyframes};
 use super::buffer::{Buffer, View};
 use super::camera::Camera;
 use super::field::Fields;
 use super::image::Image;
 use super::json::{NodeId, Tree};
-use super::mesh::Mesh;
+use super::mesh::{Mesh, Primitive};
 use super::node::Node;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
+use std::collections::BTreeSet;
 
 /// An asset.
 #[derive(Debug)]
@@ -19,6 +20,8 @@ pub(super) struct Document<'s> {
     pub(super) views: Vec<View>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
+    /// What the images were decoded to, without names.
+    pub(super) pictures: Vec<crate::ir::Image>,
     pub(super) samplers: Vec<Sampler>,
     pub(super) textures: Vec<Texture>,
     /// Where each material was written; its many optional parts are read when it is lowered.
@@ -34,7 +37,7 @@ pub(super) struct Document<'s> {
     /// The scene that is shown.
     pub(super) scene: Option<usize>,
     /// The names in `extensionsUsed`.
-    pub(super) extensions: Vec<String>,
+    pub(super) extensions: BTreeSet<String>,
     /// It is a `.glb`.
     pub(super) is_glb: bool,
 }
@@ -46,6 +49,31 @@ pub(super) struct Scene {
     pub(super) nodes: Vec<usize>,
 }
 
+/// Bytes that a value of the text becomes, its node in the tree included.
+const VALUE: u64 = 40;
+/// Bytes that a node takes while the asset is lowered, beside its part of the document.
+const PLACED: usize = 256;
+
+/// Bytes that the parts of an asset take. An item of a list counts as a part, whatever it is.
+pub(super) fn cost(json: &Tree<'_>) -> u64 {
+    let count = |map: NodeId, key| json.list(map, key).count();
+    let inner = |key, part| json.list(json.root(), key).map(|map| count(map, part)).sum::<usize>();
+    let parts = [
+        (count(json.root(), "bufferViews"), size_of::<View>()),
+        (count(json.root(), "accessors"), size_of::<Accessor>()),
+        (count(json.root(), "images"), size_of::<Image>()),
+        (count(json.root(), "meshes"), size_of::<Mesh>()),
+        (inner("meshes", "primitives"), size_of::<Primitive>()),
+        (count(json.root(), "nodes"), size_of::<Node>() + PLACED),
+        (count(json.root(), "skins"), size_of::<Skin>()),
+        (count(json.root(), "animations"), size_of::<Animation>()),
+        (inner("animations", "channels"), size_of::<Channel>()),
+        (inner("animations", "samplers"), size_of::<Keyframes>()),
+    ];
+    let parts: u64 = parts.iter().map(|(count, size)| *count as u64 * *size as u64).sum();
+    parts.saturating_add(VALUE * json.len() as u64)
+}
+
 impl Document<'_> {
     /// Reads the parts; buffers are still empty.
     pub(super) fn read(json: &Tree<'_>, is_glb: bool) -> Self {
@@ -53,13 +81,16 @@ impl Document<'_> {
             root.objects(key).map(read).collect()
         }
         let root = Fields::new(json, json.root());
-        let lights = root.extension("KHR_lights_punctual");
         let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
+        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let has_lights = extensions.contains("KHR_lights_punctual");
+        let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {
             buffers: each(root, "buffers", Buffer::read),
             views: each(root, "bufferViews", View::read),
             accessors: each(root, "accessors", Accessor::read),
             images: each(root, "images", Image::read),
+            pictures: Vec::new(),
             samplers: each(root, "samplers", Sampler::read),
             textures: each(root, "textures", Texture::read),
             materials: each(root, "materials", |fields| fields.at),
@@ -71,12 +102,12 @@ impl Document<'_> {
             lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
             scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
             scene: root.index("scene"),
-            extensions: texts.map(std::borrow::Cow::into_owned).collect(),
+            extensions,
             is_glb,
         }
     }
 
     pub(super) fn uses(&self, extension: &str) -> bool {
-        self.extensions.iter().any(|name| name == extension)
+        self.extensions.contains(extension)
     }
 }

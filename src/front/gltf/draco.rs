@@ -2,17 +2,25 @@
 //! the accessors that stand for them. The one file that names the decoder.
 
 use super::accessor::{Component, Layout};
-use super::buffer::View;
+use super::buffer::{Bytes, Stretch, View, stretch};
 use super::document::Document;
 use super::field::Fields;
 use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::Resource;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Decoded bytes for each compressed byte, and beside that, that a primitive may claim.
 const MAX_RATIO: u64 = 256;
 const FREE: u64 = 1 << 20;
+
+/// Bytes that a point and a triangle take while they are decoded, beside what becomes of them.
+const POINT: u64 = 48;
+const FACE: u64 = 48;
 
 /// What a primitive says of its compressed data.
 struct Packed {
@@ -23,10 +31,28 @@ struct Packed {
     indices: Option<usize>,
 }
 
+/// What was decoded so far, each thing once.
+#[derive(Default)]
+struct Made {
+    meshes: BTreeMap<(Stretch, Size), Result<Rc<Mesh>, String>>,
+    /// Attributes by their numbers, and the corners.
+    columns: BTreeMap<(Stretch, Option<u32>, Component), Bytes<'static>>,
+    /// The data and the number that each accessor has now.
+    filled: BTreeMap<usize, (Stretch, Option<u32>)>,
+}
+
+/// Points and triangles.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Size {
+    points: u64,
+    faces: u64,
+}
+
 /// Decodes the primitives that are compressed.
 pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    let mut made = Made::default();
     for packed in find(doc, report) {
-        match unpack(doc, &packed) {
+        match unpack(doc, &packed, &mut made, report) {
             Ok(accessors) => accessors.into_iter().for_each(|(accessor, bytes)| fill(doc, accessor, bytes)),
             Err(fault) => {
                 let message = format!("the primitive can't be decompressed: {fault}");
@@ -49,34 +75,93 @@ fn find(doc: &Document<'_>, report: &Report<'_, '_>) -> Vec<Packed> {
     packed.collect()
 }
 
-/// The bytes of each accessor of a primitive.
-fn unpack(doc: &Document<'_>, packed: &Packed) -> Result<Vec<(usize, Vec<u8>)>, String> {
+/// The bytes of each accessor of a primitive that does not have them yet.
+fn unpack(
+    doc: &Document<'_>,
+    packed: &Packed,
+    made: &mut Made,
+    report: &mut Report<'_, '_>,
+) -> Result<Vec<(usize, Bytes<'static>)>, String> {
     let bytes = doc.view_bytes(packed.view).ok_or("its view is not there")?;
+    let own = stretch(bytes);
+    let corners = packed.indices.map_or(Ok(0), |accessor| layout_of(doc, accessor).map(|own| own.1))?;
+    let points = packed.attributes.first().map_or(Ok(corners), |(own, _)| layout_of(doc, *own).map(|own| own.1))?;
+    let size = Size { points: points as u64, faces: corners as u64 / 3 };
+    let mesh = match made.meshes.get(&(own, size)) {
+        Some(known) => known.clone(),
+        None => {
+            let mesh = charge(size, packed, report).and_then(|()| decode(bytes, size));
+            made.meshes.insert((own, size), mesh.clone());
+            mesh
+        }
+    }?;
+    let mut accessors = Vec::new();
+    let parts = packed.attributes.iter().map(|(accessor, number)| (*accessor, Some(*number)));
+    for (accessor, number) in parts.chain(packed.indices.map(|accessor| (accessor, None))) {
+        if made.filled.insert(accessor, (own, number)) == Some((own, number)) {
+            continue;
+        }
+        let (layout, count) = layout_of(doc, accessor)?;
+        check(&mesh, number, (layout, count))?;
+        let key = (own, number, layout.component);
+        if let Some(known) = made.columns.get(&key) {
+            accessors.push((accessor, Rc::clone(known)));
+            continue;
+        }
+        let memory = count as u64 * layout.packed() as u64;
+        if !report.charge(Resource::Memory, memory, packed.at, "the compressed primitive") {
+            return Err("it asks for too much".to_owned());
+        }
+        let column = Rc::new(Cow::Owned(column(&mesh, number, layout)));
+        made.columns.insert(key, Rc::clone(&column));
+        accessors.push((accessor, column));
+    }
+    Ok(accessors)
+}
+
+fn charge(size: Size, packed: &Packed, report: &mut Report<'_, '_>) -> Result<(), String> {
+    let Size { points, faces } = size;
+    let memory = points.saturating_mul(POINT).saturating_add(faces.saturating_mul(FACE));
+    let is_small =
+        report.charge(Resource::Vertices, points.saturating_add(3 * faces), packed.at, "the compressed primitive")
+            && report.charge(Resource::Memory, memory, packed.at, "the compressed primitive");
+    if is_small { Ok(()) } else { Err("it asks for too much".to_owned()) }
+}
+
+/// The mesh of compressed bytes, if it has the size that its accessors claim.
+fn decode(bytes: &[u8], size: Size) -> Result<Rc<Mesh>, String> {
     let limit = (bytes.len() as u64).saturating_mul(MAX_RATIO).saturating_add(FREE);
-    let limits = DecodeLimits::default().with_max_points(limit).with_max_faces(limit).with_max_decoded_bytes(limit);
+    let limits = DecodeLimits::default().with_max_points(size.points.min(limit)).with_max_decoded_bytes(limit);
+    let limits = limits.with_max_faces(size.faces.min(limit));
     let mut mesh = Mesh::new();
     let mut buffer = DecoderBuffer::new(bytes).with_limits(limits);
     MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|fault| fault.to_string())?;
-    let points = mesh.num_points();
-    let mut accessors = Vec::new();
-    for (accessor, number) in &packed.attributes {
-        let (layout, count) = layout_of(doc, *accessor)?;
-        let attribute = mesh.attribute_by_unique_id(*number).ok_or("it lacks an attribute")?;
-        if count != points || usize::from(attribute.num_components()) != layout.components() {
-            return Err(format!("an accessor has {count} elements, and the data {points}"));
-        }
-        let numbers = attribute.read_f32s(points, layout.components());
-        accessors.push((*accessor, to_bytes(numbers.into_iter().map(f64::from), layout.component)));
+    Ok(Rc::new(mesh))
+}
+
+/// Checks that an attribute, or the corners without a number, have the size that an accessor claims.
+fn check(mesh: &Mesh, number: Option<u32>, (layout, count): (Layout, usize)) -> Result<(), String> {
+    let Some(number) = number else {
+        let faces = mesh.num_faces();
+        let message = || format!("there are {count} indices, and the data has {faces} triangles");
+        return if count == 3 * faces { Ok(()) } else { Err(message()) };
+    };
+    let (points, attribute) = (mesh.num_points(), mesh.attribute_by_unique_id(number).ok_or("it lacks an attribute")?);
+    if count != points || usize::from(attribute.num_components()) != layout.components() {
+        return Err(format!("an accessor has {count} elements, and the data {points}"));
     }
-    if let Some(accessor) = packed.indices {
-        let (layout, count) = layout_of(doc, accessor)?;
-        if count != 3 * mesh.num_faces() {
-            return Err(format!("there are {count} indices, and the data has {} triangles", mesh.num_faces()));
+    Ok(())
+}
+
+/// The bytes of an attribute, or of the corners.
+fn column(mesh: &Mesh, number: Option<u32>, layout: Layout) -> Vec<u8> {
+    match number.map(|number| mesh.attribute_by_unique_id(number)) {
+        None => to_bytes(mesh.faces().iter().flatten().map(|point| f64::from(point.0)), layout.component),
+        Some(attribute) => {
+            let numbers = attribute.map(|own| own.read_f32s(mesh.num_points(), layout.components()));
+            to_bytes(numbers.unwrap_or_default().into_iter().map(f64::from), layout.component)
         }
-        let corners = mesh.faces().iter().flatten().map(|point| f64::from(point.0));
-        accessors.push((accessor, to_bytes(corners, layout.component)));
     }
-    Ok(accessors)
 }
 
 fn layout_of(doc: &Document<'_>, accessor: usize) -> Result<(Layout, usize), String> {
@@ -104,7 +189,7 @@ fn to_bytes(numbers: impl Iterator<Item = f64>, component: Component) -> Vec<u8>
 }
 
 /// Gives an accessor a view of its own.
-fn fill(doc: &mut Document<'_>, accessor: usize, bytes: Vec<u8>) {
+fn fill(doc: &mut Document<'_>, accessor: usize, bytes: Bytes<'static>) {
     let at = doc.accessors[accessor].at;
     let view = View::decoded(at, bytes);
     let accessor = &mut doc.accessors[accessor];

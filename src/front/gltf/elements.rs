@@ -34,16 +34,35 @@ impl Integers<'_> {
         let bytes = self.bytes.get(at * size..(at + 1) * size)?;
         Some(bytes.iter().rev().fold(0, |number, byte| number << 8 | usize::from(*byte)))
     }
+
+    /// Where a number is among rising ones.
+    fn find(&self, number: usize) -> Option<usize> {
+        let (mut low, mut high) = (0, self.len());
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.get(middle).is_some_and(|own| own < number) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        (self.get(low) == Some(number)).then_some(low)
+    }
 }
 
 impl<'d> Elements<'d> {
-    /// The elements of an accessor; none if some of them can't be had.
+    /// The elements of an accessor; none if some of them can't be had, or are not aligned.
     pub(super) fn of(doc: &'d Document<'_>, accessor: &Accessor) -> Option<Self> {
         let (layout, count) = (accessor.layout?, accessor.count?);
         let base = match accessor.view {
             None => None,
             Some(view) => {
-                let stride = doc.views.get(view)?.stride.unwrap_or(layout.packed());
+                let holder = doc.views.get(view)?;
+                let stride = holder.stride.unwrap_or(layout.packed());
+                let start = if holder.decoded.is_some() { 0 } else { holder.offset };
+                if !start.checked_add(accessor.offset)?.is_multiple_of(layout.component.size()) {
+                    return None;
+                }
                 let end = stride.checked_mul(count - 1)?.checked_add(extent(layout))?;
                 let bytes = doc.view_bytes(view)?.get(accessor.offset..accessor.offset.checked_add(end)?)?;
                 (stride >= extent(layout)).then_some((bytes, stride))
@@ -70,6 +89,21 @@ impl<'d> Elements<'d> {
     /// The indices of the elements that are replaced.
     pub(super) fn replaced(&self) -> Option<Integers<'d>> {
         self.sparse.as_ref().map(|(indices, _)| *indices)
+    }
+
+    /// The element at `at`, which is below the count, its components as the fractions they stand for.
+    pub(super) fn at<const N: usize>(&self, at: usize) -> [f64; N] {
+        let (layout, mut element) = (self.layout, Element::default());
+        let replaced = self.sparse.as_ref().and_then(|(indices, values)| Some((indices.find(at)?, *values)));
+        if let Some((place, values)) = replaced {
+            let flat = Layout { columns: 1, rows: layout.components(), ..layout };
+            read(&values[place * flat.packed()..], flat, &mut element);
+        } else if let Some((bytes, stride)) = self.base {
+            read(&bytes[at * stride..], layout, &mut element);
+        }
+        let mut vector = [0.0; N];
+        vector.iter_mut().zip(&element[..layout.components()]).for_each(|(to, from)| *to = self.fraction(*from));
+        vector
     }
 
     /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do are put in place.

@@ -13,6 +13,7 @@ mod contents;
 mod document;
 mod draco;
 mod elements;
+mod features;
 mod field;
 mod header;
 mod image;
@@ -31,10 +32,12 @@ mod texture;
 mod uri;
 mod usage;
 
+pub(super) use lower::SURFACE;
+
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
-use crate::source::{FileId, Search, SourceMap, Span};
+use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
 use contents::Demands;
@@ -80,10 +83,17 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
         }
     };
     keys_twice(&tree, sink);
-    let mut report = Report::new(&tree, sink, options);
+    let mut report = Report::new(&tree, sink, options, map.budget());
+    let root = tree.root();
+    let is_small = report.charge(Resource::Nodes, tree.len() as u64, root, "the asset")
+        && report.charge(Resource::Memory, document::cost(&tree), root, "the asset");
+    if !is_small {
+        return None;
+    }
+    let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search, map), &mut report);
+    let doc = fill(doc, chunk, Resources::new(search, map), &mut report);
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -93,7 +103,7 @@ fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
     if container::is_glb(map.name(file), bytes) {
         container::open(file, bytes, sink)
     } else {
-        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false })
+        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false, is_whole: true })
     }
 }
 
@@ -119,24 +129,30 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
 
 fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
     for (first, second) in tree.twice() {
-        let key = report::shown(&tree.text(*second).unwrap_or_default());
-        let message = format!("the key `{key}` stands twice in one object");
-        let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
-        sink.push(finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second)));
+        sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
+            let key = report::shown(&tree.text(*second).unwrap_or_default());
+            let message = format!("the key `{key}` stands twice in one object");
+            let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
+            finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second))
+        });
     }
 }
 
-/// Checks the asset from its JSON to its contents.
-fn read<'s>(
-    tree: &'s Tree<'s>,
-    (is_glb, chunk): (bool, Option<&'s [u8]>),
+/// Checks the JSON of an asset for itself. Of one that is not glTF 2 nothing is known beyond its header.
+fn shape<'s>(tree: &'s Tree<'s>, is_glb: bool, report: &mut Report<'_, 's>) -> Option<Document<'s>> {
+    let is_known = header::check_version(report);
+    schema::walk(is_known, report);
+    header::check_extensions(report);
+    is_known.then(|| Document::read(tree, is_glb))
+}
+
+/// Brings the files of an asset, and checks how its parts fit together and what is in them.
+fn fill<'s>(
+    mut doc: Document<'s>,
+    chunk: Option<&'s [u8]>,
     mut resources: Resources<'_>,
     report: &mut Report<'_, 's>,
 ) -> Document<'s> {
-    schema::walk(report);
-    header::check_version(report);
-    header::check_extensions(report);
-    let mut doc = Document::read(tree, is_glb);
     resources.bring_buffers(&mut doc, chunk, report);
     resources.bring_images(&mut doc, report);
     let demands = check_links(&doc, report);
@@ -162,8 +178,13 @@ fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
     material::check(doc, report);
     material::check_variants(doc, report);
     let mut streams = std::collections::BTreeMap::new();
-    let mut links =
-        mesh::Links { purposes: &mut purposes, usages: &mut usages, demands: &mut demands, streams: &mut streams };
+    let mut links = mesh::Links {
+        purposes: &mut purposes,
+        usages: &mut usages,
+        demands: &mut demands,
+        streams: &mut streams,
+        textures: std::collections::BTreeMap::new(),
+    };
     mesh::check(doc, &mut links, report);
     let forest = node::check(doc, report);
     skin::check(doc, &forest, (&mut purposes, &mut usages, &mut demands), report);

@@ -1,8 +1,9 @@
 //! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator of Khronos has for it.
 
-use super::json::{NodeId, Tree};
+use super::json::{Kind, NodeId, Tree};
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
+use crate::source::{Budget, Exceeded, Resource};
 
 /// Takes the findings about one asset.
 pub(super) struct Report<'r, 's> {
@@ -10,17 +11,38 @@ pub(super) struct Report<'r, 's> {
     pub(super) json: &'r Tree<'s>,
     sink: &'r mut Sink,
     options: &'r Options,
+    /// What the run may still take.
+    pub(super) budget: &'r Budget,
+    /// A limit was passed; that is said once.
+    is_over: bool,
 }
 
 impl<'r, 's> Report<'r, 's> {
-    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options) -> Self {
-        Self { json, sink, options }
+    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options, budget: &'r Budget) -> Self {
+        Self { json, sink, options, budget, is_over: false }
     }
 
     /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
     pub(super) fn say(&mut self, code: &'static Code, alias: &'static str, at: NodeId, message: impl Into<String>) {
-        let finding = self.finding(code, alias, at, message.into());
-        self.sink.push(finding);
+        let (severity, json) = (self.severity(code), self.json);
+        self.sink.push_with(severity, || finding(json, (code, severity), alias, at, message.into()));
+    }
+
+    /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the image`.
+    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
+        if !std::mem::replace(&mut self.is_over, true) {
+            self.advise(&codes::OVER_LIMIT, "", at, format!("{what} asks for too much: {fault}"), fault.hint());
+        }
+    }
+
+    /// Charges what stands at a node with so much of a resource. False if that is too much, here or before: then the
+    /// asset is refused, and what is missing is not worth a finding.
+    pub(super) fn charge(&mut self, resource: Resource, amount: u64, at: NodeId, what: &str) -> bool {
+        if self.is_over {
+            return false;
+        }
+        let charged = self.budget.charge(resource, amount);
+        charged.map_err(|fault| self.exceeded(at, what, &fault)).is_ok()
     }
 
     /// The same, with what to do.
@@ -32,19 +54,8 @@ impl<'r, 's> Report<'r, 's> {
         message: String,
         hint: String,
     ) {
-        let finding = self.finding(code, alias, at, message);
-        self.sink.push(finding.hint(hint));
-    }
-
-    fn finding(&self, code: &'static Code, alias: &'static str, at: NodeId, message: String) -> Diagnostic {
-        debug_assert!(alias.is_empty() || code.aliases.contains(&alias), "{code} has no alias {alias}");
-        let pointer = self.json.pointer(at);
-        let label = if pointer.is_empty() { "the asset".to_owned() } else { pointer.clone() };
-        Diagnostic::new(code, message)
-            .severity(self.severity(code))
-            .at(self.json.span(at), label)
-            .pointer(pointer)
-            .alias((!alias.is_empty()).then_some(alias))
+        let (severity, json) = (self.severity(code), self.json);
+        self.sink.push_with(severity, || finding(json, (code, severity), alias, at, message).hint(hint));
     }
 
     fn severity(&self, code: &'static Code) -> Severity {
@@ -58,6 +69,11 @@ impl<'r, 's> Report<'r, 's> {
         }
     }
 
+    /// True if the part at a node is an object; what refers to another one refers to nothing, which the walk has told.
+    pub(super) fn is_part(&self, at: NodeId) -> bool {
+        self.json.kind(at) == Kind::Map
+    }
+
     /// True if an error was reported, here or before.
     pub(super) fn has_errors(&self) -> bool {
         self.sink.has_errors()
@@ -67,6 +83,23 @@ impl<'r, 's> Report<'r, 's> {
     pub(super) fn shown(&self, at: NodeId) -> String {
         shown(self.json.written(at))
     }
+}
+
+fn finding(
+    json: &Tree<'_>,
+    (code, severity): (&'static Code, Severity),
+    alias: &'static str,
+    at: NodeId,
+    message: String,
+) -> Diagnostic {
+    debug_assert!(alias.is_empty() || code.aliases.contains(&alias), "{code} has no alias {alias}");
+    let pointer = json.pointer(at);
+    let label = if pointer.is_empty() { "the asset".to_owned() } else { pointer.clone() };
+    Diagnostic::new(code, message)
+        .severity(severity)
+        .at(json.span(at), label)
+        .pointer(pointer)
+        .alias((!alias.is_empty()).then_some(alias))
 }
 
 /// A stretch of the text, short and without control characters.

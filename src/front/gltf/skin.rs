@@ -1,6 +1,6 @@
 //! Skins: joints in one tree, their matrices, and the weights by which vertices follow them.
 
-use super::accessor::Component;
+use super::accessor::{self, Component, Layout};
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
 use super::document::Document;
@@ -12,11 +12,13 @@ use super::node::{Forest, Node, Transform};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
+use crate::source::Resource;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.
 #[derive(Debug)]
 pub(super) struct Skin {
-    at: NodeId,
+    pub(super) at: NodeId,
     pub(super) joints: Vec<usize>,
     pub(super) matrices: Option<usize>,
     skeleton: Option<usize>,
@@ -45,10 +47,67 @@ pub(super) fn check(
         check_tree(doc, skin, forest, &order, report);
         check_matrices(doc, skin, (purposes, usages, demands), report);
     }
+    let mut shows = Shows::new(doc, forest);
+    let mut done = Done::default();
     for (index, node) in doc.nodes.iter().enumerate() {
-        let Some(skin) = node.skin.and_then(|skin| doc.skins.get(skin)) else { continue };
-        check_node(doc, (index, node), skin, forest, report);
+        let skin = node.skin.and_then(|skin| Some((skin, doc.skins.get(skin)?)));
+        let Some((of, skin)) = skin.filter(|(_, skin)| !skin.joints.is_empty()) else { continue };
+        let Some((at, mesh)) = node.mesh.and_then(|mesh| Some((mesh, doc.meshes.get(mesh)?))) else { continue };
+        check_node((index, node), forest, report);
+        if shows.apart(forest.roots[index], of) {
+            let message = "a scene shows the mesh and not the joints that move it".to_owned();
+            report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
+        }
+        if done.meshes.insert((at, skin.joints.len())) {
+            for primitive in &mesh.primitives {
+                check_influences(doc, primitive, skin.joints.len(), &mut done, report);
+            }
+        }
     }
+}
+
+/// Which scenes show which trees.
+struct Shows {
+    /// The scenes that show the tree of each root.
+    scenes: BTreeMap<usize, BTreeSet<usize>>,
+    /// The root above the joints of each skin.
+    joints: Vec<Option<usize>>,
+    /// For a tree and a skin, whether some scene shows the one without the other.
+    known: BTreeMap<(usize, usize), bool>,
+}
+
+impl Shows {
+    fn new(doc: &Document<'_>, forest: &Forest) -> Self {
+        let mut scenes: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (index, scene) in doc.scenes.iter().enumerate() {
+            for node in &scene.nodes {
+                scenes.entry(*node).or_default().insert(index);
+            }
+        }
+        let root = |node: &usize| forest.roots.get(*node).copied().flatten();
+        let joints = doc.skins.iter().map(|skin| skin.joints.iter().find_map(root)).collect();
+        Self { scenes, joints, known: BTreeMap::new() }
+    }
+
+    fn apart(&mut self, root: Option<usize>, skin: usize) -> bool {
+        let Some(root) = root else { return false };
+        let Self { scenes, joints, known } = self;
+        let apart = || {
+            let Some(own) = scenes.get(&root) else { return false };
+            let of_joints = joints[skin].and_then(|root| scenes.get(&root));
+            of_joints.is_none_or(|of_joints| !own.is_subset(of_joints))
+        };
+        *known.entry((root, skin)).or_insert_with(apart)
+    }
+}
+
+/// What was checked already.
+#[derive(Default)]
+struct Done {
+    /// Meshes, with a number of joints.
+    meshes: BTreeSet<(usize, usize)>,
+    /// The accessors of joints and weights, with a number of joints.
+    influences: BTreeSet<(Vec<[usize; 2]>, usize)>,
 }
 
 /// The nodes in the order of a walk through their trees: those below one lie in one stretch.
@@ -89,11 +148,11 @@ impl Order {
 }
 
 fn check_tree(doc: &Document<'_>, skin: &Skin, forest: &Forest, order: &Order, report: &mut Report<'_, '_>) {
-    if skin.joints.is_empty() {
+    let Some(at) = report.json.get(skin.at, "joints").filter(|at| report.json.items(*at).next().is_some()) else {
         return;
-    }
-    let at = report.json.at_or(skin.at, "joints");
-    let known: Vec<usize> = skin.joints.iter().copied().filter(|joint| *joint < doc.nodes.len()).collect();
+    };
+    let is_node = |joint: &usize| doc.nodes.get(*joint).is_some_and(|node| report.is_part(node.at));
+    let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
     let root = known.first().and_then(|joint| forest.roots[*joint]);
     if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
         let message = "no node lies above all joints".to_owned();
@@ -113,9 +172,7 @@ fn check_matrices(
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
     report: &mut Report<'_, '_>,
 ) {
-    let Some((index, accessor)) = skin.matrices.and_then(|index| Some((index, doc.accessors.get(index)?))) else {
-        return;
-    };
+    let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else { return };
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
     usages.set(index, Usage::InverseBindMatrices, at, report);
     purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
@@ -123,29 +180,22 @@ fn check_matrices(
         let message = "the view of inverse bind matrices has a stride".to_owned();
         report.say(&codes::GLTF_VIEW, "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", at, message);
     }
-    if let Some(layout) = accessor.layout {
-        if layout.columns == 4 && layout.component == Component::F32 && !layout.normalized {
-            demands.add(index, Demand::Affine, at);
-        } else {
-            let message = format!("inverse bind matrices are {}, not mat4 of f32", layout.name());
-            report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
-        }
+    let is_matrix = |layout: Layout| layout.columns == 4 && layout.component == Component::F32 && !layout.normalized;
+    if accessor.layout.is_some_and(is_matrix) {
+        demands.add(index, Demand::Affine, at);
+    } else {
+        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("inverse bind matrices are {found}, not mat4 of f32");
+        report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
-    if let Some(count) = accessor.count.filter(|count| *count < skin.joints.len()) {
+    if let Some(count) = Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len()) {
         let message = format!("{count} matrices for {} joints", skin.joints.len());
         report.say(&codes::GLTF_COUNT, "INVALID_IBM_ACCESSOR_COUNT", at, message);
     }
 }
 
-fn check_node(
-    doc: &Document<'_>,
-    (index, node): (usize, &Node),
-    skin: &Skin,
-    forest: &Forest,
-    report: &mut Report<'_, '_>,
-) {
+fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut Report<'_, '_>) {
     let code = &codes::GLTF_SKIN_ODD;
-    let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
     let unmoved = Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
     if forest.parents[index].is_some() {
         let message = "the node is no root, and transformations above it don't move a skinned mesh".to_owned();
@@ -154,17 +204,6 @@ fn check_node(
     if node.transform != unmoved {
         let message = "the transformation of the node does not move a skinned mesh".to_owned();
         report.say(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
-    }
-    let root_of = |node: usize| forest.roots.get(node).copied().flatten();
-    let joints = skin.joints.iter().find_map(|joint| root_of(*joint));
-    let shows = |root: Option<usize>, nodes: &[usize]| root.is_some_and(|root| nodes.contains(&root));
-    let apart = doc.scenes.iter().any(|scene| shows(root_of(index), &scene.nodes) && !shows(joints, &scene.nodes));
-    if apart {
-        let message = "a scene shows the mesh and not the joints that move it".to_owned();
-        report.say(&codes::GLTF_SKIN, "NODE_SKIN_NO_SCENE", node.at, message);
-    }
-    for primitive in &mesh.primitives {
-        check_influences(doc, primitive, skin.joints.len(), report);
     }
 }
 
@@ -179,25 +218,41 @@ struct Influences {
 }
 
 /// Checks which joints each vertex follows, and by how much.
-fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, report: &mut Report<'_, '_>) {
-    let mut vertices: Vec<Vec<(f64, f64)>> = Vec::new();
-    for set in 0.. {
-        let part = |name: String| {
-            let accessor = doc.accessors.get(primitive.find(&name)?)?;
-            Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
-        };
-        let (Some(own), Some(weights)) = (part(format!("JOINTS_{set}")), part(format!("WEIGHTS_{set}"))) else { break };
-        let (own, weights) = (own.vectors::<4>(), weights.vectors::<4>());
-        vertices.resize(vertices.len().max(own.len().min(weights.len())), Vec::new());
-        for (vertex, (own, weights)) in vertices.iter_mut().zip(own.into_iter().zip(weights)) {
-            vertex.extend(own.into_iter().zip(weights));
-        }
+fn check_influences(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    joints: usize,
+    done: &mut Done,
+    report: &mut Report<'_, '_>,
+) {
+    let accessors: Vec<[usize; 2]> = primitive.influences().collect();
+    if !done.influences.insert((accessors.clone(), joints)) {
+        return;
+    }
+    let part = |accessor: usize| {
+        let accessor = doc.accessors.get(accessor)?;
+        Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
+    };
+    let sets = accessors.into_iter().map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
+    let sets: Vec<[Elements<'_>; 2]> = sets.collect();
+    let count = sets.first().map_or(0, |[own, _]| own.count);
+    if sets.iter().flatten().any(|elements| elements.count != count) {
+        return;
+    }
+    let work = (count as u64).saturating_mul(sets.len() as u64);
+    if !report.charge(Resource::Vertices, work, primitive.at, "the skin") {
+        return;
     }
     let mut found = Influences::default();
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
-    for (at, vertex) in vertices.iter().enumerate() {
-        found.look(at, vertex, joints);
+    let mut vertex = Vec::new();
+    for at in 0..count {
+        vertex.clear();
+        for [own, weights] in &sets {
+            vertex.extend(own.at::<4>(at).into_iter().zip(weights.at::<4>(at)));
+        }
+        found.look(at, &vertex, joints);
     }
     let Influences { out, twice, negative, sum, idle } = found;
     let skin = &codes::GLTF_SKIN;
@@ -216,27 +271,32 @@ fn check_influences(doc: &Document<'_>, primitive: &Primitive, joints: usize, re
 
 impl Influences {
     fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
-        /// What 8 bits a weight allow the sum to miss for each two weights beyond the first two.
-        const STEP: f64 = 0.003_921_6;
-        const ROUNDING: f64 = 2e-6;
-        let put = |slot: &mut Option<usize>, is_wrong: bool| {
-            if is_wrong {
-                slot.get_or_insert(at);
-            }
+        /// What each weight may add to what the sum misses.
+        const ROUNDING: f64 = 2e-7;
+        let put = |slot: &mut Option<usize>| {
+            slot.get_or_insert(at);
         };
-        let (mut sum, mut used) = (0.0, 0_u32);
-        for (place, (joint, weight)) in vertex.iter().enumerate() {
-            put(&mut self.out, *joint >= joints);
-            put(&mut self.negative, *weight < 0.0);
-            if *weight == 0.0 {
-                put(&mut self.idle, *joint != 0.0);
-                continue;
+        let (mut sum, mut slack, mut moving) = (0.0_f64, 0.0, BTreeSet::new());
+        for (joint, weight) in vertex {
+            if *joint >= joints {
+                put(&mut self.out);
+            } else if *weight == 0.0 {
+                if *joint != 0.0 {
+                    put(&mut self.idle);
+                }
+            } else if !moving.insert(joint.to_bits()) {
+                put(&mut self.twice);
+            } else if *weight < 0.0 {
+                put(&mut self.negative);
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "readers sum in 32 bits")]
+                let added = (sum + weight) as f32;
+                sum = f64::from(added);
+                slack += ROUNDING;
             }
-            put(&mut self.twice, vertex[..place].iter().any(|(other, own)| *own != 0.0 && other - joint == 0.0));
-            sum += weight;
-            used += 1;
         }
-        let slack = STEP * f64::from(used.saturating_sub(1) / 2) + ROUNDING;
-        put(&mut self.sum, (sum - 1.0).abs() > slack);
+        if (sum - 1.0).abs() > slack {
+            put(&mut self.sum);
+        }
     }
 }

@@ -9,6 +9,7 @@ pub(super) use scan::parse;
 
 use crate::source::{FileId, Span};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Names a node of a [`Tree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,12 +67,23 @@ pub(super) struct Tree<'s> {
     file: FileId,
     nodes: Vec<Node>,
     twice: Vec<(NodeId, NodeId)>,
+    /// The keys of each map that has many, sorted by what they say.
+    wide: BTreeMap<NodeId, Vec<NodeId>>,
 }
+
+/// The longest step of a pointer and the longest pointer in bytes: longer ones are cut, for findings are many.
+const LONG_STEP: usize = 256;
+const LONG_POINTER: usize = 512;
 
 impl<'s> Tree<'s> {
     /// The node of the whole document.
     pub(super) fn root(&self) -> NodeId {
         NodeId(0)
+    }
+
+    /// How many values there are, and keys.
+    pub(super) fn len(&self) -> usize {
+        self.nodes.len()
     }
 
     fn node(&self, id: NodeId) -> Node {
@@ -117,7 +129,11 @@ impl<'s> Tree<'s> {
 
     /// The value of `key` in a map.
     pub(super) fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
-        self.pairs(map).find(|(name, _)| self.is(*name, key)).map(|(_, value)| value)
+        let Some(sorted) = self.wide.get(&map) else {
+            return self.pairs(map).find(|(name, _)| self.is(*name, key)).map(|(_, value)| value);
+        };
+        let first = sorted.partition_point(|own| self.text(*own).is_some_and(|own| *own < *key));
+        sorted.get(first).filter(|own| self.is(**own, key)).map(|own| NodeId(own.0 + 1))
     }
 
     /// The value at the end of a way of keys.
@@ -169,25 +185,36 @@ impl<'s> Tree<'s> {
         NodeId(self.node(id).parent)
     }
 
-    /// The way from the root to the node, a JSON pointer (RFC 6901).
+    /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is left out, and of a
+    /// long key the end: `…` stands there.
     pub(super) fn pointer(&self, id: NodeId) -> String {
         let mut steps = Vec::new();
-        let mut at = id;
-        while at != self.root() {
+        let (mut at, mut length) = (id, 0);
+        while at != self.root() && length <= LONG_POINTER {
             let node = self.node(at);
             let parent = NodeId(node.parent);
-            steps.push(if self.kind(parent) == Kind::List { node.slot.to_string() } else { self.key(at) });
+            let step = if self.kind(parent) == Kind::List { node.slot.to_string() } else { self.key(at) };
+            length += step.len() + 1;
+            steps.push(format!("/{}", step.replace('~', "~0").replace('/', "~1")));
             at = parent;
         }
-        steps.iter().rev().map(|step| format!("/{}", step.replace('~', "~0").replace('/', "~1"))).collect()
+        if at != self.root() {
+            steps.push("…".to_owned());
+        }
+        steps.iter().rev().map(String::as_str).collect()
     }
 
-    /// The key of a value of a map; of a key, itself.
+    /// The key of a value of a map; of a key, itself. The beginning of a long one, as written.
     fn key(&self, id: NodeId) -> String {
         let before = NodeId(id.0 - 1);
         let node = self.node(id);
         let is_key = self.text.as_bytes()[node.end as usize..].trim_ascii_start().first() == Some(&b':');
-        self.text(if is_key { id } else { before }).unwrap_or_default().into_owned()
+        let key = if is_key { id } else { before };
+        let written = self.written(key);
+        if written.len() <= LONG_STEP {
+            return self.text(key).unwrap_or_default().into_owned();
+        }
+        format!("{}…", written.get(1..written.floor_char_boundary(LONG_STEP)).unwrap_or_default())
     }
 }
 
@@ -249,6 +276,30 @@ mod tests {
         assert_eq!(twice(r#"{"a":1,"\u0061":2}"#), [7]);
         let many: String = (0..100).map(|key| format!("\"{key}\":0,")).collect();
         assert_eq!(twice(&format!("{{{many}\"50\":1}}")), [many.len() + 1]);
+    }
+
+    #[test]
+    fn keys_of_wide_maps_are_found() {
+        let text: String = (0..100).map(|key| format!("\"\\u0061{key}\":{key},")).collect();
+        let text = format!("{{{text}\"b\":[1,{{\"c\":2}}]}}");
+        let tree = parse(file(), 0, &text).unwrap();
+        let found = (0..100).filter_map(|key| tree.whole(tree.get(tree.root(), &format!("a{key}"))?));
+        assert!(found.eq(0..100));
+        assert_eq!(tree.get(tree.root(), "a100"), None);
+        assert_eq!(tree.list(tree.root(), "b").count(), 2);
+    }
+
+    #[test]
+    fn long_pointers_are_cut() {
+        let text = format!("{{\"{}\":{{\"b\":1}}}}", "ü".repeat(1_000));
+        let tree = parse(file(), 0, &text).unwrap();
+        let inner = tree.pairs(tree.root()).next().unwrap().1;
+        let pointer = tree.pointer(tree.get(inner, "b").unwrap());
+        assert!(pointer.starts_with("/ü") && pointer.ends_with("ü…/b") && pointer.len() < 300, "{pointer}");
+        let text = r#"{"key":"#.repeat(500) + "1" + &"}".repeat(500);
+        let tree = parse(file(), 0, &text).unwrap();
+        let pointer = tree.pointer(NodeId(1_000));
+        assert!(pointer.starts_with("…/key/key/") && pointer.len() < 600, "{pointer}");
     }
 
     #[test]

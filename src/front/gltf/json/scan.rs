@@ -3,10 +3,11 @@
 use super::{Kind, Node, NodeId, Tree, text};
 use crate::source::FileId;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// How deep lists and maps may lie in each other.
 const MAX_DEPTH: usize = 512;
-/// Maps up to this size are searched for keys that stand twice pair by pair; larger ones are sorted.
+/// Maps up to this size are searched pair by pair; the keys of larger ones are sorted.
 const FEW_KEYS: usize = 12;
 
 /// Why a text is no tree, and where.
@@ -29,7 +30,7 @@ impl From<(usize, &'static str)> for Fault {
 /// # Errors
 /// The first fault.
 pub(in super::super) fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
-    let tree = Tree { text, base, file, nodes: Vec::new(), twice: Vec::new() };
+    let tree = Tree { text, base, file, nodes: Vec::new(), twice: Vec::new(), wide: BTreeMap::new() };
     let mut scan = Scan { bytes: text.as_bytes(), at: 0, tree, open: Vec::new() };
     scan.document()?;
     Ok(scan.tree)
@@ -223,6 +224,8 @@ impl Scan<'_> {
         } else {
             keys.sort_unstable();
             twice.extend(keys.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| (pair[0].1, pair[1].1)));
+            let sorted = keys.into_iter().map(|(_, key)| key).collect();
+            self.tree.wide.insert(map, sorted);
         }
         self.tree.twice.append(&mut twice);
     }

@@ -3,32 +3,14 @@
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::mesh::{Attribute, Primitive};
-use super::super::skin::Skin;
+use super::shape::Shape;
 use crate::ir::{self, Column};
 use crate::math::Vec3;
-use glam::{DAffine3, DMat3, DMat4};
-
-/// What moves the vertices of a mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Shape {
-    /// The weight of each morph target.
-    pub(super) weights: Vec<f64>,
-    /// From the mesh to the world, for each joint.
-    pub(super) skin: Option<Vec<DAffine3>>,
-}
-
-/// From the mesh to the world for each joint: its inverse bind matrix, then its place.
-pub(super) fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Vec<DAffine3> {
-    let matrices = skin.matrices.and_then(|matrices| Elements::of(doc, doc.accessors.get(matrices)?));
-    let binds = matrices.map_or_else(Vec::new, |matrices| matrices.vectors::<16>());
-    let bind = |at: usize| binds.get(at).map_or(DMat4::IDENTITY, DMat4::from_cols_array);
-    let world = |joint: usize| worlds.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
-    skin.joints.iter().enumerate().map(|(at, joint)| world(*joint) * DAffine3::from_mat4(bind(at))).collect()
-}
+use glam::{DAffine3, DMat3};
 
 /// Moves the vertices of a mesh.
-pub(super) fn deform(doc: &Document<'_>, primitive: &Primitive, shape: &Shape, mesh: &mut ir::Mesh) {
-    let targets = primitive.targets.iter().zip(&shape.weights).filter(|(_, weight)| **weight != 0.0);
+pub(super) fn deform(doc: &Document<'_>, primitive: &Primitive, shape: Shape<'_>, mesh: &mut ir::Mesh) {
+    let targets = primitive.targets.iter().zip(shape.weights).filter(|(_, weight)| **weight != 0.0);
     let targets = targets.map(|(target, weight)| (target.as_slice(), *weight)).collect::<Vec<_>>();
     let morph = Morph { doc, targets };
     morph.add::<3, 3>("POSITION", &mut mesh.positions);
@@ -39,7 +21,7 @@ pub(super) fn deform(doc: &Document<'_>, primitive: &Primitive, shape: &Shape, m
     if morph.add::<4, 4>("COLOR_0", &mut mesh.colors) {
         mesh.colors = super::mesh::clamped(mesh.colors.iter());
     }
-    if let Some(joints) = &shape.skin {
+    if let Some(joints) = shape.joints {
         skin(doc, primitive, joints, mesh);
     }
 }
@@ -59,9 +41,10 @@ impl Morph<'_, '_> {
             let accessor = accessor.and_then(|accessor| self.doc.accessors.get(accessor));
             let Some(deltas) = accessor.and_then(|accessor| Elements::of(self.doc, accessor)) else { continue };
             let moved = moved.get_or_insert_with(|| column.iter().collect());
-            for (vertex, delta) in moved.iter_mut().zip(deltas.vectors::<M>()) {
-                vertex.iter_mut().zip(delta).for_each(|(number, delta)| *number += weight * delta);
-            }
+            deltas.each(|at, delta| {
+                let vertex = moved.get_mut(at).into_iter().flatten().take(M);
+                vertex.zip(delta).for_each(|(number, delta)| *number += weight * deltas.fraction(*delta));
+            });
         }
         if let Some(moved) = &moved {
             *column = Column::rounded(moved.iter().copied());
@@ -73,13 +56,14 @@ impl Morph<'_, '_> {
 /// Moves each vertex by the mean of its joints.
 fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &mut ir::Mesh) {
     let mut blends = vec![(DMat3::ZERO, Vec3::ZERO); mesh.positions.len()];
-    for set in 0.. {
-        let part = |name: String| Elements::of(doc, doc.accessors.get(primitive.find(&name)?)?);
-        let (Some(own), Some(weights)) = (part(format!("JOINTS_{set}")), part(format!("WEIGHTS_{set}"))) else { break };
-        let own = own.integers();
-        for ((blend, own), weights) in blends.iter_mut().zip(own.as_chunks::<4>().0).zip(weights.vectors::<4>()) {
-            for (joint, weight) in own.iter().zip(weights).filter(|(_, weight)| *weight != 0.0) {
-                let Some(joint) = joints.get(*joint as usize) else { continue };
+    let part = |accessor: usize| Elements::of(doc, doc.accessors.get(accessor)?);
+    for [own, weights] in primitive.influences() {
+        let (Some(own), Some(weights)) = (part(own), part(weights)) else { break };
+        for (at, blend) in blends.iter_mut().enumerate().take(own.count.min(weights.count)) {
+            let own = own.at::<4>(at).into_iter().zip(weights.at::<4>(at));
+            for (joint, weight) in own.filter(|(_, weight)| *weight != 0.0) {
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "joints are whole numbers")]
+                let Some(joint) = joints.get(joint as usize) else { continue };
                 blend.0 += joint.matrix3 * weight;
                 blend.1 += joint.translation * weight;
             }

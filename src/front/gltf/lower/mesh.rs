@@ -2,99 +2,136 @@
 
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::mesh::Primitive;
+use super::super::json::NodeId;
+use super::super::mesh::{Attribute, Primitive, TRIANGLES};
 use super::super::report::Report;
-use super::deform::{self, Shape};
-use super::{tangent, topology};
-use crate::diag::codes;
+use super::shape::{Shape, ShapeId};
+use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
+use crate::source::Resource;
+use std::collections::BTreeMap;
 
-/// Vertices and indices that are made for each element of the accessors, and beside that.
-const MAX_RATIO: usize = 16;
-const FREE: usize = 1 << 20;
+/// Bytes that a corner of a triangle takes, and a triangle until it is rendered.
+const CORNER: u64 = 4;
+const TRIANGLE: u64 = 96;
+/// Bytes that a vertex takes while morph targets or joints move it.
+const MOVED: u64 = 96;
+/// How many vertices and bytes the tangents of a corner stand for.
+const TANGENT: u64 = 4;
+const TANGENT_BYTES: u64 = 128;
 
 /// The meshes that were made.
-pub(super) struct Meshes {
-    made: Vec<(Key, MeshId)>,
-    /// Vertices and indices that may still be made.
-    left: usize,
+pub(super) struct Meshes<'d> {
+    /// What is different in primitives, and which that is of each primitive.
+    parts: BTreeMap<Parts<'d>, usize>,
+    of_primitive: BTreeMap<NodeId, usize>,
+    /// The mesh of each that was asked for; none if it has no surface.
+    made: BTreeMap<(usize, ShapeId, bool), Option<MeshId>>,
 }
 
-/// What a mesh is made of.
-#[derive(PartialEq)]
-struct Key {
-    attributes: Vec<(String, usize)>,
-    targets: Vec<Vec<(String, usize)>>,
+/// Names and accessors.
+type Pairs<'d> = Vec<(&'d str, usize)>;
+
+/// What a primitive is made of.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Parts<'d> {
+    attributes: Pairs<'d>,
+    targets: Vec<Pairs<'d>>,
     indices: Option<usize>,
     mode: u64,
-    shape: Shape,
-    needs_tangents: bool,
 }
 
 /// A mesh that is wanted.
-pub(super) struct Wanted<'w> {
-    pub(super) primitive: &'w Primitive,
-    pub(super) name: &'w str,
-    pub(super) shape: &'w Shape,
+pub(super) struct Wanted<'d, 'w> {
+    pub(super) primitive: &'d Primitive,
+    pub(super) name: &'d str,
+    pub(super) shape: (ShapeId, Shape<'w>),
     pub(super) needs_tangents: bool,
 }
 
-impl Meshes {
-    pub(super) fn new(doc: &Document<'_>) -> Self {
-        let elements = doc.accessors.iter().filter_map(|accessor| accessor.count).fold(0, usize::saturating_add);
-        Self { made: Vec::new(), left: elements.saturating_mul(MAX_RATIO).saturating_add(FREE) }
+impl<'d> Meshes<'d> {
+    pub(super) fn new() -> Self {
+        Self { parts: BTreeMap::new(), of_primitive: BTreeMap::new(), made: BTreeMap::new() }
     }
 
-    /// The mesh of a primitive; none if it has no surface.
+    /// The mesh of a primitive of the document; none if it has no surface, or asks for too much.
     pub(super) fn make(
         &mut self,
-        doc: &Document<'_>,
-        wanted: &Wanted<'_>,
+        doc: &'d Document<'_>,
+        wanted: &Wanted<'d, '_>,
         scene: &mut Scene,
         origins: &mut Origins,
         report: &mut Report<'_, '_>,
     ) -> Option<MeshId> {
-        let key = key(wanted);
-        if let Some((_, id)) = self.made.iter().rev().find(|(own, _)| *own == key) {
-            return Some(*id);
+        let primitive = wanted.primitive;
+        let key = (self.parts(primitive), wanted.shape.0, wanted.needs_tangents);
+        let known = self.made.get(&key).copied();
+        let made = known.unwrap_or_else(|| {
+            let is_small = charge(doc, wanted, report);
+            let mesh = is_small.then(|| read(doc, wanted)).flatten()?;
+            let id = MeshId(to_u32(scene.meshes.len()));
+            origins.record(Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole), report.json.span(primitive.at));
+            scene.meshes.push(mesh);
+            Some(id)
+        });
+        if known.is_none() {
+            self.made.insert(key, made);
         }
-        let Some(mesh) = read(doc, wanted) else {
-            let message = "the primitive has points or lines or no positions, so it does not show".to_owned();
-            report.say(&codes::GLTF_REMARK, "", wanted.primitive.at, message);
-            return None;
-        };
-        let Some(left) = self.left.checked_sub(mesh.positions.len() + 3 * mesh.triangles.len()) else {
-            let message = "the primitives before this one use the accessors many times over already".to_owned();
-            report.say(&codes::GLTF_HUGE, "", wanted.primitive.at, message);
-            return None;
-        };
-        self.left = left;
-        let id = MeshId(to_u32(scene.meshes.len()));
-        origins.record(Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole), report.json.span(wanted.primitive.at));
-        scene.meshes.push(mesh);
-        self.made.push((key, id));
-        Some(id)
+        made
+    }
+
+    /// The name of what a primitive is made of.
+    fn parts(&mut self, primitive: &'d Primitive) -> usize {
+        let Self { parts, of_primitive, made: _ } = self;
+        *of_primitive.entry(primitive.at).or_insert_with(|| {
+            let next = parts.len();
+            *parts.entry(Parts::of(primitive)).or_insert(next)
+        })
     }
 }
 
-fn key(wanted: &Wanted<'_>) -> Key {
-    let Wanted { primitive, name: _, shape, needs_tangents } = wanted;
-    let pairs = |attributes: &[super::super::mesh::Attribute]| {
-        attributes.iter().map(|attribute| (attribute.name.clone(), attribute.accessor)).collect()
-    };
-    Key {
-        attributes: pairs(&primitive.attributes),
-        targets: primitive.targets.iter().map(|target| pairs(target)).collect(),
-        indices: primitive.indices,
-        mode: primitive.mode,
-        shape: (*shape).clone(),
-        needs_tangents: *needs_tangents,
+impl<'d> Parts<'d> {
+    fn of(primitive: &'d Primitive) -> Self {
+        let pairs = |attributes: &'d [Attribute]| -> Pairs<'d> {
+            attributes.iter().map(|attribute| (attribute.name.as_str(), attribute.accessor)).collect()
+        };
+        Self {
+            attributes: pairs(&primitive.attributes),
+            targets: primitive.targets.iter().map(|target| pairs(target)).collect(),
+            indices: primitive.indices,
+            mode: primitive.mode,
+        }
     }
+}
+
+/// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target and set of joints that
+/// moves them. False if that is too much.
+fn charge(doc: &Document<'_>, wanted: &Wanted<'_, '_>, report: &mut Report<'_, '_>) -> bool {
+    let Wanted { primitive, name, shape: (_, shape), needs_tangents } = wanted;
+    let count = |accessor: usize| doc.accessors.get(accessor).and_then(|own| own.count).unwrap_or(0) as u64;
+    let vertices = primitive.find("POSITION").map_or(0, count);
+    let corners = primitive.indices.map_or(vertices, count);
+    let triangles = if primitive.mode == TRIANGLES { corners / 3 } else { corners };
+    let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() { 3 * triangles } else { 0 };
+    let targets = primitive.targets.iter().zip(shape.weights).filter(|(_, weight)| **weight != 0.0);
+    let targets: u64 = targets.map(|(target, _)| target.len() as u64).sum();
+    let sets = shape.joints.map_or(0, |_| primitive.influences().count() as u64);
+    let is_moved = targets + sets > 0;
+    let columns =
+        [("POSITION", 12), ("NORMAL", 12), ("TANGENT", 16), ("TEXCOORD_0", 8), ("TEXCOORD_1", 8), ("COLOR_0", 16)];
+    let columns = columns.into_iter().filter(|(name, _)| primitive.find(name).is_some()).map(|(_, size)| size);
+    let vertex = columns.sum::<u64>() + if is_moved { MOVED } else { 0 };
+    let work = vertices.saturating_mul(1 + targets + sets).saturating_add(corners + TANGENT * tangents);
+    let memory =
+        [vertices * vertex, corners * CORNER, triangles * TRIANGLE, tangents * TANGENT_BYTES, name.len() as u64];
+    let memory = memory.into_iter().fold(0, u64::saturating_add);
+    report.charge(Resource::Vertices, work, primitive.at, "the mesh")
+        && report.charge(Resource::Memory, memory, primitive.at, "the mesh")
 }
 
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them.
-fn read(doc: &Document<'_>, wanted: &Wanted<'_>) -> Option<Mesh> {
-    let Wanted { primitive, name, shape, needs_tangents } = wanted;
+fn read(doc: &Document<'_>, wanted: &Wanted<'_, '_>) -> Option<Mesh> {
+    let Wanted { primitive, name, shape: (_, shape), needs_tangents } = wanted;
     let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
     let count = positions.len();
@@ -113,7 +150,7 @@ fn read(doc: &Document<'_>, wanted: &Wanted<'_>) -> Option<Mesh> {
         colors: elements("COLOR_0").map_or_else(Column::default, |own| colors(&own)),
         triangles: Shared::default(),
     };
-    deform::deform(doc, primitive, shape, &mut mesh);
+    deform::deform(doc, primitive, *shape, &mut mesh);
     if let Some(kept) = topology::compact(&mut triangles, count) {
         pick(&mut mesh, &kept);
     }

@@ -7,6 +7,7 @@ mod material;
 mod mesh;
 mod place;
 mod pose;
+mod shape;
 mod tangent;
 mod texture;
 mod topology;
@@ -19,13 +20,20 @@ use crate::diag::codes;
 use crate::front::Options;
 use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
 use crate::math::Vec3;
+use crate::source::Resource;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
+use place::Places;
+use shape::Shapes;
+use std::collections::BTreeMap;
 
 /// Bounces of a path, paths a pixel.
 const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
+
+/// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of its parts.
+pub(in crate::front) const SURFACE: u64 = 1024;
 
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
@@ -34,7 +42,10 @@ struct Lowering<'l, 'r, 's> {
     scene: Scene,
     origins: Origins,
     materials: Materials,
-    meshes: Meshes,
+    meshes: Meshes<'l>,
+    shapes: Shapes,
+    /// The material of each primitive that was met, in the variant.
+    chosen: BTreeMap<NodeId, MaterialId>,
     /// The variant of the materials that was asked for.
     variant: Option<usize>,
     /// The cameras that were met.
@@ -51,13 +62,16 @@ pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Repo
         scene: empty(),
         origins: Origins::default(),
         materials: Materials::new(doc),
-        meshes: Meshes::new(doc),
+        meshes: Meshes::new(),
+        shapes: Shapes::default(),
+        chosen: BTreeMap::new(),
         variant,
         cameras: Vec::new(),
     };
     let worlds = place::worlds(doc, &pose);
-    for node in place::shown(doc) {
-        lowering.node(node, &pose, &worlds);
+    let shown = place::shown(doc);
+    if shown.iter().all(|node| lowering.charge(*node)) {
+        shown.into_iter().for_each(|node| lowering.node(node, &pose, &worlds));
     }
     lowering.finish(options.camera.as_deref())
 }
@@ -108,6 +122,18 @@ fn missing(noun: &str, name: &str, names: &[String], report: &mut Report<'_, '_>
 }
 
 impl Lowering<'_, '_, '_> {
+    /// Charges the surfaces that one node shows. False if that is too much.
+    fn charge(&mut self, index: usize) -> bool {
+        let (doc, node) = (self.doc, &self.doc.nodes[index]);
+        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return true };
+        let places = node.instances.filter(|_| node.skin.is_none());
+        let count = places.map_or(1, |own| Places::many(doc, DAffine3::IDENTITY, own).count());
+        let count = (count as u64).saturating_mul(mesh.primitives.len() as u64);
+        let memory = count.saturating_mul(SURFACE + node.name.len() as u64);
+        self.report.charge(Resource::Surfaces, count, node.at, "the node")
+            && self.report.charge(Resource::Memory, memory, node.at, "the node")
+    }
+
     /// Lowers what one node shows.
     fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
         let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
@@ -118,25 +144,24 @@ impl Lowering<'_, '_, '_> {
             self.light(*light, world);
         }
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
-        let skin = node.skin.and_then(|skin| doc.skins.get(skin)).filter(|_| mesh.is_skinned());
-        let shape = deform::Shape {
-            weights: pose.weights(index, mesh),
-            skin: skin.map(|skin| deform::joints(doc, skin, worlds)),
-        };
+        let is_skinned = mesh.is_skinned() == Some(true);
+        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && is_skinned);
+        let Some(shape) = self.shapes.of_node(doc, (index, skin), (pose, worlds), self.report) else { return };
         let places = match (skin, node.instances) {
-            (Some(_), _) => vec![DAffine3::IDENTITY],
-            (None, Some(instances)) => place::instances(doc, instances).into_iter().map(|own| world * own).collect(),
-            (None, None) => vec![world],
+            (Some(_), _) => Places::One(DAffine3::IDENTITY),
+            (None, Some(instances)) => Places::many(doc, world, instances),
+            (None, None) => Places::One(world),
         };
         for primitive in &mesh.primitives {
             let material = self.material(primitive);
             let needs_tangents = self.materials.needs_tangents(material, &self.scene);
-            let made = mesh::Wanted { primitive, name: &mesh.name, shape: &shape, needs_tangents };
+            let shape = (shape, self.shapes.get(shape));
+            let made = mesh::Wanted { primitive, name: &mesh.name, shape, needs_tangents };
             let Some(id) = self.meshes.make(doc, &made, &mut self.scene, &mut self.origins, self.report) else {
                 continue;
             };
-            for place in &places {
-                self.surface(id, *place, material, &node.name, node.at);
+            for at in 0..places.count() {
+                self.surface(id, places.at(at), material, &node.name, node.at);
             }
         }
     }
@@ -156,9 +181,14 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn material(&mut self, primitive: &super::mesh::Primitive) -> MaterialId {
+        if let Some(known) = self.chosen.get(&primitive.at) {
+            return *known;
+        }
         let material = material::chosen(primitive, self.variant, self.report.json).or(primitive.material);
         let material = material.filter(|material| *material < self.doc.materials.len());
-        self.materials.make(self.doc, material, &mut self.scene, &mut self.origins, self.report)
+        let made = self.materials.make(self.doc, material, &mut self.scene, &mut self.origins, self.report);
+        self.chosen.insert(primitive.at, made);
+        made
     }
 
     fn finish(mut self, camera: Option<&str>) -> Lowered {

@@ -3,7 +3,7 @@
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::pose::Pose;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use glam::{DAffine3, DQuat};
 
 /// The world transformation of each node; of one in a loop, its own.
@@ -39,18 +39,37 @@ pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
     shown
 }
 
-/// The places of the instances of `EXT_mesh_gpu_instancing`: accessors of translation, rotation and scale.
-pub(super) fn instances(doc: &Document<'_>, accessors: [Option<usize>; 3]) -> Vec<DAffine3> {
-    let elements = accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?));
-    let count = elements.iter().flatten().map(|elements| elements.count).min().unwrap_or(0);
-    let [translations, rotations, scales] = elements;
-    let vectors = |elements: Option<Elements<'_>>, default| {
-        elements.map_or_else(|| vec![default; count], |elements| elements.vectors::<3>())
-    };
-    let (translations, scales) = (vectors(translations, [0.0; 3]), vectors(scales, [1.0; 3]));
-    let rotations = rotations.map_or_else(|| vec![[0.0, 0.0, 0.0, 1.0]; count], |elements| elements.vectors::<4>());
-    let parts = translations.into_iter().zip(rotations).zip(scales);
-    parts.map(|((translation, rotation), scale)| compose(translation, rotation, scale)).collect()
+/// The places of a mesh at its node.
+pub(super) enum Places<'d> {
+    One(DAffine3),
+    /// The node, and the instances of `EXT_mesh_gpu_instancing` at it: translations, rotations and scales.
+    Many(DAffine3, [Option<Elements<'d>>; 3]),
+}
+
+impl<'d> Places<'d> {
+    /// Those of instances, by their accessors.
+    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, accessors: [Option<usize>; 3]) -> Self {
+        Self::Many(world, accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?)))
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::One(_) => 1,
+            Self::Many(_, elements) => elements.iter().flatten().map(|own| own.count).min().unwrap_or(0),
+        }
+    }
+
+    /// The place at `at`, which is below the count.
+    pub(super) fn at(&self, at: usize) -> DAffine3 {
+        let (world, [translations, rotations, scales]) = match self {
+            Self::One(world) => return *world,
+            Self::Many(world, elements) => (world, elements),
+        };
+        let translation = translations.as_ref().map_or([0.0; 3], |own| own.at(at));
+        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |own| own.at(at));
+        *world * compose(translation, rotation, scales.as_ref().map_or([1.0; 3], |own| own.at(at)))
+    }
 }
 
 /// Scale first, then rotation, then translation.
@@ -63,7 +82,7 @@ pub(super) fn compose(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]
 /// True if a place keeps a volume, by far more than the IR asks.
 pub(super) fn has_volume(world: DAffine3) -> bool {
     let axes = [world.x_axis, world.y_axis, world.z_axis];
-    let [x, y, z] = axes.map(|axis| axis.normalize_or_zero());
+    let [x, y, z] = axes.map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
     let is_sound = axes.iter().all(|axis| axis.is_finite() && axis.abs().max_element() > f64::MIN_POSITIVE);
     is_sound && x.dot(y.cross(z)).abs() >= 1e-9
 }

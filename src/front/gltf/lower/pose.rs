@@ -3,15 +3,18 @@
 use super::super::animation::{Animation, Interpolation, Path, Sampler};
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::mesh::Mesh;
 use super::super::node::Transform;
 use super::super::report::Report;
 use super::place::compose;
 use crate::diag::codes;
 use crate::front::Options;
 use crate::math::{acos, sin};
+use crate::source::Resource;
 use glam::{DAffine3, DMat4};
 use std::collections::BTreeMap;
+
+/// Bytes that the weight of a morph target takes: itself, and the bits that tell it from others.
+const WEIGHT: u64 = 32;
 
 /// How all nodes stand.
 pub(super) struct Pose {
@@ -29,11 +32,9 @@ impl Pose {
         }
     }
 
-    /// The weights of the morph targets of a mesh at a node.
-    pub(super) fn weights(&self, node: usize, mesh: &Mesh) -> Vec<f64> {
-        let mut weights = self.weights.get(&node).unwrap_or(&mesh.weights).clone();
-        weights.resize(mesh.targets(), 0.0);
-        weights
+    /// The weights of morph targets that a node has in place of those of its mesh.
+    pub(super) fn weights(&self, node: usize) -> Option<&[f64]> {
+        self.weights.get(&node).map(Vec::as_slice)
     }
 }
 
@@ -47,8 +48,14 @@ pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_
         for channel in &animation.channels {
             let (Some(node), Some(path)) = (channel.node, channel.path) else { continue };
             let sampler = channel.sampler.and_then(|sampler| animation.samplers.get(sampler));
-            let Some(value) = sampler.and_then(|sampler| sample(doc, sampler, path, time)) else { continue };
-            pose.set(node, path, value);
+            let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else { continue };
+            let memory = keys.width() as u64 * WEIGHT;
+            if path == Path::Weights && !report.charge(Resource::Memory, memory, channel.at, "the channel") {
+                break;
+            }
+            if let Some(value) = keys.sample(path, time) {
+                pose.set(node, path, value);
+            }
         }
     }
     pose
@@ -89,34 +96,75 @@ impl Pose {
     }
 }
 
-/// The value of a sampler at a time; before the first and after the last keyframe it stands still.
-fn sample(doc: &Document<'_>, sampler: &Sampler, path: Path, time: f64) -> Option<Vec<f64>> {
-    let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
-    let times: Vec<f64> = elements(sampler.input)?.vectors::<1>().into_iter().map(|[time]| time).collect();
-    let output = elements(sampler.output)?;
-    let mut values = Vec::new();
-    output.each(|_, element| values.extend(element.iter().map(|number| output.fraction(*number))));
-    let is_cubic = sampler.interpolation == Interpolation::Cubic;
-    let width = values.len() / times.len() / if is_cubic { 3 } else { 1 };
-    let next = times.partition_point(|own| *own <= time);
-    let (a, b) = (next.saturating_sub(1), next.min(times.len() - 1));
-    let span = times[b] - times[a];
-    let share = if a == b || span <= 0.0 { 0.0 } else { ((time - times[a]) / span).clamp(0.0, 1.0) };
-    let key = |index: usize, part: usize| {
-        let at = if is_cubic { 3 * index + part } else { index } * width;
-        values.get(at..at + width)
-    };
-    let middle = usize::from(is_cubic);
-    let (from, to) = (key(a, middle)?, key(b, middle)?);
-    Some(match sampler.interpolation {
-        Interpolation::Step => from.to_vec(),
-        Interpolation::Linear if path == Path::Rotation => slerp(from, to, share),
-        Interpolation::Linear => from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect(),
-        Interpolation::Cubic => {
-            let (leaving, arriving) = (key(a, 2)?, key(b, 0)?);
-            hermite([from, leaving, to, arriving], span, share)
+/// The keyframes of a sampler, of which only those about a time are looked at.
+struct Keys<'d> {
+    times: Elements<'d>,
+    output: Elements<'d>,
+    interpolation: Interpolation,
+}
+
+impl<'d> Keys<'d> {
+    fn of(doc: &'d Document<'_>, sampler: &Sampler) -> Option<Self> {
+        let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
+        let (times, output) = (elements(sampler.input)?, elements(sampler.output)?);
+        Some(Self { times, output, interpolation: sampler.interpolation })
+    }
+
+    fn is_cubic(&self) -> bool {
+        self.interpolation == Interpolation::Cubic
+    }
+
+    /// How many numbers a value has.
+    fn width(&self) -> usize {
+        let numbers = self.output.count * self.output.layout.components();
+        numbers / self.times.count / if self.is_cubic() { 3 } else { 1 }
+    }
+
+    fn time(&self, key: usize) -> f64 {
+        self.times.at::<1>(key)[0]
+    }
+
+    /// How many keyframes are not after a time.
+    fn until(&self, time: f64) -> usize {
+        let (mut low, mut high) = (0, self.times.count);
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.time(middle) <= time {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
         }
-    })
+        low
+    }
+
+    /// A keyframe; of a cubic one, its part: the tangent before it, the value, or the tangent after it.
+    fn key(&self, index: usize, part: usize) -> Option<Vec<f64>> {
+        let (width, components) = (self.width(), self.output.layout.components());
+        let at = if self.is_cubic() { 3 * index + part } else { index } * width;
+        let elements = at / components..(at + width).div_ceil(components);
+        let numbers = elements.flat_map(|element| self.output.at::<16>(element).into_iter().take(components));
+        (at + width <= self.output.count * components).then(|| numbers.skip(at % components).take(width).collect())
+    }
+
+    /// The value at a time; before the first and after the last keyframe it stands still.
+    fn sample(&self, path: Path, time: f64) -> Option<Vec<f64>> {
+        let next = self.until(time);
+        let (a, b) = (next.saturating_sub(1), next.min(self.times.count - 1));
+        let span = self.time(b) - self.time(a);
+        let share = if a == b || span <= 0.0 { 0.0 } else { ((time - self.time(a)) / span).clamp(0.0, 1.0) };
+        let middle = usize::from(self.is_cubic());
+        let (from, to) = (self.key(a, middle)?, self.key(b, middle)?);
+        Some(match self.interpolation {
+            Interpolation::Step => from,
+            Interpolation::Linear if path == Path::Rotation => slerp(&from, &to, share),
+            Interpolation::Linear => from.iter().zip(&to).map(|(a, b)| a + (b - a) * share).collect(),
+            Interpolation::Cubic => {
+                let (leaving, arriving) = (self.key(a, 2)?, self.key(b, 0)?);
+                hermite([&from, &leaving, &to, &arriving], span, share)
+            }
+        })
+    }
 }
 
 /// The cubic through two values with their tangents (glTF 2.0, appendix C.5).

@@ -7,11 +7,16 @@ mod filter;
 mod index;
 mod vertex;
 
+use super::buffer::{Bytes, Stretch, stretch};
 use super::document::Document;
 use super::field::Fields;
 use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::Resource;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// The most bytes that one compressed byte can stand for: a control byte that says of four channels of a block of 256
 /// elements that nothing changes.
@@ -55,14 +60,57 @@ fn unzigzag(number: u32) -> u32 {
     (number >> 1) ^ 0_u32.wrapping_sub(number & 1)
 }
 
-/// Decompresses the views that are compressed.
+/// What a view says of its compressed bytes.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Claim {
+    bytes: Stretch,
+    count: usize,
+    stride: usize,
+    mode: String,
+    filter: String,
+}
+
+impl Claim {
+    /// The claim, if the bytes can stand for so much.
+    fn read(bytes: &[u8], own: Fields<'_, '_>) -> Result<Self, Fault> {
+        let (Some(count), Some(stride)) = (own.index("count"), own.index("byteStride")) else {
+            return Err("it has no `count` or no `byteStride`");
+        };
+        let size = count.checked_mul(stride).ok_or("it claims too much")?;
+        if size / MAX_RATIO > bytes.len() {
+            return Err("it claims more than so few bytes can stand for");
+        }
+        let text = |key| own.text(key).unwrap_or_default();
+        Ok(Self { bytes: stretch(bytes), count, stride, mode: text("mode"), filter: text("filter") })
+    }
+
+    /// Bytes that it takes to decode it: indices are decoded to four bytes each.
+    fn memory(&self) -> u64 {
+        let indices = if self.mode == "ATTRIBUTES" { 0 } else { 4 };
+        self.count as u64 * (self.stride as u64 + indices)
+    }
+}
+
+/// Decompresses the views that are compressed, those of the same bytes and claims once.
 pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    let mut made: BTreeMap<Claim, Result<Bytes<'static>, Fault>> = BTreeMap::new();
     for index in 0..doc.views.len() {
         let fields = Fields::new(report.json, doc.views[index].at);
         let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
         let Some(own) = names.iter().find_map(|name| fields.extension(name)) else { continue };
         let Some(bytes) = source(doc, own) else { continue };
-        match decode(bytes, own) {
+        let decoded = Claim::read(bytes, own).and_then(|claim| {
+            if let Some(known) = made.get(&claim) {
+                return known.clone();
+            }
+            if !report.charge(Resource::Memory, claim.memory(), own.at, "the compressed view") {
+                return Err("it asks for too much");
+            }
+            let decoded = decode(bytes, &claim).map(|decoded| Rc::new(Cow::Owned(decoded)));
+            made.insert(claim, decoded.clone());
+            decoded
+        });
+        match decoded {
             Ok(decoded) => doc.views[index].decoded = Some(decoded),
             Err(fault) => say(own.at, fault, report),
         }
@@ -80,23 +128,16 @@ fn source<'d>(doc: &'d Document<'_>, own: Fields<'_, '_>) -> Option<&'d [u8]> {
     buffer.bytes.as_ref()?.get(offset..offset.checked_add(own.index("byteLength")?)?)
 }
 
-fn decode(bytes: &[u8], own: Fields<'_, '_>) -> Result<Vec<u8>, Fault> {
-    let (Some(count), Some(stride)) = (own.index("count"), own.index("byteStride")) else {
-        return Err("it has no `count` or no `byteStride`");
-    };
-    let size = count.checked_mul(stride).ok_or("it claims too much")?;
-    if size / MAX_RATIO > bytes.len() {
-        return Err("it claims more than so few bytes can stand for");
-    }
-    let mode = own.text("mode").unwrap_or_default();
+fn decode(bytes: &[u8], claim: &Claim) -> Result<Vec<u8>, Fault> {
+    let Claim { bytes: _, count, stride, mode, filter } = claim;
     match mode.as_str() {
         "ATTRIBUTES" => {
-            let mut decoded = vertex::decode(bytes, count, stride)?;
-            filter::apply(&own.text("filter").unwrap_or_default(), stride, &mut decoded)?;
+            let mut decoded = vertex::decode(bytes, *count, *stride)?;
+            filter::apply(filter, *stride, &mut decoded)?;
             Ok(decoded)
         }
-        "TRIANGLES" => narrow(&index::triangles(bytes, count)?, stride),
-        "INDICES" => narrow(&index::sequence(bytes, count)?, stride),
+        "TRIANGLES" => narrow(&index::triangles(bytes, *count)?, *stride),
+        "INDICES" => narrow(&index::sequence(bytes, *count)?, *stride),
         _ => Err("its mode is unknown"),
     }
 }

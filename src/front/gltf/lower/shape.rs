@@ -1,0 +1,131 @@
+//! The shapes that nodes give to meshes: weights of morph targets and joints of a skin, each different one held once.
+
+use super::super::document::Document;
+use super::super::elements::Elements;
+use super::super::report::Report;
+use super::super::skin::Skin;
+use super::pose::Pose;
+use crate::source::Resource;
+use glam::{DAffine3, DMat4};
+use std::collections::BTreeMap;
+
+/// Bytes that a joint takes: its matrix, and the bits that tell it from others.
+const JOINT: u64 = 192;
+
+/// Names a shape; what is equal has one name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct ShapeId {
+    weights: usize,
+    joints: Option<usize>,
+}
+
+/// What moves the vertices of a mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Shape<'s> {
+    /// The weight of each morph target; those that are left out are zero.
+    pub(super) weights: &'s [f64],
+    /// From the mesh to the world, for each joint.
+    pub(super) joints: Option<&'s [DAffine3]>,
+}
+
+/// The shapes met so far.
+#[derive(Default)]
+pub(super) struct Shapes {
+    weights: Different<f64>,
+    joints: Different<DAffine3>,
+    /// The weights of nodes that have none of their own, by the mesh.
+    of_mesh: BTreeMap<usize, usize>,
+    of_skin: BTreeMap<usize, usize>,
+}
+
+/// Lists by the bits of their numbers.
+struct Different<T> {
+    known: BTreeMap<Vec<u64>, usize>,
+    lists: Vec<Vec<T>>,
+}
+
+impl<T> Default for Different<T> {
+    fn default() -> Self {
+        Self { known: BTreeMap::new(), lists: Vec::new() }
+    }
+}
+
+impl<T> Different<T> {
+    fn name<const N: usize>(&mut self, list: Vec<T>, numbers: impl Fn(&T) -> [f64; N]) -> usize {
+        // The sum turns -0 into 0, which is the same shape.
+        let bits = list.iter().flat_map(numbers).map(|number| (number + 0.0).to_bits()).collect();
+        let Self { known, lists } = self;
+        *known.entry(bits).or_insert_with(|| {
+            lists.push(list);
+            lists.len() - 1
+        })
+    }
+}
+
+impl Shapes {
+    /// The shape that a node gives to its mesh, with its skin if it follows one; none if that asks for too much.
+    pub(super) fn of_node(
+        &mut self,
+        doc: &Document<'_>,
+        (node, skin): (usize, Option<usize>),
+        (pose, worlds): (&Pose, &[DAffine3]),
+        report: &mut Report<'_, '_>,
+    ) -> Option<ShapeId> {
+        let joints = match skin {
+            Some(skin) => Some(self.of_skin(doc, skin, worlds, report)?),
+            None => None,
+        };
+        Some(ShapeId { weights: self.of_weights(doc, node, pose)?, joints })
+    }
+
+    fn of_weights(&mut self, doc: &Document<'_>, node: usize, pose: &Pose) -> Option<usize> {
+        let of = doc.nodes[node].mesh?;
+        let own = pose.weights(node);
+        if let Some(known) = self.of_mesh.get(&of).filter(|_| own.is_none()) {
+            return Some(*known);
+        }
+        let mesh = &doc.meshes[of];
+        let weights = own.unwrap_or(&mesh.weights);
+        let weights = &weights[..weights.len().min(mesh.targets())];
+        let last = weights.iter().rposition(|weight| *weight != 0.0);
+        let name = self.weights.name(weights[..last.map_or(0, |last| last + 1)].to_vec(), |weight| [*weight]);
+        if own.is_none() {
+            self.of_mesh.insert(of, name);
+        }
+        Some(name)
+    }
+
+    fn of_skin(
+        &mut self,
+        doc: &Document<'_>,
+        of: usize,
+        worlds: &[DAffine3],
+        report: &mut Report<'_, '_>,
+    ) -> Option<usize> {
+        if let Some(known) = self.of_skin.get(&of) {
+            return Some(*known);
+        }
+        let skin = &doc.skins[of];
+        if !report.charge(Resource::Memory, JOINT * skin.joints.len() as u64, skin.at, "the skin") {
+            return None;
+        }
+        let name = self.joints.name(joints(doc, skin, worlds), DAffine3::to_cols_array);
+        self.of_skin.insert(of, name);
+        Some(name)
+    }
+
+    /// The shape of a name.
+    pub(super) fn get(&self, id: ShapeId) -> Shape<'_> {
+        let joints = id.joints.map(|joints| self.joints.lists[joints].as_slice());
+        Shape { weights: &self.weights.lists[id.weights], joints }
+    }
+}
+
+/// From the mesh to the world for each joint: its inverse bind matrix, then its place.
+fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Vec<DAffine3> {
+    let matrices = skin.matrices.and_then(|matrices| Elements::of(doc, doc.accessors.get(matrices)?));
+    let known = |at: usize| matrices.as_ref().filter(|matrices| at < matrices.count);
+    let bind = |at: usize| known(at).map_or(DMat4::IDENTITY, |matrices| DMat4::from_cols_array(&matrices.at(at)));
+    let world = |joint: usize| worlds.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
+    skin.joints.iter().enumerate().map(|(at, joint)| world(*joint) * DAffine3::from_mat4(bind(at))).collect()
+}

@@ -1,0 +1,147 @@
+//! The laws of a scene, whatever is in it: rules, threads and forms of the IR change no bit, nothing that was left out would
+//! show, and every value is finite. 64 made-up scenes each time, others where `RTC_SCENES` names them, as 0..2000.
+
+use super::dice::Dice;
+use super::{bits, film, proven};
+use rtc::codec::{self, Form};
+use rtc::diag::Sink;
+use rtc::ir::{Lowered, Material, Origins, Phong, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rule, Rules};
+use rtc::render::{Job, Values};
+use rtc::source::SourceMap;
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::ops::Range;
+
+fn is_sound(scene: &Scene) -> bool {
+    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).is_some()
+}
+
+fn decoded(form: Form, scene: &Scene) -> Scene {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("scene", codec::encode(form, scene).unwrap());
+    codec::decode(form, file, &map, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+/// The first law that a sound scene breaks.
+fn broken(scene: &Scene) -> Option<String> {
+    let valid = proven(scene);
+    let unpruned = film(&valid, Rules::NONE, Values::Linear);
+    if let Some(index) = unpruned.image.pixels.iter().position(|pixel| !pixel.iter().all(|value| value.is_finite())) {
+        return Some(format!("pixel {index} is {:?}", unpruned.image.pixels[index]));
+    }
+    let wanted = bits(&unpruned);
+    let pruned = film(&valid, Rules::ALL, Values::Linear);
+    let differing = bits(&pruned).iter().zip(&wanted).filter(|(a, b)| a != b).count();
+    if differing > 0 {
+        let changes = |rule: &Rule| bits(&film(&valid, Rules::NONE.with(*rule), Values::Linear)) != wanted;
+        let culprits: Vec<_> = Rule::ALL.into_iter().filter(changes).map(Rule::name).collect();
+        return Some(format!("the rules change {differing} values; by itself does each of {culprits:?}"));
+    }
+    let (plan, job) = (Plan::new(&valid, Rules::ALL), Job { values: Values::Linear, ..Job::default() });
+    if let Err(fault) = pipeline::verify(&valid, &plan, &job, 1, &|_| true).unwrap().unwrap() {
+        return Some(format!("{fault:?}"));
+    }
+    let alone = pipeline::render(&valid, &plan, &job, 1, &|_| true).unwrap().unwrap();
+    if bits(&alone) != wanted || alone.counts != pruned.counts {
+        return Some("one thread makes another picture than two".to_owned());
+    }
+    let other = [Form::Text, Form::Binary].into_iter().find(|form| {
+        let other = decoded(*form, scene);
+        other != *scene || bits(&film(&proven(&other), Rules::ALL, Values::Linear)) != wanted
+    });
+    other.map(|form| format!("the IR as {form:?} is another scene"))
+}
+
+/// A scene that breaks a law with as little in it as the cuts here leave.
+fn smallest(mut scene: Scene) -> Scene {
+    let breaks = |scene: &Scene| is_sound(scene) && broken(scene).is_some();
+    for index in (0..scene.surfaces.len()).rev() {
+        let mut less = scene.clone();
+        less.surfaces.remove(index);
+        scene = if breaks(&less) { less } else { scene };
+    }
+    for index in (0..scene.lights.len()).rev() {
+        let mut less = scene.clone();
+        less.lights.remove(index);
+        scene = if breaks(&less) { less } else { scene };
+    }
+    for index in 0..scene.materials.len() {
+        let mut less = scene.clone();
+        less.materials[index] = Material::Phong(Phong::MATT);
+        scene = if breaks(&less) { less } else { scene };
+    }
+    let cuts: [fn(&mut Scene); 6] = [
+        |scene| scene.settings.max_depth = 0,
+        |scene| scene.settings.supersampling = 1,
+        |scene| scene.settings.light_samples = 1,
+        |scene| scene.camera.lens.radius = 0.0,
+        |scene| scene.environment = None,
+        |scene| scene.meshes.iter_mut().for_each(|mesh| mesh.normals = Vec::<[f64; 3]>::new().into()),
+    ];
+    for cut in cuts {
+        let mut less = scene.clone();
+        cut(&mut less);
+        scene = if breaks(&less) { less } else { scene };
+    }
+    scene
+}
+
+/// The scenes to be looked at.
+fn seeds() -> Range<u64> {
+    let Ok(wanted) = std::env::var("RTC_SCENES") else { return 0..64 };
+    let ends = wanted.split_once("..").and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    let (from, to) = ends.expect("RTC_SCENES is a range, as 0..2000");
+    from..to
+}
+
+/// Of the scenes that break a law all are named, and the first is shown.
+#[test]
+fn laws_hold_for_scenes_of_all_kinds() {
+    let (mut faults, mut first, mut refused) = (String::new(), None, 0);
+    let seeds = seeds();
+    let scenes = seeds.clone().count();
+    for seed in seeds {
+        let scene = Dice::new(seed).extreme();
+        if !is_sound(&scene) {
+            refused += 1;
+        } else if let Some(fault) = broken(&scene) {
+            writeln!(faults, "scene {seed}: {fault}").unwrap();
+            first.get_or_insert(scene);
+        }
+    }
+    assert!(8 * refused <= scenes, "{refused} of {scenes} scenes are refused");
+    let shown = first.map(|scene| codec::encode(Form::Text, &smallest(scene)).unwrap()).unwrap_or_default();
+    assert!(faults.is_empty(), "{faults}{}", String::from_utf8_lossy(&shown));
+}
+
+/// What is never made is never tested.
+#[test]
+fn scenes_of_all_kinds_are_made() {
+    let mut seen = BTreeSet::new();
+    let word = |value: &dyn std::fmt::Debug| format!("{value:?}").split([' ', '(']).next().unwrap().to_owned();
+    for scene in (0..64).map(|seed| Dice::new(seed).extreme()).filter(is_sound) {
+        seen.insert(word(&scene.settings.mode));
+        seen.insert(word(&scene.camera.projection));
+        seen.extend(scene.surfaces.iter().map(|surface| word(&surface.shape)));
+        seen.extend(scene.lights.iter().map(|light| match light {
+            rtc::ir::Light::Point(_) => "soft or hard".to_owned(),
+            rtc::ir::Light::Punctual(light) => word(&light.emitter),
+        }));
+        seen.extend(scene.materials.iter().map(|material| word(&material)));
+        seen.extend(
+            scene.environment.map(|environment| if environment.image.is_some() { "image" } else { "color" }.to_owned()),
+        );
+        let size = scene.camera.right.iter().fold(0.0, |size: f64, step| size.max(step.abs()));
+        seen.extend(
+            [("tiny", size < 1e-30), ("huge", size > 1e30)].iter().filter(|kind| kind.1).map(|kind| kind.0.to_owned()),
+        );
+    }
+    let modes = ["Phong", "Zbuffer", "Normal", "Gooch", "Path", "Perspective", "Orthographic"];
+    let shapes = ["Sphere", "Plane", "Triangle", "Quad", "Disc", "Cylinder", "Cone", "Torus", "Instance"];
+    let others = ["soft or hard", "Sun", "Point", "Spot", "Standard", "image", "color", "tiny", "huge"];
+    let missing: Vec<_> = modes.iter().chain(&shapes).chain(&others).filter(|kind| !seen.contains(**kind)).collect();
+    assert!(missing.is_empty(), "{missing:?} of {seen:?}");
+}
