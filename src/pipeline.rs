@@ -2,7 +2,7 @@
 
 pub mod trial;
 
-use crate::diag::{Diagnostic, Sink, codes};
+use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::{Asset, assets, course, gltf};
 use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
@@ -56,7 +56,7 @@ fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
     let parts = [("animation", animation), ("variant", variant)].into_iter().filter(|_| !has_assets);
     for (noun, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };
-        let fault = Diagnostic::new(&codes::GLTF_CHOSEN, format!("the scene has no {noun} called `{name}`"));
+        let fault = Diagnostic::new(&codes::GLTF_CHOSEN, format!("the scene has no {noun} called `{}`", clip(name)));
         sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }

@@ -37,7 +37,7 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
     let write = writer(emit, &proven.lowered.scene)
         .map_err(|reason| Failure::Input(format!("`{}` can't be written so: {reason}", input.name())))?;
     let interrupt = Interrupt::listen()?;
-    Output::open(target, &interrupt)?.commit_by(&write, &interrupt)
+    Output::open(target, &input)?.commit_by(&write, &interrupt)
 }
 
 /// Where the IR goes, if anywhere: an explanation takes its place on standard output.

@@ -24,8 +24,8 @@ pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
 fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
     let proven = input::require(input, talk, |_| ())?;
     let interrupt = Interrupt::listen()?;
-    let output = Output::open(&args.output, &interrupt)?;
-    let page = args.html.as_deref().map(|path| Output::open(path, &interrupt)).transpose()?;
+    let output = Output::open(&args.output, input)?;
+    let page = args.html.as_deref().map(|path| Output::open(path, input)).transpose()?;
     let about = about(input.name(), &proven.lowered.scene);
     let study = measure(args, about, &proven.lowered.scene, &interrupt)?;
     let report = match args.format {

@@ -2,7 +2,7 @@
 
 use super::args::Explain;
 use super::{Failure, output};
-use crate::diag::{Code, Severity, codes};
+use crate::diag::{Code, Severity, clip, codes};
 use crate::plan::Rule;
 
 /// Columns of the text.
@@ -22,7 +22,7 @@ pub(super) fn run(args: &Explain) -> Result<(), Failure> {
 }
 
 fn unknown(id: &str) -> Failure {
-    Failure::Trouble(format!("there is no code `{}`; `rtc explain --all` lists them", id.escape_debug()))
+    Failure::Trouble(format!("there is no code `{}`; `rtc explain --all` lists them", clip(id)))
 }
 
 /// What stands before the codes.

@@ -99,7 +99,7 @@ impl Input {
     /// The surroundings in a file; what is wrong in it is a finding.
     fn environment(&mut self, path: &Path) -> Result<Option<Surroundings>, Failure> {
         let name = path.display().to_string();
-        let bytes = Loader.bytes(path, MAX_ENVIRONMENT);
+        let bytes = Loader.bytes(path, MAX_ENVIRONMENT, &self.map);
         let bytes = bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
         // Where the file lies is no part of the scene.
         let file = path.file_name().unwrap_or_default().to_string_lossy();
@@ -138,6 +138,11 @@ impl Input {
     /// The file and the line at which a span begins.
     pub(super) fn line(&self, span: Span) -> (&str, u32) {
         (self.map.name(span.file), self.map.line_column(span.file, span.start).line)
+    }
+
+    /// Whether the file at a path was read: the scene, or what it names.
+    pub(super) fn has_read(&self, path: &Path) -> bool {
+        self.map.has_read(path)
     }
 
     /// The name of the scene in messages.

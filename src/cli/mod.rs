@@ -20,10 +20,14 @@ mod tell;
 pub mod trial;
 mod turntable;
 
+use crate::diag::clip_words;
 use args::{Cli, Command};
 use clap::Parser;
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe, PanicHookInfo};
+
+/// A line of the help is shorter than this; one that repeats what was typed may not be.
+const LONG_LINE: usize = 500;
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -70,7 +74,13 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             // Help and version come this way too. That nobody reads them is no failure.
-            let _ = error.print();
+            let text = error.render().to_string();
+            if text.lines().any(|line| line.len() > LONG_LINE) {
+                let lines: Vec<_> = text.lines().map(clip_words).collect();
+                talk::say(&lines.join("\n"));
+            } else {
+                let _ = error.print();
+            }
             return u8::try_from(error.exit_code()).unwrap_or(2);
         }
     };

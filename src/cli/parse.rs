@@ -5,6 +5,7 @@ use crate::ir::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
 use crate::source::Resource;
+use crate::valid;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -47,8 +48,10 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 }
 
 pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
-    let vector = numbers(text).and_then(|numbers| numbers.try_into().ok());
-    vector.ok_or_else(|| "expected three numbers, as 1,-0.5,2".to_owned())
+    let vector: Option<[f64; 3]> = numbers(text).and_then(|numbers| numbers.try_into().ok());
+    let vector = vector.ok_or_else(|| "expected three numbers, as 1,-0.5,2".to_owned())?;
+    let is_large = vector.iter().any(|component| component.abs() > valid::LARGEST);
+    if is_large { Err(format!("numbers of a scene are at most {:e} in size", valid::LARGEST)) } else { Ok(vector) }
 }
 
 /// One number or three, none below 0.
@@ -146,6 +149,7 @@ mod tests {
         assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
         assert!(["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"].into_iter().all(|text| backdrop(text).is_err()));
         assert_eq!((vector("1,-2, 3"), color("0.5")), (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3])));
+        assert_eq!(vector("0,1e300,0"), Err("numbers of a scene are at most 1e60 in size".to_owned()));
         assert!(["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""].into_iter().all(|text| vector(text).is_err()));
         assert!(["-1", "1,2", "1,2,nan"].into_iter().all(|text| color(text).is_err()));
         assert_eq!(sun("0,-1,0,2"), Ok(Sun { direction: [0.0, -1.0, 0.0], irradiance: [2.0; 3] }));

@@ -115,6 +115,7 @@ impl Plan {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
         };
         let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
+        (0..count).try_for_each(|frame| Output::open(&turntable::name(&self.output, frame), input).map(drop))?;
         for frame in 0..count {
             table.turn(&mut subject.proven, frame)?;
             if let Some(renderer) = &mut subject.renderer {
@@ -135,7 +136,7 @@ impl Plan {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let window = self.window(&subject.proven.lowered.scene)?;
-        let output = Output::open(path, interrupt)?;
+        let output = Output::open(path, input)?;
         let quiet = talk.is_quiet();
         let shot = match self.goal {
             Goal { error: None, time: None } => self.trace(subject, window, interrupt, quiet)?,

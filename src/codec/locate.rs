@@ -41,6 +41,36 @@ pub(super) fn culprit(text: &str, read: usize) -> Culprit {
     Culprit { start, end, pointer: scan.pointer() }
 }
 
+/// A member of the document, or an item of a list that is one.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Part {
+    pub(super) key: String,
+    /// Which item of the list.
+    pub(super) index: Option<usize>,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+/// The members of the document, and the items of those that are lists, in the order of their ends.
+pub(super) fn parts(text: &str) -> Vec<Part> {
+    let mut scan = Scan { text: text.as_bytes(), frames: Vec::new(), last: None, key_next: false };
+    let (mut at, mut parts) = (0, Vec::new());
+    while at < text.len() {
+        let before = scan.last;
+        at = scan.token(at);
+        let Some((start, end)) = scan.last.filter(|_| scan.last != before && !scan.key_next) else { continue };
+        let steps: Vec<_> = scan.frames.iter().take(3).map(|frame| &frame.step).collect();
+        match steps.as_slice() {
+            [Step::Key(key)] => parts.push(Part { key: key.clone(), index: None, start, end }),
+            [Step::Key(key), Step::Index(index)] => {
+                parts.push(Part { key: key.clone(), index: Some(*index), start, end });
+            }
+            _ => {}
+        }
+    }
+    parts
+}
+
 /// The first character from `at` on that is not white space; empty at the end.
 fn next_token(text: &str, at: usize) -> (usize, usize) {
     let rest = text.get(at..).unwrap_or("");
@@ -65,7 +95,9 @@ impl Scan<'_> {
             byte if byte.is_ascii_whitespace() => return at + 1,
             b'{' => self.open(at, Step::Key(String::new())),
             b'[' => self.open(at, Step::Index(0)),
-            b'}' | b']' => self.last = self.frames.pop().map(|frame| (frame.start, at + 1)),
+            b'}' | b']' => {
+                (self.last, self.key_next) = (self.frames.pop().map(|frame| (frame.start, at + 1)), false);
+            }
             b',' => self.comma(),
             b':' => (self.last, self.key_next) = (None, false),
             b'"' => return self.string(at),
@@ -121,6 +153,15 @@ impl Scan<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_are_members_and_items_of_lists() {
+        let text = r#"{"a": [1, {"b": "x"}], "c": {}}"#;
+        let found: Vec<_> =
+            parts(text).iter().map(|part| (part.index, text.get(part.start..part.end).unwrap())).collect();
+        let list = (None, r#"[1, {"b": "x"}]"#);
+        assert_eq!(found, [(Some(0), "1"), (Some(1), r#"{"b": "x"}"#), list, (None, "{}")]);
+    }
 
     #[test]
     fn finds_values_keys_and_containers() {

@@ -18,7 +18,7 @@ mod upgrade;
 
 pub use schema::schema;
 
-use crate::diag::{Diagnostic, Sink, codes};
+use crate::diag::{Diagnostic, Sink, clip_words, codes};
 use crate::ir::{Scene, VERSION};
 use crate::source::{FileId, SourceMap, Span};
 use serde::Serialize;
@@ -50,9 +50,9 @@ pub fn recognise(bytes: &[u8]) -> Option<Form> {
 pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
     let scene = match form {
         Form::Text => text::decode(file, map.bytes(file)),
-        Form::Binary => binary::decode(file, map.bytes(file)),
+        Form::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
     };
-    scene.map_err(|fault| sink.push(*fault)).ok()
+    scene.map_err(|faults| faults.into_iter().for_each(|fault| sink.push(fault))).ok()
 }
 
 /// A scene that can't be stored: it holds a number that is not finite.
@@ -157,6 +157,6 @@ fn typed(version: u32, tree: Value, place: Span) -> Decoded<Scene> {
 }
 
 fn wrong_shape(what: &str, place: Span) -> Box<Diagnostic> {
-    let message = format!("this is not the shape of a scene: {what}");
+    let message = format!("this is not the shape of a scene: {}", clip_words(what));
     Box::new(Diagnostic::new(&codes::WRONG_SHAPE, message).at(place, "found here"))
 }

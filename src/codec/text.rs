@@ -6,7 +6,9 @@ use super::{Decoded, locate, newer, span, typed, wrong_shape};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{Camera, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION};
 use crate::source::FileId;
+use locate::Part;
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::Value;
 use serde_json::error::Category;
 
@@ -58,10 +60,18 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// Decodes the text.
-pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
-    let text = std::str::from_utf8(bytes).map_err(|error| not_utf8(file, error.valid_up_to()))?;
+///
+/// # Errors
+/// All faults that can be told apart, at least one.
+pub(super) fn decode(file: FileId, bytes: &[u8]) -> Result<Scene, Vec<Diagnostic>> {
+    let text = std::str::from_utf8(bytes).map_err(|error| vec![*not_utf8(file, error.valid_up_to())])?;
     let (base, text) = text.strip_prefix(BOM).map_or((0, text), |rest| (BOM.len(), rest));
     let source = Source { file, base, text };
+    scene(&source, bytes.len()).map_err(|first| source.faults(*first))
+}
+
+fn scene(source: &Source<'_>, end: usize) -> Decoded<Scene> {
+    let Source { file, base, .. } = *source;
     let Head { ir_version } = source.parse()?;
     if ir_version > VERSION {
         let (start, end) = source.version_place();
@@ -72,7 +82,7 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     } else {
         let mut tree: Value = source.parse()?;
         tree.as_object_mut().map(|members| members.shift_remove("irVersion"));
-        typed(ir_version, tree, span(file, base, bytes.len()))
+        typed(ir_version, tree, span(file, base, end))
     }
 }
 
@@ -109,6 +119,49 @@ impl<'a> Source<'a> {
                 not_json("the text is not JSON", what, place(start, self.text.ceil_char_boundary(read)))
             }
         }
+    }
+
+    /// The first fault, and those of the other parts of the document, each decoded by itself.
+    fn faults(&self, first: Diagnostic) -> Vec<Diagnostic> {
+        let is_located = |fault: &Diagnostic| fault.code == &codes::WRONG_SHAPE && fault.pointer.is_some();
+        if !is_located(&first) {
+            return vec![first];
+        }
+        let parts = locate::parts(self.text);
+        let mut faults: Vec<_> = parts.iter().filter_map(|part| self.fault_of(part)).collect();
+        let place = |fault: &Diagnostic| fault.primary.as_ref().map(|label| (label.span.start, label.span.end));
+        if !faults.iter().any(|fault| place(fault) == place(&first)) {
+            faults.push(first);
+        }
+        faults.sort_by_key(place);
+        faults
+    }
+
+    fn fault_of(&self, part: &Part) -> Option<Diagnostic> {
+        let Part { key, index, start, end } = part;
+        let text = self.text.get(*start..*end)?;
+        let own = Source { file: self.file, base: self.base + start, text };
+        let found = match (key.as_str(), index) {
+            ("camera", None) => own.parse::<Camera>().err(),
+            ("settings", None) => own.parse::<Settings>().err(),
+            ("environment", None) => own.parse::<Option<Environment>>().err(),
+            ("lights", Some(_)) => own.parse::<Light>().err(),
+            ("images", Some(_)) => own.parse::<Image>().err(),
+            ("textures", Some(_)) => own.parse::<Texture>().err(),
+            ("meshes", Some(_)) => own.parse::<Mesh>().err(),
+            ("materials", Some(_)) => own.parse::<Material>().err(),
+            ("surfaces", Some(_)) => own.parse::<Surface>().err(),
+            ("names", Some(_)) => own.parse::<String>().err(),
+            ("lights" | "images" | "textures" | "meshes" | "materials" | "surfaces" | "names", None) => {
+                own.parse::<Vec<IgnoredAny>>().err()
+            }
+            _ => None,
+        };
+        let place = index.map_or_else(|| format!("/{key}"), |index| format!("/{key}/{index}"));
+        found.map(|fault| {
+            let within = fault.pointer.clone().unwrap_or_default();
+            fault.pointer(place + &within)
+        })
     }
 
     /// The bytes of the value of `irVersion`, where it is the first key; else where the text starts.

@@ -3,10 +3,12 @@
 //! A diagnostic is made where the fault is seen and pushed into the sink; a user's mistake is never an `Err`.
 //! Messages are lower case without a full stop and say what is wrong; hints say what to do; labels say what is here.
 
+mod clip;
 pub mod codes;
 mod print;
 mod sink;
 
+pub use clip::{clip, clip_path, clip_words};
 pub use codes::{Code, Severity};
 pub use print::{Format, Options, Printer};
 pub use sink::Sink;

@@ -1,5 +1,6 @@
 //! The settings: what a pixel shows and how much work goes into it.
 
+use crate::diag::{clip, clip_words};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,7 +37,9 @@ impl Settings {
     /// # Errors
     /// If there is no field of this name, or the value is none for it; in words.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
-        let wrong = |fault: serde_json::Error| format!("`{name}` can't be `{value}`: {fault}");
+        let wrong = |fault: serde_json::Error| {
+            format!("`{name}` can't be `{}`: {}", clip(value), clip_words(&fault.to_string()))
+        };
         let mut text = serde_json::to_value(&*self).map_err(wrong)?;
         let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
         let parameters = text["mode"].as_object().and_then(|mode| mode.values().next()?.as_object());
@@ -48,7 +51,7 @@ impl Settings {
             mode.into_iter().for_each(|fields| fields[name] = value.clone());
         } else {
             let names = Self::NAMES.map(str::to_owned).into_iter().chain(parameters).collect::<Vec<_>>().join(", ");
-            return Err(format!("there is no setting `{name}`; there are {names}"));
+            return Err(format!("there is no setting `{}`; there are {names}", clip(name)));
         }
         *self = serde_json::from_value(text).map_err(wrong)?;
         Ok(())

@@ -43,7 +43,8 @@ impl Loader {
     /// # Errors
     /// What the system says, or that the file is too large.
     pub fn file(&self, path: &Path, map: &mut SourceMap) -> Result<FileId, LoadError> {
-        Ok(map.add_from(path, self.bytes(path, MAX_BYTES)?))
+        let bytes = self.bytes(path, MAX_BYTES, map)?;
+        Ok(map.add_from(path, bytes))
     }
 
     /// Reads all of `reader`, for instance standard input, under the name given.
@@ -54,20 +55,22 @@ impl Loader {
         Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
     }
 
-    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found.
+    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found. The map only notes it.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
-    pub fn found(&self, found: &Found, limit: u64) -> Result<Vec<u8>, LoadError> {
+    pub fn found(&self, found: &Found, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
+        map.note(&found.path);
         found.opened().bytes(limit)
     }
 
-    /// Reads the file at `path`, which the user names, of at most `limit` bytes.
+    /// Reads the file at `path`, which the user names, of at most `limit` bytes. The map only notes it.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
     #[expect(clippy::disallowed_methods, reason = "this is the one place that reads")]
-    pub fn bytes(&self, path: &Path, limit: u64) -> Result<Vec<u8>, LoadError> {
+    pub fn bytes(&self, path: &Path, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
+        map.note(path);
         whole(&File::open(path).map_err(LoadError::Io)?, limit)
     }
 }
@@ -154,7 +157,11 @@ fn without_waiting() -> OpenOptions {
     let mut options = OpenOptions::new();
     options.read(true);
     #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
+    {
+        use rustix::fs::OFlags;
+        let flags = (OFlags::NONBLOCK | OFlags::NOCTTY).bits().cast_signed();
+        std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, flags);
+    }
     options
 }
 

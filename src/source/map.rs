@@ -1,8 +1,10 @@
 //! The source map: owns the bytes of every file read and turns offsets into lines and columns.
 
 use super::{Budget, Folder, Found, Limits};
-use std::path::Path;
-use std::sync::OnceLock;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Names one file of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -56,19 +58,34 @@ struct SourceFile {
 pub struct SourceMap {
     files: Vec<SourceFile>,
     budget: Budget,
+    /// All files read, free of links, those that are not in the map too.
+    read: Mutex<BTreeSet<PathBuf>>,
 }
 
 impl SourceMap {
     /// An empty map of a run with these limits.
     #[must_use]
     pub fn with_limits(limits: Limits) -> Self {
-        Self { files: Vec::new(), budget: Budget::new(limits) }
+        Self { budget: Budget::new(limits), ..Self::default() }
     }
 
     /// What the run may still take of the machine. The bytes of the files of the map count as read.
     #[must_use]
     pub fn budget(&self) -> &Budget {
         &self.budget
+    }
+
+    /// Notes that a file is read.
+    pub(super) fn note(&self, path: &Path) {
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+    }
+
+    /// Whether the file at a path was read, by whatever name.
+    #[must_use]
+    pub fn has_read(&self, path: &Path) -> bool {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        fs::canonicalize(path).is_ok_and(|path| read.contains(&path))
     }
 
     /// Adds a file and returns its handle.

@@ -269,7 +269,7 @@ impl Search {
                 let is_lent = self.is_allowed(opened.path()) || kind.is_lent(&opened, &folder.resolved);
                 if is_lent { At::File(opened) } else { At::Withheld }
             }
-            at => at,
+            at @ (At::File(_) | At::Withheld | At::Nothing) => at,
         }
     }
 

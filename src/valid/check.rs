@@ -7,7 +7,7 @@ use crate::math::{NonNegative, Positive, Vec3, unit_scale};
 use std::num::NonZeroU32;
 
 /// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay finite.
-pub(super) const LARGEST: f64 = 1e60;
+pub const LARGEST: f64 = 1e60;
 
 /// The smallest length other than 0: its fourth power is still a normal number.
 pub(super) const SMALLEST: f64 = 1e-60;
@@ -87,7 +87,7 @@ impl<'run> Check<'run> {
             return Some(value);
         }
         let what = if value.is_finite() { "is too large to compute with" } else { "is not a finite number" };
-        let finding = Diagnostic::new(&codes::NOT_FINITE, format!("`{value}` {what}"));
+        let finding = Diagnostic::new(&codes::NOT_FINITE, format!("`{value:e}` {what}"));
         self.report(place, "", finding.hint("numbers of a scene are finite and at most 1e60 in size"));
         None
     }

@@ -16,6 +16,7 @@ mod surrounding;
 
 pub use crate::ir::{Alpha, Column, Filter, Map, Pixels, Projection, Sampled, Shared, Standard, Wrap};
 pub use camera::{Camera, Lens};
+pub use check::LARGEST;
 pub use image::{Image, Texel, Texture};
 pub use light::{Emitter, Falloff, Light, Punctual};
 pub use material::{Bump, Maps, Phong};

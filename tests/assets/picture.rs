@@ -54,6 +54,7 @@ fn pictures_that_cannot_be_are_refused() {
         (Vec::new(), "RE004", "is not a picture"),
         (b"GIF89a\x01\x00\x01\x00".to_vec(), "RE004", "is a gif file"),
         (with_size(&good, 70_000, 70_000), "RE005", "has 70000 × 70000 pixels"),
+        (with_size(&good, 0x7fff_ffff, 0x7fff_ffff), "RE005", "has 2147483647 × 2147483647 pixels"),
         (with_size(&good, u32::MAX >> 1, u32::MAX >> 1), "RE00", ""),
         (with_size(&good, 0, 5), "RE004", "is damaged: "),
     ];

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 /// How the input is read.
 #[derive(Debug, Args)]
+#[command(next_help_heading = None::<&str>)]
 pub(in crate::cli) struct Reading {
     /// What to call standard input in messages
     #[arg(long, value_name = "NAME")]
@@ -52,6 +53,7 @@ impl Reading {
 
 /// How findings are told.
 #[derive(Debug, Args)]
+#[command(next_help_heading = None::<&str>)]
 pub(in crate::cli) struct Talk {
     /// The form of diagnostics
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]

@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind { extensions: &["hdr", "pic", "exr"], begins:
 /// Brings the image of the environment; without its file there is none.
 pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
     let found = porter.find(wish, Without::Environment);
-    let image = found.and_then(|found| match porter.loader.found(&found, MAX_BYTES) {
+    let image = found.and_then(|found| match porter.loader.found(&found, MAX_BYTES, porter.map) {
         Ok(bytes) => {
             let image = environment(&wish.path, &bytes, porter.map.budget());
             let refuse = |fault| {

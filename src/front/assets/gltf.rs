@@ -46,7 +46,7 @@ impl Assets {
         }
         let Some(found) = porter.find(wish, Without::Object) else { return };
         let asset = self.known.of(&found, || {
-            let bytes = porter.loader.found(&found, MAX_BYTES);
+            let bytes = porter.loader.found(&found, MAX_BYTES, porter.map);
             let bytes =
                 bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
             let file = add_asset(&found, bytes.ok()?, wish, porter)?;

@@ -1,7 +1,7 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
 use super::{Known, Porter, Wanted, Without, over_limit};
-use crate::diag::{Diagnostic, Sink, codes};
+use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity, Pixels, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
@@ -55,7 +55,7 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
-    match porter.loader.found(found, MAX_BYTES) {
+    match porter.loader.found(found, MAX_BYTES, porter.map) {
         Ok(bytes) => {
             porter.map.budget().read(bytes.len());
             let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
@@ -105,7 +105,7 @@ pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
         if *known[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
             phong.normal_map = Some(texture);
             phong.bump = None;
-            let message = format!("`{}` holds normals, so it is used as a normal map", images[image].name);
+            let message = format!("`{}` holds normals, so it is used as a normal map", clip_path(&images[image].name));
             let span = lowered.origins.span(Place::new(Noun::Material, index, Field::Bump));
             sink.push(
                 Diagnostic::new(&codes::NORMALS_AS_BUMP, message)

@@ -121,7 +121,7 @@ fn count_of(count: usize) -> String {
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
-    match porter.loader.found(found, MAX_BYTES) {
+    match porter.loader.found(found, MAX_BYTES, porter.map) {
         Ok(bytes) if is_mesh(&bytes) => Some(porter.map.add_found(found, bytes)),
         // A finding within would quote a file that is none of the scene's business.
         Ok(bytes) => {

@@ -14,7 +14,7 @@ mod scan;
 pub use environment::{environment, refusal};
 
 use super::{Asset, Options, Wanted};
-use crate::diag::{Diagnostic, Severity, Sink, codes};
+use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::ir::Lowered;
 use crate::source::{Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
@@ -132,7 +132,7 @@ impl Porter<'_> {
 
     fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
         if elsewhere {
-            let message = format!("`{}` is taken from `{}`", as_written(&wish.path), found.shown.display());
+            let message = format!("`{}` is taken from `{}`", clip_path(&wish.path), found.shown.display());
             self.sink.push(Diagnostic::new(&codes::FILE_ELSEWHERE, message).at(wish.span, "found under another name"));
         }
     }
@@ -163,12 +163,6 @@ fn kind_of(asset: &Asset) -> &'static Kind {
     }
 }
 
-/// The path as the scene writes it, but for control characters.
-fn as_written(path: &str) -> String {
-    let visible = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    path.chars().map(visible).collect()
-}
-
 /// A file asks for more than the budget has.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
     Diagnostic::new(&codes::OVER_LIMIT, format!("{what} asks for too much: {fault}")).hint(fault.hint())
@@ -181,7 +175,7 @@ fn has_extension(path: &str) -> bool {
 }
 
 fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
-    let name = as_written(&wish.path);
+    let name = clip_path(&wish.path);
     match fault {
         Missing::NoFolder => {
             let message = format!("`{name}` can't be looked for: a scene from a stream has no folder");
@@ -205,7 +199,8 @@ fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
 /// The places a file was looked for, the most telling ones if there are many.
 fn places(looked: &[PathBuf]) -> String {
     const SHOWN: usize = 6;
-    let shown: Vec<String> = looked.iter().take(SHOWN).map(|path| format!("`{}`", path.display())).collect();
+    let shown: Vec<String> =
+        looked.iter().take(SHOWN).map(|path| format!("`{}`", clip_path(&path.to_string_lossy()))).collect();
     let more = looked.len().saturating_sub(SHOWN);
     let tail = if more > 0 { format!(" and {more} more places") } else { String::new() };
     if shown.is_empty() { "name a file".to_owned() } else { format!("looked for it at {}{tail}", shown.join(", ")) }

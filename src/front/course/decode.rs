@@ -1,8 +1,8 @@
 //! What decoding stands on: values with their spans, and the context that collects every finding.
 
 use super::schema::Definitions;
-use super::spelling::clip;
 use super::tree::{NodeId, Shape, Tree};
+use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
 use crate::source::Span;

@@ -5,8 +5,8 @@
 
 use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
-use super::spelling::clip;
 use super::tree::{NodeId, Shape};
+use crate::diag::clip;
 use crate::diag::codes;
 use serde_json::{Value as Json, json};
 

@@ -6,8 +6,9 @@
 use super::decode::{Context, Entry, Key, Spanned, Value, describe};
 use super::form;
 use super::schema::Definitions;
-use super::spelling::{clip, list, nearest};
+use super::spelling::{list, nearest};
 use super::tree::NodeId;
+use crate::diag::clip;
 use crate::diag::codes;
 use crate::source::Span;
 use serde_json::Value as Json;

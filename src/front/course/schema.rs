@@ -100,8 +100,10 @@ fn field_properties(field: &Field, definitions: &mut Definitions, properties: &m
             let is_canonical = canonical.contains(key);
             let doc = if is_canonical { doc.to_owned() } else { format!("{doc} Better written `{meant}`.") };
             property.insert("description".to_owned(), json!(doc));
-            if let Need::Default(default) = field.need {
-                property.insert("default".to_owned(), default());
+            // Editors write keys with a default when they complete an object: one key for each field.
+            match field.need {
+                Need::Default(default) if is_canonical => drop(property.insert("default".to_owned(), default())),
+                Need::Required | Need::Optional | Need::Default(_) => {}
             }
             if !is_canonical {
                 property.insert("deprecated".to_owned(), json!(true));

@@ -1,7 +1,5 @@
 //! Words as people misspell them: the nearest known word, and words cut short for messages.
 
-use std::borrow::Cow;
-
 /// Longer words are not compared: nobody misspells a key of this length.
 const LONGEST: usize = 32;
 
@@ -35,16 +33,6 @@ fn distance(a: &str, b: &str) -> usize {
         before = std::mem::replace(&mut last, row);
     }
     last[b.len()]
-}
-
-/// The word, or its beginning if it would fill the message.
-pub(super) fn clip(word: &str) -> Cow<'_, str> {
-    const SHOWN: usize = 40;
-    match word.char_indices().nth(SHOWN) {
-        Some((end, _)) => Cow::Owned(format!("{}…", word.split_at(end).0.escape_debug())),
-        None if word.contains(char::is_control) => Cow::Owned(word.escape_debug().to_string()),
-        None => Cow::Borrowed(word),
-    }
 }
 
 /// Words in backticks, with commas and `and`.

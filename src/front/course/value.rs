@@ -3,8 +3,9 @@
 use super::decode::{Context, Value};
 use super::number::{is_number, json_number, number, plain_number, whole};
 use super::schema::Definitions;
-use super::spelling::{clip, list, nearest};
+use super::spelling::{list, nearest};
 use super::tree::{NodeId, Shape};
+use crate::diag::clip;
 use crate::diag::codes;
 use serde_json::{Value as Json, json};
 
@@ -170,7 +171,7 @@ impl Value for bool {
             _ => return context.expected(node, "`true` or `false`"),
         };
         let (key, span) = (context.key, context.tree.span(node));
-        let message = || format!("`{}` must be `true` or `false`, not `{text}`", clip(key.text));
+        let message = || format!("`{}` must be `true` or `false`, not `{}`", clip(key.text), clip(text));
         context.report(&codes::WRONG_TYPE, span, message, |d| {
             d.at(span, "no truth value in YAML 1.2").replace(format!("write `{meant}`"), span, meant)
         });

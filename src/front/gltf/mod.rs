@@ -93,7 +93,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
     let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let doc = fill(doc, chunk, Resources::new(search), &mut report);
+    let doc = fill(doc, chunk, Resources::new(search, map), &mut report);
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -150,7 +150,7 @@ fn shape<'s>(tree: &'s Tree<'s>, is_glb: bool, report: &mut Report<'_, 's>) -> O
 fn fill<'s>(
     mut doc: Document<'s>,
     chunk: Option<&'s [u8]>,
-    mut resources: Resources,
+    mut resources: Resources<'_>,
     report: &mut Report<'_, 's>,
 ) -> Document<'s> {
     resources.bring_buffers(&mut doc, chunk, report);

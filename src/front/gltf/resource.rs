@@ -7,7 +7,7 @@ use super::json::NodeId;
 use super::report::{Report, shown};
 use super::uri::{self, Fault, Uri};
 use crate::diag::codes;
-use crate::source::{Identity, Loader, Missing, Search};
+use crate::source::{Identity, Loader, Missing, Search, SourceMap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -16,8 +16,9 @@ use std::rc::Rc;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Reads files, and remembers them.
-pub(super) struct Resources {
+pub(super) struct Resources<'m> {
     search: Search,
+    map: &'m SourceMap,
     files: BTreeMap<Identity, Bytes<'static>>,
     /// What was written in place.
     data: BTreeSet<Bytes<'static>>,
@@ -26,9 +27,9 @@ pub(super) struct Resources {
 /// What is behind a URI: bytes, and the media type of a data URI.
 type Found = (Bytes<'static>, Option<String>);
 
-impl Resources {
-    pub(super) fn new(search: Search) -> Self {
-        Self { search, files: BTreeMap::new(), data: BTreeSet::new() }
+impl<'m> Resources<'m> {
+    pub(super) fn new(search: Search, map: &'m SourceMap) -> Self {
+        Self { search, map, files: BTreeMap::new(), data: BTreeSet::new() }
     }
 
     /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
@@ -136,7 +137,7 @@ impl Resources {
         if let Some(bytes) = identity.as_ref().and_then(|identity| self.files.get(identity)) {
             return Some(Rc::clone(bytes));
         }
-        match Loader.found(&found, MAX_BYTES) {
+        match Loader.found(&found, MAX_BYTES, self.map) {
             Ok(bytes) => {
                 report.budget.read(bytes.len());
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));

@@ -226,7 +226,7 @@ impl<'s> Build<'s, '_> {
 }
 
 fn duplicate(tree: &Tree<'_>, first: NodeId, second: NodeId) -> Diagnostic {
-    let key = super::super::spelling::clip(tree.text(second).unwrap_or_default());
+    let key = crate::diag::clip(tree.text(second).unwrap_or_default());
     Diagnostic::new(&codes::DUPLICATE_KEY, format!("the key `{key}` stands here twice"))
         .at(tree.span(second), "again")
         .also(tree.span(first), "first")
