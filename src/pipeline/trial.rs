@@ -67,7 +67,8 @@ pub fn file(path: &Path) {
     let Ok(file) = Loader.file(path, &mut map) else { return };
     let (sink, scene) = is_proven_or_refused(file, &mut map);
     let name = map.name(file).to_owned();
-    for format in [Format::Human, Format::Short, Format::Json, Format::Sarif, Format::Github] {
+    // SARIF says what JSON says, after a long table that is always the same.
+    for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
         let options = diag::Options { color: false, width: 100, least: Severity::Note, max: 100 };
         let mut printer = Printer::new(format, options);
         let text = printer.file(&name, sink.clone(), &map) + &printer.finish();

@@ -2,9 +2,10 @@
 
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
+use super::tie::{self, Nearest, Tie};
 use super::triangle::{Shear, Triangle};
 use super::wide::Wide;
-use crate::math::{Vec3, cross};
+use crate::math::{Vec3, cross, unit};
 use crate::valid::{Column, Mesh, Shared};
 use std::sync::{Arc, OnceLock};
 
@@ -135,6 +136,46 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
+    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first triangle.
+    #[must_use]
+    pub(super) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let mut nearest = Nearest::up_to(t_max, u32::MAX);
+        self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                nearest.add(t, item);
+            }
+            nearest.t
+        });
+        match nearest.key {
+            u32::MAX => None,
+            _ if nearest.is_tied() => self.settle(ray, nearest.t),
+            part => Some((nearest.t, part)),
+        }
+    }
+
+    /// The first of the roots as near as one at `t`.
+    #[cold]
+    fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
+        let mut tie = Tie::new();
+        self.visit_roots(ray, t, &mut |t, part| tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part));
+        tie.first()
+    }
+
+    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little farther.
+    pub(super) fn visit_roots(&self, ray: &Ray, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let Some(hierarchy) = self.mesh.hierarchy() else { return };
+        hierarchy.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                visit(t, item);
+            }
+            t_max
+        });
+    }
+
     /// The root above 0 of triangle `part`.
     #[inline]
     pub(super) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
@@ -186,7 +227,7 @@ impl Instance {
             true => [1.0, 0.0, 0.0],
             false => triangle.weights(self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin),
         };
-        let unit = |normal| Vec3::from_array(normal).normalize_or_zero();
+        let unit = |normal| unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO);
         let normal = normals.map(|[a, b, c]| {
             let even = unit(a);
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];

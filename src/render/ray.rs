@@ -18,18 +18,25 @@ pub struct Ray {
 impl Ray {
     /// The ray with a direction whose square can be computed, and what one `t` of it is worth in `t` of `self`.
     ///
-    /// Lengths within 1e±100 stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
+    /// Unit vectors stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
     #[must_use]
     #[inline]
     pub fn tamed(self) -> (Self, f64) {
         let size = self.direction.abs().max_element();
-        if (1e-100..=1e100).contains(&size) {
+        if (0.5..=1.0).contains(&size) {
             return (self, 1.0);
         }
         match unit_scale(self.direction) {
             Some((direction, exponent)) => (Self { direction, ..self }, ldexp(1.0, -exponent)),
             None => (self, 1.0),
         }
+    }
+
+    /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶ times as far as the surface is
+    /// large, rounding may leave that no length: then the surface faces the ray.
+    #[must_use]
+    pub(super) fn outward(&self, out: Vec3) -> Vec3 {
+        out.normalize_or(-self.direction.normalize())
     }
 }
 

@@ -111,7 +111,8 @@ impl Sphere {
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let step = ray.direction * t;
         let local = (ray.origin - self.center) + step;
-        let normal = local / local.length();
+        let length = local.length();
+        let normal = if length > 0.0 { local / length } else { ray.outward(local) };
         let along_ray = (ray.origin.abs() + step.abs()).element_sum();
         let along_radius = self.center.abs().element_sum() + self.radius;
         let point = if along_ray < along_radius { ray.origin + step } else { self.center + normal * self.radius };

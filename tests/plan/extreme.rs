@@ -7,7 +7,7 @@ use rtc::codec::{self, Form};
 use rtc::diag::Sink;
 use rtc::ir::{Lowered, Material, Origins, Phong, Scene};
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Plan, Rules};
+use rtc::plan::{Plan, Rule, Rules};
 use rtc::render::{Job, Values};
 use rtc::source::SourceMap;
 use std::collections::BTreeSet;
@@ -36,7 +36,9 @@ fn broken(scene: &Scene) -> Option<String> {
     let pruned = film(&valid, Rules::ALL, Values::Linear);
     let differing = bits(&pruned).iter().zip(&wanted).filter(|(a, b)| a != b).count();
     if differing > 0 {
-        return Some(format!("the rules change {differing} values"));
+        let changes = |rule: &Rule| bits(&film(&valid, Rules::NONE.with(*rule), Values::Linear)) != wanted;
+        let culprits: Vec<_> = Rule::ALL.into_iter().filter(changes).map(Rule::name).collect();
+        return Some(format!("the rules change {differing} values; by itself does each of {culprits:?}"));
     }
     let (plan, job) = (Plan::new(&valid, Rules::ALL), Job { values: Values::Linear, ..Job::default() });
     if let Err(fault) = pipeline::verify(&valid, &plan, &job, 1, &|_| true).unwrap().unwrap() {

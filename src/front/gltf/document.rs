@@ -81,8 +81,10 @@ impl Document<'_> {
             root.objects(key).map(read).collect()
         }
         let root = Fields::new(json, json.root());
-        let lights = root.extension("KHR_lights_punctual");
         let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
+        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let has_lights = extensions.contains("KHR_lights_punctual");
+        let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {
             buffers: each(root, "buffers", Buffer::read),
             views: each(root, "bufferViews", View::read),
@@ -100,7 +102,7 @@ impl Document<'_> {
             lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
             scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
             scene: root.index("scene"),
-            extensions: texts.map(std::borrow::Cow::into_owned).collect(),
+            extensions,
             is_glb,
         }
     }

@@ -2,8 +2,9 @@
 
 use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
+use super::features;
 use super::field::Fields;
-use super::json::NodeId;
+use super::json::{Kind, NodeId};
 use super::report::Report;
 use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
@@ -118,14 +119,14 @@ impl Document<'_> {
 
 /// Checks what is written about each image.
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
-    for image in &doc.images {
+    for image in doc.images.iter().filter(|image| report.json.kind(image.at) == Kind::Map) {
         let fields = Fields::new(report.json, image.at);
-        if fields.has("uri") == fields.has("bufferView") {
+        if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
             let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
             report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
         }
-        let Some(at) = fields.node("bufferView") else { continue };
-        if !fields.has("mimeType") {
+        let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else { continue };
+        if fields.text("mimeType").is_none() {
             let message = "an image in a buffer view has a `mimeType`, and this has none".to_owned();
             report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
@@ -159,6 +160,10 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
         if format == Format::WebP && !doc.uses("EXT_texture_webp") {
             let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
             report.say(&codes::GLTF_IMAGE, "IMAGE_NON_ENABLED_MIME_TYPE", at, message);
+        }
+        if let Some(what) = features::unfollowed(format, bytes) {
+            let message = format!("the image has {what}, and that is not followed");
+            report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_FEATURES_UNSUPPORTED", at, message);
         }
         let own = stretch(bytes);
         let picture = match known.get(&own) {

@@ -45,7 +45,7 @@ impl Resources {
                 remark_uri(is_glb, at, report);
                 self.fetch(at, is_glb, report)
                     .and_then(|(bytes, media)| is_buffer(media.as_deref(), at, report).then_some(bytes))
-            } else if is_glb && index == 0 && !buffer.is_fallback {
+            } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
                     let message = "the buffer is the binary chunk, and there is none".to_owned();
                     report.say(&codes::GLTF_BUFFER, "BUFFER_MISSING_GLB_DATA", buffer.at, message);
