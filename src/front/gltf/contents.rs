@@ -119,8 +119,8 @@ fn values(elements: &Elements<'_>, accessor: &Accessor, is_exact: bool, report: 
         #[expect(clippy::cast_possible_truncation, reason = "bounds of floats are compared as floats")]
         let own: Vec<f64> = own.iter().map(|own| if is_float { f64::from(*own as f32) } else { *own }).collect();
         let mut beyond = None;
-        for component in 0..components {
-            bound((elements, &own, &mut beyond), accessor, (key, component), found[component], report);
+        for (component, found) in found.into_iter().enumerate().take(components) {
+            bound((elements, &own, &mut beyond), accessor, (key, component), found, report);
         }
     }
 }

@@ -214,7 +214,8 @@ impl<'s> Tree<'s> {
         if written.len() <= LONG_STEP {
             return self.text(key).unwrap_or_default().into_owned();
         }
-        format!("{}…", written.get(1..written.floor_char_boundary(LONG_STEP)).unwrap_or_default())
+        let end = written.floor_char_boundary(LONG_STEP);
+        format!("{}…", written.get(1..end).unwrap_or_default())
     }
 }
 

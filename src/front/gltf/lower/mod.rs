@@ -33,7 +33,7 @@ const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
 
 /// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of its parts.
-pub(in crate::front) const SURFACE: u64 = 1024;
+pub(in crate::front) const SURFACE: u64 = 768;
 
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
@@ -148,9 +148,9 @@ impl Lowering<'_, '_, '_> {
         let skin = node.skin.filter(|skin| *skin < doc.skins.len() && is_skinned);
         let Some(shape) = self.shapes.of_node(doc, (index, skin), (pose, worlds), self.report) else { return };
         let places = match (skin, node.instances) {
-            (Some(_), _) => Places::One(DAffine3::IDENTITY),
+            (Some(_), _) => Places::one(DAffine3::IDENTITY),
             (None, Some(instances)) => Places::many(doc, world, instances),
-            (None, None) => Places::One(world),
+            (None, None) => Places::one(world),
         };
         for primitive in &mesh.primitives {
             let material = self.material(primitive);

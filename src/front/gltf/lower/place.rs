@@ -40,35 +40,37 @@ pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
 }
 
 /// The places of a mesh at its node.
-pub(super) enum Places<'d> {
-    One(DAffine3),
-    /// The node, and the instances of `EXT_mesh_gpu_instancing` at it: translations, rotations and scales.
-    Many(DAffine3, [Option<Elements<'d>>; 3]),
+pub(super) struct Places<'d> {
+    /// That of the node.
+    world: DAffine3,
+    /// The instances of `EXT_mesh_gpu_instancing` at the node: translations, rotations and scales.
+    instances: Option<[Option<Elements<'d>>; 3]>,
 }
 
 impl<'d> Places<'d> {
+    /// That of the node alone.
+    pub(super) fn one(world: DAffine3) -> Self {
+        Self { world, instances: None }
+    }
+
     /// Those of instances, by their accessors.
     pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, accessors: [Option<usize>; 3]) -> Self {
-        Self::Many(world, accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?)))
+        let instances = accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?));
+        Self { world, instances: Some(instances) }
     }
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        match self {
-            Self::One(_) => 1,
-            Self::Many(_, elements) => elements.iter().flatten().map(|own| own.count).min().unwrap_or(0),
-        }
+        let counts = |own: &[Option<Elements<'_>>; 3]| own.iter().flatten().map(|own| own.count).min();
+        self.instances.as_ref().map_or(1, |own| counts(own).unwrap_or(0))
     }
 
     /// The place at `at`, which is below the count.
     pub(super) fn at(&self, at: usize) -> DAffine3 {
-        let (world, [translations, rotations, scales]) = match self {
-            Self::One(world) => return *world,
-            Self::Many(world, elements) => (world, elements),
-        };
+        let Some([translations, rotations, scales]) = &self.instances else { return self.world };
         let translation = translations.as_ref().map_or([0.0; 3], |own| own.at(at));
         let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |own| own.at(at));
-        *world * compose(translation, rotation, scales.as_ref().map_or([1.0; 3], |own| own.at(at)))
+        self.world * compose(translation, rotation, scales.as_ref().map_or([1.0; 3], |own| own.at(at)))
     }
 }
 
