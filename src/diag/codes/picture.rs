@@ -15,4 +15,11 @@ super::codes! { RD:
          surface that glows enough to light the others (labels and eyes do not), it is shown in the studio: three soft \
          boxes in a dim room, the brightest from the left and above. `--env`, `--env-color` and `--sun` give other light; \
          `--env-color 0,0,0` is darkness.";
+    RAYS_RAN_OUT = "RD004", Error, "the picture takes more rays than its limit",
+        "Rays are counted while they are traced: those of the camera, those to lights, mirrored and refracted ones. Where \
+         a ray branches at each bounce, as in glass, or into a lobe, their number grows as a power of the bounces, and \
+         nobody can tell before how far. The finding names the first pixel, in the order of rows, up to which the \
+         picture takes more than `--limit rays`, 2^32 unless another limit is set, and the key that makes them so many. \
+         `rtc cost` and `--allow-huge` have no such limit, nor have a render within `--time-budget` and \
+         `--verify-effects`.";
 }
