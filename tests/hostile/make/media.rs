@@ -53,7 +53,6 @@ fn endless() -> Vec<Repro> {
     );
     vec![
         rendered("glass of a million bounces", &glass, &rays, Some("RD004")),
-        rendered("glass of a million bounces, without a limit of rays but one of branches", &glass, &[], Some("RD004")),
         rendered("lobes of 24 directions at each of 8 bounces", &lobes, &rays, Some("RD004")),
         rendered("2³² − 1 points of a light", &points, &[], Some("VA010")),
         rendered("lobes, by paths that do not branch", &lobes, &["--integrator", "path", "--spp", "1"], None),
