@@ -1,6 +1,9 @@
 //! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here prints or exits.
 
+mod meter;
 pub mod trial;
+
+pub use meter::Meter;
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::{Asset, assets, course, gltf};
@@ -101,6 +104,15 @@ impl Renderer {
     /// Shows another scene, which differs from the one before in its camera and settings alone.
     pub fn change(&mut self, scene: ValidScene) {
         self.world.change(scene);
+    }
+
+    /// Whether there is memory for so many bytes: they are asked for, and given back at once. A picture is asked for so
+    /// before it is made, for who runs out of memory on the way can say nothing any more.
+    #[must_use]
+    pub fn has_room(&self, bytes: usize) -> bool {
+        // A thread that takes its first byte takes room for more.
+        self.pool.broadcast(|_| drop(std::hint::black_box(Box::new(0_u8))));
+        Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
     /// Renders a picture. `None` if `proceed` said stop.

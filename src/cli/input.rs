@@ -7,7 +7,7 @@ use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::assets;
 use crate::ir::{Lowered, Scene, Stage, Surroundings, View};
 use crate::pipeline::{self, Options};
-use crate::source::{FileId, LoadError, Loader, SourceMap, Span};
+use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
 use crate::valid::ValidScene;
 use crate::{codec, front, valid};
 use std::io;
@@ -133,6 +133,16 @@ impl Input {
     /// Adds a finding.
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
         self.sink.push(diagnostic);
+    }
+
+    /// How many rays a picture may take.
+    pub(super) fn rays(&self) -> u64 {
+        self.options.valid.limits.of(Resource::Rays, 0)
+    }
+
+    /// Lets pictures take any number of rays.
+    pub(super) fn lift_rays(&mut self) {
+        self.options.valid.limits.set(Resource::Rays, u64::MAX);
     }
 
     /// The file and the line at which a span begins.

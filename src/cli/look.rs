@@ -69,6 +69,18 @@ impl Look {
         }
     }
 
+    /// The most bytes that a pixel takes on its way into the file: as numbers, packed, and in the file, which grows by
+    /// doubling.
+    pub(super) fn memory(&self) -> usize {
+        let channel = match self.kind {
+            Kind::Png8 => 1,
+            Kind::Png16 => 2,
+            Kind::Exr => 4,
+        };
+        let layers: usize = self.aovs.iter().map(|aov| aov.channels().len()).sum();
+        4 * channel * (4 + layers)
+    }
+
     /// The picture of a film.
     pub(super) fn develop(&self, film: Image, coverage: Vec<f32>, mode: &Mode) -> Picture {
         let (tone, association) = match self.kind {

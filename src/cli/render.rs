@@ -12,7 +12,7 @@ use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
 use crate::image::{Image, Layers, Lost, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
-use crate::pipeline::{self, Renderer};
+use crate::pipeline::{self, Meter, Renderer};
 use crate::plan::{self, Rule, Rules, Symptom};
 use crate::render::{Counts, Crop, Fault, Film, Job};
 use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
@@ -136,11 +136,19 @@ impl Plan {
         interrupt: &Interrupt,
     ) -> Result<(), Failure> {
         let window = self.window(&subject.proven.lowered.scene)?;
+        self.find_room(subject, window)?;
         let output = Output::open(path, input)?;
         let quiet = talk.is_quiet();
         let shot = match self.goal {
-            Goal { error: None, time: None } => self.trace(subject, window, interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(subject, window, interrupt, quiet)?,
+            Goal { error: None, time: None } => self.trace(subject, (window, input.rays()), interrupt, quiet)?,
+            Goal { error: _, time: _ } => self.approach(subject, (window, input.rays()), interrupt, quiet)?,
+        };
+        let shot = match shot {
+            Ok(shot) => shot,
+            Err(finding) => {
+                input.push(*finding);
+                return input.tell(talk);
+            }
         };
         if self.crop.is_none() && shot.counts.hits == 0 {
             input.push(nothing_in_view(&subject.proven));
@@ -175,15 +183,39 @@ impl Plan {
         Ok(window)
     }
 
-    /// The picture in the setting of the scene.
-    fn trace(&self, subject: &mut Subject, window: Crop, interrupt: &Interrupt, quiet: bool) -> Result<Shot, Failure> {
+    /// Refuses a picture that there is no memory for.
+    fn find_room(&self, subject: &mut Subject, window: Crop) -> Result<(), Failure> {
+        /// A pixel of a film, with what is counted of it; and of one that grows.
+        const FILM: [usize; 2] = [40, 320];
+        let Crop { width, height, .. } = window;
+        let pixel = FILM[usize::from(self.goal != Goal::default())] + self.look.memory();
+        let bytes = (width as usize).saturating_mul(height as usize).saturating_mul(pixel);
+        let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
+        if renderer.has_room(bytes) {
+            return Ok(());
+        }
+        let size = bytes.div_ceil(1 << 20);
+        let message = format!("there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB");
+        Err(Failure::Trouble(message))
+    }
+
+    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so many.
+    fn trace(
+        &self,
+        subject: &mut Subject,
+        (window, rays): (Crop, u64),
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
         let scene = &subject.proven.scene;
         let values = self.look.values(&scene.settings().mode);
         let job = Job { crop: Some(window), values, behind: self.look.behind(), ..Job::default() };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
+        // What verifies renders twice, by more rays than the picture takes.
+        let meter = Meter::new(if self.verify { u64::MAX } else { rays }, window);
         let proceed = |step| {
             progress.step(step);
-            !interrupt.is_raised()
+            !interrupt.is_raised() && meter.step(step)
         };
         let film = if self.verify {
             pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
@@ -191,19 +223,23 @@ impl Plan {
             self.renderer(subject).map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
         };
         let elapsed = progress.finish();
-        let film = film.map_err(no_threads)?.ok_or(Failure::Interrupted)?;
+        let film = film.map_err(no_threads)?;
+        if let Some(pixel) = meter.ran_out().filter(|_| !interrupt.is_raised()) {
+            return Ok(Err(Box::new(meter.finding(&subject.proven.lowered, pixel))));
+        }
+        let film = film.ok_or(Failure::Interrupted)?;
         let Film { image, coverage, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
-        Ok(Shot { image, coverage, counts, elapsed, quality: None })
+        Ok(Ok(Shot { image, coverage, counts, elapsed, quality: None }))
     }
 
-    /// The picture with the samples that its goal takes.
+    /// The picture with the samples that its goal takes, or where its rays ran out.
     fn approach(
         &self,
         subject: &mut Subject,
-        window: Crop,
+        (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Shot, Failure> {
+    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
         let order = Order {
             goal: self.goal,
             crop: window,
@@ -213,22 +249,31 @@ impl Plan {
             seed: 0,
         };
         let progress = Progress::start(0, quiet);
+        // Time that was given may be used.
+        let meter = Meter::new(if self.goal.time.is_some() { u64::MAX } else { rays }, window);
         let watch = Watch {
             proceed: &|step| {
                 progress.step(step);
-                !interrupt.is_raised()
+                !interrupt.is_raised() && meter.step(step)
             },
             elapsed: &|| progress.elapsed(),
-            round: &|state| progress.round(state.pixels, state.error.map_or_else(String::new, error)),
+            round: &|state| {
+                meter.begin_round();
+                progress.round(state.pixels, state.error.map_or_else(String::new, error));
+            },
         };
         let reached = self.renderer(subject);
         let reached = reached.map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
         let elapsed = progress.finish();
-        let reached = reached.map_err(no_threads)?.map_err(|Stopped| Failure::Interrupted)?;
+        let reached = reached.map_err(no_threads)?;
+        if let Some(pixel) = meter.ran_out().filter(|_| !interrupt.is_raised()) {
+            return Ok(Err(Box::new(meter.finding(&subject.proven.lowered, pixel))));
+        }
+        let reached = reached.map_err(|Stopped| Failure::Interrupted)?;
         let Reached { image, coverage, counts, samples: Samples { least, mean, most }, .. } = reached;
         let quality =
             format!("{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
-        Ok(Shot { image, coverage, counts, elapsed, quality: Some(quality) })
+        Ok(Ok(Shot { image, coverage, counts, elapsed, quality: Some(quality) }))
     }
 
     /// The layers beside the colours.

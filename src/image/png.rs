@@ -8,15 +8,22 @@ use ::image::{ExtendedColorType, ImageEncoder};
 
 /// The picture in 8 bits per channel.
 pub(super) fn eight_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
-    let samples: Vec<u8> = samples(picture).map(color::quantize8).collect();
-    encode(picture, &samples, [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8])
+    let mut bytes = Vec::with_capacity(channels(picture));
+    bytes.extend(samples(picture).map(color::quantize8));
+    encode(picture, &bytes, [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8])
 }
 
 /// The picture in 16 bits per channel.
 pub(super) fn sixteen_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
     // The encoder takes 16-bit samples in the order of the machine and turns them round itself.
-    let samples: Vec<u8> = samples(picture).flat_map(|v| color::quantize16(v).to_ne_bytes()).collect();
-    encode(picture, &samples, [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16])
+    let mut bytes = Vec::with_capacity(2 * channels(picture));
+    bytes.extend(samples(picture).flat_map(|v| color::quantize16(v).to_ne_bytes()));
+    encode(picture, &bytes, [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16])
+}
+
+/// How many channels all pixels have.
+fn channels(picture: &Picture) -> usize {
+    picture.image.pixels.len() * if picture.alpha.is_some() { 4 } else { 3 }
 }
 
 /// The channels of all pixels.

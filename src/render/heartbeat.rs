@@ -15,6 +15,8 @@ pub struct Step {
     pub pixel: [u32; 2],
     /// That pixel is done.
     pub is_done: bool,
+    /// How many branches of its paths are put off.
+    pub open: usize,
 }
 
 /// The observer of a render, called from all its threads; false means stop.
@@ -32,11 +34,13 @@ pub(super) struct Heartbeat<'run> {
     /// Steps until the next question.
     left: u32,
     goes_on: bool,
+    /// As in [`Step`].
+    open: usize,
 }
 
 impl<'run> Heartbeat<'run> {
     pub(super) fn new(proceed: &'run Proceed<'run>) -> Self {
-        Self { proceed, pixel: [0; 2], told: 0, left: EVERY, goes_on: true }
+        Self { proceed, pixel: [0; 2], told: 0, left: EVERY, goes_on: true, open: 0 }
     }
 
     /// The pixel under way.
@@ -47,6 +51,12 @@ impl<'run> Heartbeat<'run> {
     /// Another pixel is begun.
     pub(super) fn begin(&mut self, pixel: [u32; 2]) {
         self.pixel = pixel;
+    }
+
+    /// Takes down how many branches are put off.
+    #[inline]
+    pub(super) fn put_off(&mut self, open: usize) {
+        self.open = open;
     }
 
     /// Whether to go on; to be asked once a step of work: a path, a bounce, a sample, a point of a light.
@@ -64,7 +74,7 @@ impl<'run> Heartbeat<'run> {
     #[cold]
     fn ask(&mut self, counts: &Counts, is_done: bool) -> bool {
         let rays = counts.rays();
-        let step = Step { rays: rays - self.told, pixel: self.pixel, is_done };
+        let step = Step { rays: rays - self.told, pixel: self.pixel, is_done, open: self.open };
         self.told = rays;
         self.goes_on = self.goes_on && (self.proceed)(step);
         self.left = if self.goes_on { EVERY } else { 1 };
@@ -91,7 +101,10 @@ mod tests {
         assert!((1..EVERY).all(|_| heartbeat.goes_on(&counts)));
         counts.shadow = 9;
         assert!(!heartbeat.goes_on(&counts) && !heartbeat.goes_on(&counts) && !heartbeat.done(&counts));
-        let steps = [Step { rays: 3, pixel: [0, 0], is_done: true }, Step { rays: 9, pixel: [1, 0], is_done: false }];
+        let steps = [
+            Step { rays: 3, pixel: [0, 0], is_done: true, open: 0 },
+            Step { rays: 9, pixel: [1, 0], is_done: false, open: 0 },
+        ];
         assert_eq!(*told.lock().unwrap(), steps);
     }
 }

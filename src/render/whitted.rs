@@ -77,6 +77,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// Whether to go on: false from when the observer said stop, and nothing counts any more.
     #[inline]
     pub(super) fn goes_on(&mut self) -> bool {
+        self.heartbeat.put_off(self.pending.len());
         self.heartbeat.goes_on(&self.counts)
     }
 

@@ -70,7 +70,7 @@ const TABLE: [Row; COUNT] = [
     Row {
         resource: Resource::Nodes,
         name: "nodes",
-        base: 1 << 20,
+        base: 1 << 21,
         per_kib: 1 << 10,
         text: "values in the texts of scenes and assets, those behind aliases each time",
     },

@@ -140,38 +140,30 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
     too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
 }
 
+/// What a picture takes even if no ray goes on from what it meets.
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
-    let ir::Settings { supersampling, max_depth, ref mode, shadows: _, pattern: _, light_samples: _ } = scene.settings;
-    let paths = if let ir::Mode::Path(path) = mode { u128::from(path.samples) } else { 1 };
+    let ir::Settings { supersampling, max_depth: _, ref mode, shadows: _, pattern: _, light_samples } = scene.settings;
+    let paths = if let ir::Mode::Path(path) = mode { path.samples } else { 1 };
     let ir::Lens { radius, samples } = scene.camera.lens;
-    let lens = if radius == 0.0 { 1 } else { u128::from(samples) };
-    let glossy = u128::from(scene.materials.iter().map(glossy_rays).max().unwrap_or(1));
-    let bounces = if glossy > 1 { max_depth } else { 0 };
-    let square = u128::from(supersampling) * u128::from(supersampling);
-    let rays = pixels
-        .saturating_mul(square)
-        .saturating_mul(paths)
-        .saturating_mul(lens)
-        .saturating_mul(glossy.saturating_pow(bounces));
-    if rays <= limit.into() {
-        return;
-    }
+    let lens = if radius == 0.0 { 1 } else { samples };
+    let is_soft = scene.lights.iter().filter_map(ir::Light::point).any(|light| light.radius > 0.0);
+    let points = if is_soft && matches!(mode, ir::Mode::Phong) { light_samples } else { 1 };
     let [width, height] = scene.camera.size;
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
-    if lens > 1 {
-        product += &format!(" × {lens} aperture samples");
+    let mut rays = pixels.saturating_mul(u128::from(supersampling) * u128::from(supersampling));
+    for (count, noun) in [(paths, "paths"), (lens, "aperture samples"), (points, "light samples")] {
+        rays = rays.saturating_mul(count.into());
+        if count > 1 {
+            product += &format!(" × {count} {noun}");
+        }
     }
-    if bounces > 0 {
-        product += &format!(" × up to {glossy}^{bounces} glossy rays");
+    if rays <= limit.into() {
+        return;
     }
     let total = if rays == u128::MAX { "more than 2¹²⁸".to_owned() } else { rays.to_string() };
     let finding =
         Diagnostic::new(&codes::TOO_MANY_RAYS, format!("the picture takes too many rays: {product} = {total}"));
-    let finding = finding.hint(format!("at most {limit} rays from the eye; `--limit rays=…` sets another limit"));
-    check.report(at(Field::Supersampling), "", finding);
-}
-
-/// How many rays one bounce off the material makes.
-fn glossy_rays(material: &ir::Material) -> u32 {
-    material.phong().filter(|phong| phong.ks > 0.0).map_or(1, |phong| phong.glossy_samples)
+    let finding = finding.hint(format!("at most {limit} rays; `--limit rays=…` sets another limit"));
+    let many_points = u128::from(points) > u128::from(supersampling) * u128::from(supersampling);
+    check.report(at(if many_points { Field::LightSamples } else { Field::Supersampling }), "", finding);
 }

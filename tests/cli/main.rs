@@ -11,6 +11,7 @@ mod looks;
 mod numbers;
 #[cfg(unix)]
 mod outputs;
+mod rays;
 mod reports;
 mod stage;
 mod words;

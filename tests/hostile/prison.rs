@@ -66,6 +66,23 @@ fn hostile_assets_are_refused_or_harmless() {
 
 #[test]
 #[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
+fn pictures_that_there_is_no_memory_for_are_refused_in_words() {
+    let scene = b"Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8]}\nObjects: []\n";
+    let folder = folder(&[("scene.yaml".to_owned(), scene.to_vec())]);
+    for size in ["65535x65535", "3000x3000"] {
+        for output in ["out.png", "out.exr"] {
+            let words = ["render", "scene.yaml", "-q", "--allow-huge", "--size", size, "-o", output];
+            let outcome = run(folder.path(), &words.map(str::to_owned));
+            let is_told = outcome.words.contains("there is no memory for a picture of ");
+            assert!(outcome.code == Some(2) && is_told, "{size} {output}: {outcome:?}");
+        }
+    }
+    let words = ["render", "scene.yaml", "-q", "--size", "400x400", "-o", "out.png"].map(str::to_owned);
+    assert_eq!(run(folder.path(), &words).code, Some(0));
+}
+
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "only Linux limits addresses")]
 fn hostile_images_meshes_and_scenes_are_refused_or_harmless() {
     try_all(make::media::all());
 }

@@ -23,4 +23,11 @@ super::codes! { RD:
         "Sums and products of the render left the range of its numbers, and infinity less infinity is no number. The \
          file has 0 there: black. With `--arithmetic f32` squares of lengths beyond 1e19 do that, so leave the option \
          out; else colours and coefficients are so large that light which is mirrored again and again grows without end.";
+    RAYS_RAN_OUT = "RD006", Error, "the picture takes more rays than its limit",
+        "Rays are counted while they are traced: those of the camera, those to lights, mirrored and refracted ones. Where \
+         a ray branches at each bounce, as in glass, or into a lobe, their number grows as a power of the bounces, and \
+         nobody can tell before how far. The finding names the first pixel, in the order of rows, up to which the \
+         picture takes more than `--limit rays`, 2^32 unless another limit is set, and the key that makes them so many. \
+         `rtc cost` and `--allow-huge` have no such limit, nor have a render within `--time-budget` and \
+         `--verify-effects`.";
 }

@@ -28,9 +28,10 @@ super::codes! { VA:
     HUGE_IMAGE = "VA009", Error, "the image has more than 16384 × 16384 pixels",
         "A picture of that size takes gigabytes. It is most often a slip of the keyboard; if it is meant, \
          `--allow-huge` lifts the limit.";
-    TOO_MANY_RAYS = "VA010", Error, "the picture takes more than 2^32 rays from the eye",
-        "Pixels × supersampling² × aperture samples, times what glossy bounces may multiply it by, is the number of \
-         rays. More than 2^32 of them take hours. `--allow-huge` lifts the limit.";
+    TOO_MANY_RAYS = "VA010", Error, "the picture takes more than 2^32 samples",
+        "Pixels × supersampling² × aperture samples, or paths a pixel, times the points of a soft light, is what a \
+         picture takes even if no ray goes on from what it meets. More than 2^32 take hours. `--limit rays=…` sets \
+         another limit, `--allow-huge` lifts it.";
     LIGHT_IN_SPHERE = "VA011", Note, "a light stands inside a sphere",
         "With shadows on, the sphere hides the light from all that is outside. That may be meant, as for a lamp seen \
          from within, but most often the lamp should stand beside its glass.";

@@ -5,7 +5,7 @@ use super::tree::{NodeId, Shape, Tree};
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
-use crate::source::Span;
+use crate::source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;
 use std::marker::PhantomData;
@@ -142,9 +142,6 @@ pub(super) struct Entry<'a> {
 /// More findings than this are no longer looked through for repetition.
 const REMEMBERED: usize = 10_000;
 
-/// Aliases and merge keys may make a reader look at this many entries more than the text has nodes.
-const MAX_REPEATED: usize = 1_500_000;
-
 /// One pass over a tree: the findings, and what the pass remembers.
 pub(super) struct Context<'a> {
     pub(super) tree: &'a Tree<'a>,
@@ -159,11 +156,13 @@ pub(super) struct Context<'a> {
     decoded: BTreeSet<NodeId>,
     /// What has been said about which bytes: an alias brings a reader to the same place again.
     said: BTreeSet<(Span, &'static str)>,
-    steps: usize,
+    steps: u64,
+    /// How many entries may be looked at: those of the text, and those that aliases and merge keys repeat.
+    most_steps: u64,
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(tree: &'a Tree<'a>, options: &'a Options, sink: &'a mut Sink) -> Self {
+    pub(super) fn new(tree: &'a Tree<'a>, options: &'a Options, budget: &Budget, sink: &'a mut Sink) -> Self {
         Self {
             tree,
             options,
@@ -174,6 +173,7 @@ impl<'a> Context<'a> {
             decoded: BTreeSet::new(),
             said: BTreeSet::new(),
             steps: 0,
+            most_steps: budget.limit(Resource::Nodes),
         }
     }
 
@@ -255,14 +255,14 @@ impl<'a> Context<'a> {
             self.sink.push(
                 finding
                     .at(self.first_line(node), "the limit was passed while reading this")
-                    .hint("a scene of this size has to be written out"),
+                    .hint("write it out, or allow more by `--limit nodes=…`"),
             );
         }
         !self.exhausted()
     }
 
     fn exhausted(&self) -> bool {
-        self.steps > self.tree.len() + MAX_REPEATED
+        self.steps > self.most_steps
     }
 }
 

@@ -38,7 +38,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
             return None;
         }
     }
-    let mut context = Context::new(&tree, options, sink);
+    let mut context = Context::new(&tree, options, map.budget(), sink);
     let mut lowering = Lowering::new();
     lowering.scene(&mut context);
     note_spellings(&mut context);

@@ -31,7 +31,60 @@ pub(crate) fn all() -> Vec<Repro> {
         let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
         all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
     }
+    all.extend(endless());
     all
+}
+
+/// Scenes whose rays have no end, and what is harmless however much it might take.
+fn endless() -> Vec<Repro> {
+    let rays = ["--limit", "rays=100000"];
+    // Rays go round for ever in a room of mirrors, and branch at the ball in it.
+    let ball = sphere("ks: 1, kt: 1, eta: 1.5");
+    let glass = format!("MaxRecursionDepth: 1000000\n{CAMERA}Objects:\n{ball}{}", room());
+    let lobes = format!(
+        "MaxRecursionDepth: 8\n{CAMERA}Objects:\n{}- {{type: plane, position: [0, -1, 0], normal: [0, 1, 0], material: \
+         {{color: [1, 1, 1], ka: 1, kd: 1, ks: 1, n: 4, glossySamples: 24}}}}\n",
+        sphere("ks: 1, n: 4, glossySamples: 24")
+    );
+    let points = format!(
+        "LightSamples: 4294967295\nShadows: true\n{CAMERA}Lights:\n- {{position: [5, 5, 5], color: [1, 1, 1], radius: \
+         1}}\nObjects:\n{}",
+        sphere("ks: 0")
+    );
+    vec![
+        rendered("glass of a million bounces", &glass, &rays, Some("RD006")),
+        rendered("lobes of 24 directions at each of 8 bounces", &lobes, &rays, Some("RD006")),
+        rendered("2³² − 1 points of a light", &points, &[], Some("VA010")),
+        rendered("lobes, by paths that do not branch", &lobes, &["--integrator", "path", "--spp", "1"], None),
+        rendered("a mirror of a million bounces", &glass.replace(&room(), "").replace("kt: 1", "kt: 0"), &[], None),
+    ]
+}
+
+/// Six mirrors about the camera.
+fn room() -> String {
+    (0..3).flat_map(|axis| [-1, 1].map(|side| (axis, side))).fold(String::new(), |mut walls, (axis, side)| {
+        let (mut position, mut normal) = ([0; 3], [0; 3]);
+        (position[axis], normal[axis]) = (12 * side, -side);
+        writeln!(
+            walls,
+            "- {{type: plane, position: {position:?}, normal: {normal:?}, material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: \
+             1, n: 1}}}}"
+        )
+        .unwrap();
+        walls
+    })
+}
+
+fn sphere(keys: &str) -> String {
+    let material = ["color: [1, 1, 1], ka: 1, kd: 1", keys].join(", ");
+    let exponent = if keys.contains("n: ") { "" } else { ", n: 1" };
+    format!("- {{type: sphere, position: [0, 0, 0], radius: 1, material: {{{material}{exponent}}}}}\n")
+}
+
+fn rendered(name: &'static str, scene: &str, arguments: &[&str], expected: Option<&'static str>) -> Repro {
+    let arguments = ["render", "scene.yaml", "-o", "out.png", "-q"].iter().chain(arguments);
+    let files = vec![("scene.yaml".to_owned(), scene.as_bytes().to_vec())];
+    Repro { name, files, arguments: arguments.map(|word| (*word).to_owned()).collect(), expected }
 }
 
 fn checked(

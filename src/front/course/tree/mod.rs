@@ -69,11 +69,6 @@ impl Tree<'_> {
         NodeId(0)
     }
 
-    /// How many nodes there are.
-    pub(super) fn len(&self) -> usize {
-        self.nodes.len()
-    }
-
     /// The text written in these bytes, unless they cut a character.
     fn written(&self, range: Range<u32>) -> Option<&str> {
         self.source.get(range.start as usize..range.end as usize)
