@@ -107,11 +107,12 @@ fn seeds_change_the_noise_alone() {
     assert!(distance(&mean, &truth) < 0.25 * noise, "64 pictures of 1 point are one of 64: {noise}");
 }
 
-/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each.
+/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS` tries all on each; and
+/// −180 and 140, at which powers of a length leave the range of f64.
 fn powers(scenes: usize, index: usize) -> impl Iterator<Item = i32> {
     let all = std::env::var_os("RTC_ALL_POWERS").is_some();
     let (scenes, index) = (i32::try_from(scenes).unwrap(), i32::try_from(index).unwrap());
-    (-40..=40).filter(move |k| all || (k + 40) % scenes == index)
+    (-40..=40).filter(move |k| all || (k + 40) % scenes == index).chain([-180, 140])
 }
 
 /// The scenes of the course, where they are.
@@ -138,7 +139,7 @@ fn a_scene_times_a_power_of_two_makes_the_same_picture() {
             }
         }
     }
-    assert_eq!(seen.len(), 81);
+    assert_eq!(seen.len(), 83);
 }
 
 /// Whether a camera ray of a pixel, of those in a grid, meets two surfaces at the very same t.

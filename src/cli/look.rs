@@ -3,7 +3,7 @@
 use super::Failure;
 use super::args::{self, Bits};
 use crate::color::Tone;
-use crate::image::{self, Association, Backdrop, Image, Origin, Picture};
+use crate::image::{self, Association, Backdrop, Image, Lost, Origin, Picture};
 use crate::render::{Aov, Behind, Values};
 use crate::valid::Mode;
 use std::path::Path;
@@ -76,6 +76,12 @@ impl Look {
             Kind::Png8 | Kind::Png16 => (self.tone.unwrap_or(mode.tone()), Association::Straight),
         };
         image::Look { stops: self.stops, tone, backdrop: self.backdrop }.develop(film, coverage, association)
+    }
+
+    /// What the file can't hold; a PNG clamps all colours alike.
+    pub(super) fn lost(&self, picture: &Picture) -> Lost {
+        let lost = picture.lost();
+        if self.kind == Kind::Exr { lost } else { Lost { beyond: Vec::new(), ..lost } }
     }
 
     /// The bytes of the file.

@@ -10,7 +10,7 @@ use super::progress::{self, Progress};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
 use crate::diag::{Diagnostic, codes};
-use crate::image::{Image, Layers, Origin};
+use crate::image::{Image, Layers, Lost, Origin};
 use crate::ir::{Field, Noun, Overrides, Place, Scene};
 use crate::pipeline::{self, Renderer};
 use crate::plan::{self, Rule, Rules, Symptom};
@@ -146,8 +146,16 @@ impl Plan {
             input.tell(talk)?;
         }
         let summary = self.summary(path, &shot);
+        // Where samples are clamped, and where a tone map follows, no more is seen of what is no number.
+        let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);
         let mut picture = self.look.develop(shot.image, shot.coverage, &subject.proven.scene.settings().mode);
         picture.layers = self.layers(subject, window, interrupt)?;
+        let lost = self.look.lost(&picture);
+        let findings = self.unholdable(&Lost { unnumbered: lost.unnumbered.max(unnumbered), ..lost });
+        if !findings.is_empty() {
+            findings.into_iter().for_each(|finding| input.push(finding));
+            input.tell(talk)?;
+        }
         let bytes = self.look.encode(&picture, || self.origin(&subject.proven.lowered.scene))?;
         output.commit(&bytes, interrupt)?;
         if !quiet {
@@ -247,6 +255,24 @@ impl Plan {
             None => Renderer::new(&proven.scene, &self.plan(&proven.scene), self.threads)?,
         };
         Ok((proven, renderer.insert(made)))
+    }
+
+    /// Warns of what the file can't hold.
+    fn unholdable(&self, Lost { unnumbered, beyond }: &Lost) -> Vec<Diagnostic> {
+        let names = beyond.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let beyond = (!beyond.is_empty()).then(|| {
+            let finding = Diagnostic::new(&codes::BEYOND_FLOAT, format!("values beyond a 32-bit float in {names}"));
+            finding.hint("the file has 3.4e38 there; a smaller scene makes the same picture")
+        });
+        let unnumbered = (*unnumbered > 0).then(|| {
+            let finding = Diagnostic::new(&codes::UNNUMBERED, format!("pixels that are no number: {unnumbered}"));
+            let advice = match self.arithmetic {
+                plan::Arithmetic::Robust => "colours or coefficients are too large".to_owned(),
+                coarse => format!("leave out `--arithmetic {}`", coarse.name()),
+            };
+            finding.hint(format!("they are black in the file; {advice}"))
+        });
+        beyond.into_iter().chain(unnumbered).collect()
     }
 
     fn summary(&self, path: &Path, shot: &Shot) -> String {

@@ -184,9 +184,10 @@ impl<'scene> Counter<'scene> {
         let whole = u128::from(width) * u128::from(height);
         let part = u128::from(self.stride.of(width)) * u128::from(self.stride.of(height));
         let scaled = |count: u64| u64::try_from(u128::from(count) * whole / part.max(1)).unwrap_or(u64::MAX);
-        let Counts { camera, shadow, mirror, refracted, hits } = counts;
-        let [camera, shadow, mirror, refracted, hits] = [camera, shadow, mirror, refracted, hits].map(scaled);
-        Ok(Counts { camera, shadow, mirror, refracted, hits })
+        let Counts { camera, shadow, mirror, refracted, hits, unnumbered } = counts;
+        let [camera, shadow, mirror, refracted] = [camera, shadow, mirror, refracted].map(scaled);
+        let [hits, unnumbered] = [hits, unnumbered].map(scaled);
+        Ok(Counts { camera, shadow, mirror, refracted, hits, unnumbered })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::input::Proven;
 use crate::ir::{Camera, Scene};
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ impl Turntable {
     /// So many views around `up`, or without it the axis of the world that is nearest to that of the camera.
     pub(super) fn new(scene: &Scene, up: Option<[f64; 3]>, count: u32) -> Self {
         let camera = scene.camera.clone();
-        let axis = up.map_or_else(|| camera.upright(), |up| Vec3::from_array(up).normalize_or(Vec3::Y));
+        let axis = up.map_or_else(|| camera.upright(), |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::Y));
         let middle = scene.ball().map_or(Vec3::from_array(camera.center), |ball| ball.center);
         Self { camera, axis, middle, count }
     }

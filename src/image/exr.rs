@@ -1,8 +1,9 @@
-//! EXR: 32-bit floats per channel, as they are, unclamped, in one part, with where the picture came from as text
+//! EXR: 32-bit floats per channel, as they are but finite, in one part, with where the picture came from as text
 //! attributes.
 //!
 //! The encoder keeps free attributes in hashed maps, whose order changes from run to run; each map here holds one.
 
+use super::range::narrow;
 use super::{EncodeError, Origin, Picture};
 use ::exr::meta::attribute::{AttributeValue, Text};
 use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Layer, LayerAttributes, SmallVec, WritableImage};
@@ -34,14 +35,9 @@ fn channels(picture: &Picture) -> AnyChannels<FlatSamples> {
     list.extend(alpha.iter().map(|alpha| ("A", FlatSamples::F32(alpha.clone()))));
     list.extend(layers.names.iter().enumerate().map(|(k, name)| {
         let values = layers.values.iter().skip(k).step_by(layers.names.len());
-        (*name, FlatSamples::F32(values.copied().collect()))
+        (*name, FlatSamples::F32(values.map(|value| narrow(f64::from(*value))).collect()))
     }));
     AnyChannels::sort(list.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect())
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float, or to infinity")]
-fn narrow(v: f64) -> f32 {
-    v as f32
 }
 
 /// EXR text is Latin-1; what is not becomes a question mark.

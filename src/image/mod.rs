@@ -6,10 +6,12 @@ mod exr;
 mod look;
 mod png;
 mod radiance;
+mod range;
 
 pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha, is_picture};
 pub use look::{Association, Backdrop, Look};
 pub use radiance::{Radiance, decode_radiance, is_radiance};
+pub use range::Lost;
 
 use std::fmt;
 
@@ -51,7 +53,7 @@ pub enum Form {
     Png8,
     /// PNG with ⌊65535·v⌋ per channel, no gamma.
     Png16,
-    /// EXR with 32-bit floats per channel, unclamped.
+    /// EXR with 32-bit floats per channel, clamped only to what those hold: all are finite.
     Exr(Origin),
 }
 

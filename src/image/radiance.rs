@@ -107,6 +107,7 @@ fn within(width: u32, height: u32) -> Result<(), DecodeError> {
 mod tests {
     use super::super::{Form, Image, Origin, Picture};
     use super::*;
+    use ::exr::prelude::{SpecificChannels, WritableImage};
 
     /// Two by one pixels: (1, 0.5, 0.25) and black, in exponents of 129 and 0.
     const HDR: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x81\x00\x00\x00\x00";
@@ -126,8 +127,10 @@ mod tests {
 
     #[test]
     fn what_is_no_light_is_refused() {
-        let infinite = Image { width: 1, height: 1, pixels: vec![[f64::INFINITY; 3]] };
-        let infinite = Picture::opaque(infinite).encode(&Form::Exr(Origin::default())).unwrap();
+        let infinite = SpecificChannels::rgb(|_| (1.0_f32, f32::INFINITY, 1.0_f32));
+        let mut bytes = Cursor::new(Vec::new());
+        ::exr::prelude::Image::from_channels((1, 1), infinite).write().to_buffered(&mut bytes).unwrap();
+        let infinite = bytes.into_inner();
         let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n";
         let cases: [(&[u8], &str); 6] = [
             (b"hello", "is not a picture"),

@@ -1,7 +1,7 @@
 //! Where a scene is: a ball around all of it that has an end. Its middle is what cameras without a target look at.
 
 use super::{Column, Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle};
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use glam::DAffine3;
 
 /// A ball.
@@ -52,7 +52,7 @@ fn corners(shape: &Shape, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
         Shape::Triangle(Triangle { vertices, uvs: _ }) => vertices.iter().for_each(|v| visit(Vec3::from_array(*v))),
         Shape::Quad(Quad { vertices }) => vertices.iter().for_each(|v| visit(Vec3::from_array(*v))),
         Shape::Cylinder(Cylinder { base, axis, height, radius }) => {
-            let top = Vec3::from_array(*base) + Vec3::from_array(*axis).normalize_or_zero() * *height;
+            let top = Vec3::from_array(*base) + unit(Vec3::from_array(*axis)).unwrap_or(Vec3::ZERO) * *height;
             cube(*base, *radius);
             cube(top.to_array(), *radius);
         }

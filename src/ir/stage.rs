@@ -3,7 +3,7 @@
 
 use super::{Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path, PointLight};
 use super::{Projection, Punctual, Scene};
-use crate::math::{BasisFault, Vec3, camera_basis, cos, fallback_up, sin};
+use crate::math::{BasisFault, Vec3, camera_basis, cos, fallback_up, length, sin, unit, unit_scale};
 use std::f64::consts::PI;
 
 /// The view and the light; what is not given stays as it is in the scene.
@@ -125,8 +125,8 @@ impl View {
             Projection::Orthographic => 1.0,
         };
         // A lens that is asked for makes the picture of its own size.
-        let pixel = if self.yfov.is_some() { 1.0 } else { Vec3::from_array(camera.up).length() * scale };
-        let up = self.up.map_or_else(|| camera.upright(), |up| Vec3::from_array(up).normalize_or_zero());
+        let pixel = if self.yfov.is_some() { 1.0 } else { length(Vec3::from_array(camera.up)) * scale };
+        let up = self.up.map_or_else(|| camera.upright(), |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::ZERO));
         let basis = match (camera_basis(eye, center, up * pixel), self.up) {
             (Err(BasisFault::Parallel), None) => camera_basis(eye, center, fallback_up(center - eye, up * pixel)),
             (basis, _) => basis,
@@ -169,13 +169,14 @@ impl Camera {
     /// From the eye to the plane of the image.
     fn distance(&self) -> f64 {
         let [eye, center, right, up] = [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
-        (center - eye).dot(right.cross(up).normalize_or_zero()).abs()
+        let [right, up] = [right, up].map(|step| unit_scale(step).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        (center - eye).dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO)).abs()
     }
 
     /// Opens to an angle from bottom to top, in radians, in its place.
     pub fn open(&mut self, yfov: f64) {
         let [_, height] = self.size;
-        let scale = Self::pixel(yfov, self.distance(), height) / Vec3::from_array(self.up).length();
+        let scale = Self::pixel(yfov, self.distance(), height) / length(Vec3::from_array(self.up));
         let scaled = |step: [f64; 3]| step.map(|component| component * scale);
         (self.right, self.up) = (scaled(self.right), scaled(self.up));
         self.projection = Projection::Perspective;
@@ -245,7 +246,7 @@ fn stand_lights(scene: &mut Scene) {
 fn as_point(light: &Punctual, ball: Ball) -> PointLight {
     let (position, irradiance) = match &light.emitter {
         Emitter::Sun { direction } => {
-            let direction = Vec3::from_array(*direction).normalize_or(Vec3::Y);
+            let direction = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Y);
             ((ball.center + direction * (FAR * ball.radius)).to_array(), 1.0)
         }
         Emitter::Point { position, range: _ } | Emitter::Spot { position, .. } => {

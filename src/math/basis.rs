@@ -1,6 +1,6 @@
 //! The basis of a camera from what people write: an eye, a centre and an `up`.
 
-use super::{Vec3, cross, dot, ldexp, unit_scale};
+use super::{Vec3, cross, dot, ldexp, length, unit_scale};
 
 /// The smallest angle between `up` and the view, in radians, that still says which way is up.
 const MIN_ANGLE: f64 = 1e-9;
@@ -63,8 +63,7 @@ pub fn fallback_up(gaze: Vec3, up: Vec3) -> Vec3 {
             best = candidate;
         }
     }
-    let length = unit_scale(up).map_or(1.0, |(unit, exponent)| ldexp(unit.length(), exponent));
-    best.1 * length
+    best.1 * if up == Vec3::ZERO { 1.0 } else { length(up) }
 }
 
 fn direction(v: Vec3) -> Option<Vec3> {

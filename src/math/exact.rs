@@ -2,7 +2,7 @@
 //!
 //! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps scenes far inside.
 
-use super::{Vec3, ldexp};
+use super::Vec3;
 
 /// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
 #[must_use]
@@ -82,18 +82,6 @@ pub fn dot(a: Vec3, b: Vec3) -> f64 {
     xyz + ((x_error + y_error) + xy_error + (z_error + xyz_error))
 }
 
-/// `v` times the power of two that brings its largest component into [1, 2), and the exponent taken out:
-/// `v = scaled·2^exponent`. `None` for the zero vector and for components that are not finite.
-#[must_use]
-pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
-    let largest = v.abs().max_element();
-    if !v.is_finite() || largest == 0.0 {
-        return None;
-    }
-    let exponent = libm::ilogb(largest);
-    Some((Vec3::new(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent)), exponent))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,13 +105,5 @@ mod tests {
     fn a_dot_product_survives_cancellation() {
         let a = Vec3::new(1e16, 1.0, -1e16);
         assert_eq!(dot(a, Vec3::new(1.0, 3.0, 1.0)), 3.0);
-    }
-
-    #[test]
-    fn unit_scale_reaches_subnormals_and_refuses_nothing_to_scale() {
-        let (scaled, exponent) = unit_scale(Vec3::new(0.0, 5e-324, 0.0)).unwrap();
-        assert_eq!((scaled.y, exponent), (1.0, -1074));
-        assert!(unit_scale(Vec3::ZERO).is_none());
-        assert!(unit_scale(Vec3::new(f64::NAN, 1.0, 0.0)).is_none());
     }
 }

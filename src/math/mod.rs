@@ -3,6 +3,7 @@
 //! Everything geometric is f64. `u` in comments is the unit round-off, 2⁻⁵³.
 
 mod basis;
+mod direction;
 mod double;
 mod exact;
 mod func;
@@ -11,8 +12,9 @@ mod onb;
 mod turns;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
+pub use direction::{length, unit, unit_scale};
 pub use double::Double;
-pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum, unit_scale};
+pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;

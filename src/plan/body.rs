@@ -1,7 +1,7 @@
 //! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is a convex solid.
 
 use super::space::{Flat, ROOM, Sides, Space};
-use crate::math::{Vec3, cross, unit_scale};
+use crate::math::{Vec3, cross, unit};
 use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Quad, Shape, Sphere, Torus, ValidScene};
 use std::sync::Arc;
 
@@ -118,10 +118,6 @@ pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     scene.surfaces().iter().map(|surface| Body::of(&surface.shape, &meshes)).collect()
-}
-
-fn unit(v: Vec3) -> Option<Vec3> {
-    unit_scale(v).map(|(scaled, _)| scaled.normalize())
 }
 
 /// The plane of a triangle, unless its corners are so nearly in line that rounding moves its normal.

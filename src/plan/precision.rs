@@ -3,7 +3,7 @@
 //! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors are larger.
 
 use super::Arithmetic;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use crate::valid::{Instance, Mode, Phong, Shape, Surface, ValidScene};
 
 /// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray starts on.
@@ -153,7 +153,7 @@ impl Measure {
 
 /// The point of a plane nearest to `to`.
 fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
-    let normal = normal.normalize_or_zero();
+    let normal = unit(normal).unwrap_or(Vec3::ZERO);
     to + normal * normal.dot(center - to)
 }
 

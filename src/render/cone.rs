@@ -2,11 +2,17 @@
 //!
 //! The ray is first moved to the point nearest to the cone's middle, so that the terms of the quadratic have the size of
 //! the cone; each root is then refined by one Newton step on the distance ρ − g from the side.
+//!
+//! A flat cone turns an error in the height of a point into one radius/height times as large in g. So its heights are
+//! counted along the ray from where that meets the base: then g is right to within rounding, however flat it is.
 
 use super::bounds::Bounds;
 use super::interval::{Interval, between_planes, roots};
 use super::ray::{Interaction, Ray};
 use crate::math::{Vec3, cross, difference_of_products, dot};
+
+/// A cone is flat if its radius is more than this many times its height.
+const FLAT: f64 = 1024.0;
 
 /// A cone with a cap at its base, ready to be hit.
 #[derive(Clone, Copy, Debug)]
@@ -94,9 +100,13 @@ impl Cone {
         let d = ray.direction;
         let start = ray.origin - self.base;
         let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
-        let f = start + d * nearest;
         let slope = self.radius / self.height;
-        let (above, rise) = (dot(self.axis, f), dot(self.axis, d));
+        let rise = dot(self.axis, d);
+        if slope > FLAT && rise != 0.0 {
+            return self.crossing_flat(start, d, nearest, slope * rise);
+        }
+        let f = start + d * nearest;
+        let above = dot(self.axis, f);
         let profile = Profile {
             w: cross(f, self.axis),
             x: cross(d, self.axis),
@@ -106,6 +116,25 @@ impl Cone {
         let inside = profile.inside()?.map(|t| t + nearest);
         let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
         inside.and(ends)?.first_in_front()
+    }
+
+    /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its base.
+    fn crossing_flat(&self, start: Vec3, d: Vec3, nearest: f64, tau: f64) -> Option<(f64, Part)> {
+        let x = cross(d, self.axis);
+        let at_base = -dot(self.axis, start) / dot(self.axis, d);
+        // A ray steeper than the side is moved to the base, any other to the point nearest to the middle: it is then
+        // never higher above the base than a few times the cone, if it hits that.
+        let across = x.length();
+        let moved = if tau.abs() > across { at_base } else { nearest };
+        // Steps are counted in the time that ρ or g takes to change by 1, so that neither leaves the range of f64.
+        let pace = across.max(tau.abs());
+        let (x, tau) = (x / pace, tau / pace);
+        let base = (at_base - moved) * pace;
+        let profile = Profile { w: cross(start + d * moved, self.axis), x, sigma: self.radius + tau * base, tau };
+        let (base, apex) = ((base, Part::Base), (base + self.radius / tau, Part::Apex));
+        let ends =
+            if tau > 0.0 { Interval { enter: base, leave: apex } } else { Interval { enter: apex, leave: base } };
+        profile.inside()?.and(ends)?.map(|s| moved + s / pace).first_in_front()
     }
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.

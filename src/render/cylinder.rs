@@ -6,7 +6,7 @@
 use super::bounds::Bounds;
 use super::interval::{Interval, between_planes, roots};
 use super::ray::{Interaction, Ray};
-use crate::math::{Vec3, cross, dot};
+use crate::math::{Vec3, cross, dot, unit};
 
 /// A cylinder with two caps, ready to be hit.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl Cylinder {
     /// The cylinder over the disc around `base`, `height` along `direction`, which must not be zero.
     #[must_use]
     pub fn new(base: Vec3, direction: Vec3, height: f64, radius: f64) -> Self {
-        Self { base, axis: direction.normalize(), height, radius }
+        Self { base, axis: unit(direction).unwrap_or(Vec3::Z), height, radius }
     }
 
     /// The first root above 0.

@@ -164,6 +164,8 @@ pub struct Counts {
     pub refracted: u64,
     /// Camera rays that hit something.
     pub hits: u64,
+    /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
+    pub unnumbered: u64,
 }
 
 impl Counts {
@@ -194,6 +196,7 @@ impl Counts {
             mirror: self.mirror + other.mirror,
             refracted: self.refracted + other.refracted,
             hits: self.hits + other.hits,
+            unnumbered: self.unnumbered + other.unnumbered,
         }
     }
 }

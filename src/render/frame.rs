@@ -105,6 +105,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                         }
                     };
                     self.weightless = false;
+                    self.counts.unnumbered += u64::from(radiance.is_nan());
                     self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
                         plan.region.sight(pixel) == Sight::Uniform && first.is_some_and(|first| first != radiance)
                     });

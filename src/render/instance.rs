@@ -4,7 +4,7 @@ use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
 use super::triangle::{Shear, Triangle};
 use super::wide::Wide;
-use crate::math::{Vec3, cross};
+use crate::math::{Vec3, cross, unit};
 use crate::valid::{Column, Mesh, Shared};
 use std::sync::{Arc, OnceLock};
 
@@ -186,7 +186,7 @@ impl Instance {
             true => [1.0, 0.0, 0.0],
             false => triangle.weights(self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin),
         };
-        let unit = |normal| Vec3::from_array(normal).normalize_or_zero();
+        let unit = |normal| unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO);
         let normal = normals.map(|[a, b, c]| {
             let even = unit(a);
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];

@@ -268,7 +268,9 @@ impl<'world, S: Geometry, const F: u32> Sampling<'world> for Tracer<'world, S, F
         let [x, y, u, v] = Sequence::new(Key::new(pixel, number).child(STRAND)).point(index);
         let origin = lens_at(camera, [u, v]);
         let ray = camera_ray(origin, image_point(camera, pixel, [x, y]));
-        self.radiance(ray, Key::new(pixel, u64::from(index)).seeded(number))
+        let radiance = self.radiance(ray, Key::new(pixel, u64::from(index)).seeded(number));
+        self.counts.unnumbered += u64::from(radiance.is_nan());
+        radiance
     }
 
     fn counts(&self) -> Counts {

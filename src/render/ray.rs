@@ -18,12 +18,12 @@ pub struct Ray {
 impl Ray {
     /// The ray with a direction whose square can be computed, and what one `t` of it is worth in `t` of `self`.
     ///
-    /// Lengths within 1e±100 stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
+    /// Unit vectors stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
     #[must_use]
     #[inline]
     pub fn tamed(self) -> (Self, f64) {
         let size = self.direction.abs().max_element();
-        if (1e-100..=1e100).contains(&size) {
+        if (0.5..=1.0).contains(&size) {
             return (self, 1.0);
         }
         match unit_scale(self.direction) {

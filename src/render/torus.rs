@@ -6,8 +6,9 @@
 //! digits, so every decision is taken on it.
 
 use super::bounds::Bounds;
+use super::plane::Normal;
 use super::ray::{Interaction, Ray};
-use crate::math::{Vec3, cross, dot, ldexp};
+use crate::math::{Vec3, cross, ldexp};
 
 /// Steps of a bracketed search: bisection alone would need 60.
 const MAX_STEPS: usize = 100;
@@ -161,7 +162,7 @@ impl Torus {
     /// The torus around the line through `center` along `axis`, which must not be zero.
     #[must_use]
     pub fn new(center: Vec3, axis: Vec3, major: f64, minor: f64) -> Self {
-        Self { center, axis: axis / dot(axis, axis).sqrt(), major, minor }
+        Self { center, axis: Normal::new(axis).unit(), major, minor }
     }
 
     /// The first root above 0.

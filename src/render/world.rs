@@ -176,19 +176,21 @@ impl<S: Geometry> World<S> {
     /// is 0. Only triangles of meshes that are [`World::is_merged`] are asked about: all else lets nothing pass. The ray
     /// starts at the part of a surface given.
     pub(super) fn passing(&self, ray: &Ray, t_max: f64, from: (usize, u32), mut pass: impl FnMut(Hit) -> f64) -> f64 {
-        if self.is_blocked_apart(ray, t_max) {
+        let (ray, unit) = ray.tamed();
+        let t_max = t_max / unit;
+        if self.is_blocked_apart(&ray, t_max) {
             return 0.0;
         }
         let mut share = 1.0;
         if let Some(Merged { parts, hierarchy }) = &self.merged {
-            hierarchy.walk::<true>(ray, t_max, |item| {
+            hierarchy.walk::<true>(&ray, t_max, |item| {
                 let [surface, part] = parts[item as usize];
                 let surface = surface as usize;
                 if (surface, part) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_part(ray, part)
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
                     && t < t_max
                 {
-                    share *= pass(Hit { t, surface, part });
+                    share *= pass(Hit { t: t * unit, surface, part });
                 }
                 if share > 0.0 { t_max } else { OVER }
             });

@@ -88,7 +88,7 @@ impl Rays {
 
 impl From<Counts> for Rays {
     fn from(counts: Counts) -> Self {
-        let Counts { camera, shadow, mirror, refracted, hits: _ } = counts;
+        let Counts { camera, shadow, mirror, refracted, hits: _, unnumbered: _ } = counts;
         Self { camera, shadow, mirror, refracted }
     }
 }

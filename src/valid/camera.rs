@@ -65,8 +65,9 @@ fn at(field: Field) -> Place {
 fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
     let vector = check.vector(value, at(field))?;
     if vector.abs().max_element() < SMALLEST {
-        let finding = Diagnostic::new(&codes::CAMERA_BASIS, "the camera's pixels have no size");
-        check.report(at(field), "this step between pixels is zero", finding);
+        let what = if vector == Vec3::ZERO { "have no size" } else { "are too small to compute with" };
+        let finding = Diagnostic::new(&codes::CAMERA_BASIS, format!("the camera's pixels {what}"));
+        check.report(at(field), "this step between pixels is shorter than 1e-60", finding);
         return None;
     }
     Some(vector)

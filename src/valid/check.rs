@@ -3,7 +3,7 @@
 use crate::diag::codes::{self, Code};
 use crate::diag::{Diagnostic, Severity, Sink};
 use crate::ir::{Field, Noun, Origins, Place};
-use crate::math::{NonNegative, Positive, Vec3};
+use crate::math::{NonNegative, Positive, Vec3, unit_scale};
 use std::num::NonZeroU32;
 
 /// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay finite.
@@ -69,15 +69,16 @@ impl<'run> Check<'run> {
         found
     }
 
-    /// A direction: a vector of finite numbers other than zero.
+    /// A direction: a vector of finite numbers other than zero. Its length says nothing, so it leaves here times the power
+    /// of two that brings its largest component into [1, 2): who computes with it need not fear for its squares.
     pub(super) fn direction(&mut self, value: [f64; 3], name: &str, place: Place) -> Option<Vec3> {
         let direction = self.finite_vector(value, place)?;
-        if direction == Vec3::ZERO {
+        let scaled = unit_scale(direction).map(|(scaled, _)| scaled);
+        if scaled.is_none() {
             let finding = Diagnostic::new(&codes::ZERO_NORMAL, format!("the {name} is the zero vector"));
             self.report(place, "it has no direction", finding);
-            return None;
         }
-        Some(direction)
+        scaled
     }
 
     /// A finite number of at most 1e60 in size.

@@ -4,7 +4,7 @@ use super::check::{Check, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
-use crate::math::{NonNegative, Vec3, unit_scale};
+use crate::math::{NonNegative, Vec3, unit};
 
 /// A point light, or with a radius a soft one.
 #[derive(Clone, Copy, Debug)]
@@ -99,14 +99,14 @@ fn punctual_light(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> 
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
     let emitter = match emitter {
-        ir::Emitter::Sun { direction } => unit(*direction, at, check).map(Emitter::Sun),
+        ir::Emitter::Sun { direction } => direction_of(*direction, at, check).map(Emitter::Sun),
         ir::Emitter::Point { position, range } => {
             let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
             Some(Emitter::Point(position?, falloff?))
         }
         ir::Emitter::Spot { position, direction, inner_angle, outer_angle, range } => {
             let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
-            let (direction, cone) = (unit(*direction, at, check), cone(*inner_angle, *outer_angle, at, check));
+            let (direction, cone) = (direction_of(*direction, at, check), cone(*inner_angle, *outer_angle, at, check));
             let (inner, outer) = cone?;
             Some(Emitter::Spot { position: position?, direction: direction?, inner, outer, falloff: falloff? })
         }
@@ -114,8 +114,8 @@ fn punctual_light(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> 
     Some(Punctual { emitter: emitter?, intensity: intensity? })
 }
 
-fn unit(direction: [f64; 3], at: Place, check: &mut Check<'_>) -> Option<Vec3> {
-    check.direction(direction, "direction of a light", at).and_then(unit_scale).map(|(d, _)| d.normalize())
+fn direction_of(direction: [f64; 3], at: Place, check: &mut Check<'_>) -> Option<Vec3> {
+    check.direction(direction, "direction of a light", at).and_then(unit)
 }
 
 fn falloff(range: Option<f64>, at: Place, check: &mut Check<'_>) -> Option<Falloff> {

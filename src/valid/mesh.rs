@@ -5,7 +5,7 @@ use super::shape::has_area;
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Column, Field, Noun, Shared};
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 
 /// Triangles over one list of corners; what it says of them it shares with the scene.
 #[derive(Clone, Debug, Default)]
@@ -38,7 +38,7 @@ impl Mesh {
     #[must_use]
     #[inline]
     pub fn normal(&self, corner: u32) -> Vec3 {
-        Vec3::from_array(self.normals.at(corner as usize)).normalize_or_zero()
+        unit(Vec3::from_array(self.normals.at(corner as usize))).unwrap_or(Vec3::ZERO)
     }
 }
 

@@ -4,7 +4,7 @@ use super::check::{Check, Counts, SMALLEST, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
-use crate::math::{Positive, U, Vec3, cross, unit_scale};
+use crate::math::{Positive, U, Vec3, cross, unit, unit_scale};
 
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ pub struct Sphere {
 pub struct Plane {
     /// A point of it.
     pub center: Vec3,
-    /// Its normal, of any length but 0.
+    /// Its normal, with its largest component in [1, 2).
     pub normal: Vec3,
 }
 
@@ -93,7 +93,7 @@ impl Quad {
 pub struct Disc {
     /// Its centre.
     pub center: Vec3,
-    /// Its normal, of any length but 0.
+    /// Its normal, with its largest component in [1, 2).
     pub normal: Vec3,
     /// Its radius.
     pub radius: Positive,
@@ -104,7 +104,7 @@ pub struct Disc {
 pub struct Cylinder {
     /// The centre of its base.
     pub base: Vec3,
-    /// The direction to the top, of any length but 0.
+    /// The direction to the top, with its largest component in [1, 2).
     pub axis: Vec3,
     /// From base to top.
     pub height: Positive,
@@ -128,7 +128,7 @@ pub struct Cone {
 pub struct Torus {
     /// Its centre.
     pub center: Vec3,
-    /// The direction of its axis, of any length but 0.
+    /// The direction of its axis, with its largest component in [1, 2).
     pub axis: Vec3,
     /// From the centre to the middle of the tube.
     pub major: Positive,
@@ -288,7 +288,7 @@ impl Proof<'_, '_> {
         let mesh = self.check.handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
         let columns = world_from_object.map(|column| self.point(column, Field::InstanceTransform));
         let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
-        let axes = [0, 1, 2].map(|k| unit_scale(columns[k]).map_or(Vec3::ZERO, |(axis, _)| axis.normalize()));
+        let axes = [0, 1, 2].map(|k| unit(columns[k]).unwrap_or(Vec3::ZERO));
         let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
         let smallest = columns[..3].iter().map(|axis| axis.abs().max_element()).fold(f64::INFINITY, f64::min);
         if volume < 1e-9 || smallest < SMALLEST {

@@ -8,6 +8,7 @@
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
 mod looks;
+mod numbers;
 mod reports;
 mod stage;
 

@@ -15,4 +15,12 @@ super::codes! { RD:
          surface that glows enough to light the others (labels and eyes do not), it is shown in the studio: three soft \
          boxes in a dim room, the brightest from the left and above. `--env`, `--env-color` and `--sun` give other light; \
          `--env-color 0,0,0` is darkness.";
+    BEYOND_FLOAT = "RD004", Warning, "an EXR can't hold values of the picture",
+        "An EXR holds 32-bit floats, at most 3.4e38 in size. A channel has larger values, as the distances of a scene may \
+         be; the file has the largest float in their place, so that no reader meets an infinity. Make the scene smaller: \
+         a scene times a factor makes the same picture.";
+    UNNUMBERED = "RD005", Warning, "pixels of the picture came out as no number",
+        "Sums and products of the render left the range of its numbers, and infinity less infinity is no number. The \
+         file has 0 there: black. With `--arithmetic f32` squares of lengths beyond 1e19 do that, so leave the option \
+         out; else colours and coefficients are so large that light which is mirrored again and again grows without end.";
 }

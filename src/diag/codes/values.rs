@@ -35,8 +35,8 @@ super::codes! { VA:
         "With shadows on, the sphere hides the light from all that is outside. That may be meant, as for a lamp seen \
          from within, but most often the lamp should stand beside its glass.";
     CAMERA_BASIS = "VA012", Error, "the steps between the camera's pixels are no basis",
-        "The IR camera has two steps, `right` and `up`, from a pixel to its neighbours. Neither may be zero, and they \
-         must be at a right angle to within 1e-9.";
+        "A camera of the IR, and one of a scene with the key `right`, has two steps, `right` and `up`, from a pixel to \
+         its neighbours. Neither may be shorter than 1e-60, and they must be at a right angle to within 1e-9.";
     EYE_IN_IMAGE_PLANE = "VA013", Error, "the eye lies in the image plane",
         "Rays go from the eye through the points of the image plane. An eye inside that plane sees the image edge-on, \
          and every ray would run inside the plane.";

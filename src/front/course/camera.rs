@@ -7,7 +7,7 @@ use super::record::{Found, keys, record};
 use super::value::{Point, Size, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
-use crate::math::{BasisFault, Vec3, camera_basis, fallback_up};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use crate::source::Span;
 
 record! {
@@ -19,6 +19,9 @@ record! {
         center: Spanned<Point>, required, keys!["center"];
         /// The upward direction; its length is the size of a pixel in the plane through `center`.
         up: Spanned<Vector>, required, keys!["up"];
+        /// The step from a pixel to its right neighbour; then `up`, at a right angle to it, is the step to the upper one as
+        /// it stands, and the image need not face the eye. Without it pixels are square.
+        right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
         view_size: Spanned<Size>, required, keys!["viewSize"];
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
@@ -50,14 +53,14 @@ pub(super) fn placeholder() -> ir::Camera {
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
-        let Camera { eye, center, up, view_size, fov, aperture_radius, aperture_samples } = &camera.value;
+        let Camera { eye, center, up, right: step, view_size, fov, aperture_radius, aperture_samples } = &camera.value;
         let opening = opening(fov, up, context);
         let basis = basis(&camera.value, context);
         for (field, span) in [
             (Field::Whole, camera.span),
             (Field::Eye, eye.span),
             (Field::Center, center.span),
-            (Field::Right, up.span),
+            (Field::Right, if let Found::Read(step) = step { step.span } else { up.span }),
             (Field::Up, up.span),
             (Field::Size, view_size.span),
             (Field::LensRadius, aperture_radius.span),
@@ -86,6 +89,7 @@ impl Lowering {
             eye: *eye,
             center: *center,
             up: up.map(|point| Vector(point.0)),
+            right: Found::Absent,
             view_size: Spanned::unwritten(Size([OLD_SIDE, OLD_SIDE])),
             fov: Found::Absent,
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
@@ -107,7 +111,7 @@ impl Lowering {
 /// The angle that the image spans, in radians, if that is given.
 fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
     let Found::Read(Spanned { value: Opening(degrees), span: Some(span) }) = *fov else { return None };
-    let length = Vec3::from_array(up.value.0).length();
+    let length = length(Vec3::from_array(up.value.0));
     if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
         context.report(&codes::NO_EFFECT, place, message, |d| {
@@ -121,10 +125,15 @@ fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Co
 
 /// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
 fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
-    let Camera { eye, center, up, fov, .. } = camera;
+    let Camera { eye, center, up, right, fov, .. } = camera;
+    match right {
+        Found::Read(right) => return Some((Vec3::from_array(right.value.0), Vec3::from_array(up.value.0))),
+        Found::Broken => return None,
+        Found::Absent => {}
+    }
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     if !fov.is_absent() {
-        upward = upward.normalize_or_zero();
+        upward = unit(upward).unwrap_or(Vec3::ZERO);
     }
     match camera_basis(from, to, upward) {
         Ok(basis) => Some(basis),

@@ -12,7 +12,7 @@ use super::triangle::CORNERS;
 use super::value::{Point, Text, Vector, word, word_schema};
 use crate::diag::codes;
 use crate::ir::{self, Field};
-use crate::math::Vec3;
+use crate::math::{Vec3, unit, unit_scale};
 use serde_json::Value as Json;
 
 record! {
@@ -154,7 +154,7 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         (_, Found::Read(position), .., Found::Read([up, side])) => {
             let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
             let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
-            let normal = side_vector.cross(up_vector).to_array();
+            let normal = across(side_vector, up_vector);
             Some((position.map(|point| point.0), Spanned { value: normal, span }))
         }
         _ => None,
@@ -164,12 +164,19 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
 fn through(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
     let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
     let span = corners[0].span.zip(corners[2].span).map(|(first, last)| first.to(last));
-    let normal = (b - a).cross(c - a).to_array();
+    let normal = across(b - a, c - a);
     (corners[0].map(|point| point.0), Spanned { value: normal, span })
+}
+
+/// The direction at right angles to two, in a right-handed way; zero if they are in line. Powers of two are taken out of
+/// both, so that no product leaves the range of f64.
+fn across(first: Vec3, second: Vec3) -> [f64; 3] {
+    let [first, second] = [first, second].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+    first.cross(second).to_array()
 }
 
 fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
     // A normal of length 0 is left for the proof to refuse.
-    let direction = Vec3::from_array(normal.value.0).normalize_or_zero();
+    let direction = unit(Vec3::from_array(normal.value.0)).unwrap_or(Vec3::ZERO);
     (distance.map(|distance| (direction * distance.0).to_array()), normal.map(|vector| vector.0))
 }

@@ -10,7 +10,7 @@ use super::triangle::{CORNERS, VERTICES};
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir;
-use crate::math::{Vec3, cos, sin};
+use crate::math::{Vec3, cos, sin, unit_scale};
 use crate::source::Span;
 
 record! {
@@ -113,7 +113,8 @@ impl Lowering {
 
     /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
     fn solid(&mut self, clothes: &Clothes, solid: &Solid<'_>, span: Option<Span>, context: &mut Context<'_>) {
-        let [x, y, z] = solid.edges;
+        // Only the sign counts, and that of tiny edges must not vanish.
+        let [x, y, z] = solid.edges.map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         let volume = x.cross(y).dot(z);
         if volume == 0.0 {
             span.into_iter().for_each(|span| flat(solid.word, span, context));

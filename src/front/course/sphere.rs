@@ -10,7 +10,7 @@ use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir::{self, Field};
-use crate::math::{Vec3, atan2, cos, sin, unit_scale};
+use crate::math::{Vec3, atan2, cos, sin, unit};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -99,8 +99,7 @@ fn texture_axis(radius: &Spanned<Radius>, axis: &Found<Spanned<Vector>>, context
         (Found::Absent | Found::Broken, Some(axis)) => axis,
         (Found::Absent | Found::Broken, None) => return Vec3::Z,
     };
-    let direction = unit_scale(Vec3::from_array(chosen.value.0)).map(|(axis, _)| axis.normalize());
-    direction.unwrap_or_else(|| {
+    unit(Vec3::from_array(chosen.value.0)).unwrap_or_else(|| {
         no_effect(chosen, "the axis has no direction, so the texture is turned about [0, 0, 1]");
         Vec3::Z
     })
@@ -118,10 +117,10 @@ pub(super) fn texture_from_world(axis: Vec3, angle: f64) -> Option<[[f64; 3]; 3]
     (rows != Vec3::AXES).then(|| rows.map(|row| row.to_array()))
 }
 
-/// The axis and the angle in degrees of a rotation that [`texture_from_world`] gives, up to rounding.
+/// The axis, a unit vector, of a rotation that [`texture_from_world`] gives, and up to rounding the angle in degrees.
 pub(super) fn axis_and_angle(rows: [[f64; 3]; 3]) -> (Vec3, f64) {
     let [row, _, axis] = rows.map(Vec3::from_array);
-    let [x, y, _] = shortest_to_z(axis.normalize());
+    let [x, y, _] = shortest_to_z(axis);
     (axis, atan2(row.dot(y), row.dot(x)).to_degrees())
 }
 
@@ -172,7 +171,7 @@ mod tests {
                 assert!(apply(rows, axis).distance(Vec3::Z) < 4e-16, "{axis} {rows:?}");
                 let [x, y, z] = rows.map(Vec3::from_array);
                 assert!(x.cross(y).distance(z) < 1e-15 && (x.length() - 1.0).abs() < 1e-15, "{axis} {rows:?}");
-                let back = texture_from_world(axis_and_angle(rows).0.normalize(), axis_and_angle(rows).1).unwrap();
+                let back = texture_from_world(axis_and_angle(rows).0, axis_and_angle(rows).1).unwrap();
                 let far = (0..3).map(|k| Vec3::from_array(back[k]).distance(Vec3::from_array(rows[k])));
                 assert!(far.fold(0.0, f64::max) < 2e-15, "{axis} {angle}");
             }

@@ -6,6 +6,7 @@ use super::json::{NodeId, Tree};
 use super::mesh::Mesh;
 use super::report::Report;
 use crate::diag::codes;
+use crate::math::unit;
 
 /// How far a rotation may be from length 1.
 const UNIT: f64 = 0.007_69;
@@ -183,7 +184,7 @@ fn columns(matrix: &[f64; 16]) -> [glam::DVec3; 3] {
 
 /// True if a matrix is affine and keeps space three-dimensional.
 fn is_invertible(matrix: &[f64; 16]) -> bool {
-    let [x, y, z] = columns(matrix);
+    let [x, y, z] = columns(matrix).map(|column| unit(column).unwrap_or_default());
     let last_row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
     last_row.iter().all(|part| *part == 0.0) && x.cross(y).dot(z) != 0.0
 }
@@ -191,7 +192,7 @@ fn is_invertible(matrix: &[f64; 16]) -> bool {
 /// True if the axes are not at right angles, to within what 32-bit floats and careless exporters leave.
 fn is_sheared(matrix: &[f64; 16]) -> bool {
     const RIGHT_ANGLE: f64 = 1e-3;
-    let [x, y, z] = columns(matrix).map(glam::DVec3::normalize_or_zero);
+    let [x, y, z] = columns(matrix).map(|column| unit(column).unwrap_or_default());
     [x.dot(y), y.dot(z), z.dot(x)].iter().any(|cosine| cosine.abs() > RIGHT_ANGLE)
 }
 

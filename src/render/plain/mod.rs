@@ -24,7 +24,7 @@ use super::instance::{Asked, Details, PreparedMesh};
 use super::ray::{Interaction, Ray};
 use super::shape::Shape;
 use super::triangle::Shear;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use crate::valid;
 use line::Line;
 use real::Vector;
@@ -67,10 +67,10 @@ impl<R: Real> Form<R> {
                 Self::Quad(Box::new(quad::Quad::new(twin, shape.vertices)))
             }
             (valid::Shape::Disc(valid::Disc { center, normal, radius }), _) => {
-                Self::Disc(plane::Disc::new(*center, normal.normalize(), radius.get()))
+                Self::Disc(plane::Disc::new(*center, unit(*normal)?, radius.get()))
             }
             (valid::Shape::Cylinder(valid::Cylinder { base, axis, height, radius }), _) => {
-                let cylinder = cylinder::Cylinder::new(*base, axis.normalize(), height.get(), radius.get());
+                let cylinder = cylinder::Cylinder::new(*base, unit(*axis)?, height.get(), radius.get());
                 Self::Cylinder(Box::new(cylinder))
             }
             (valid::Shape::Cone(valid::Cone { base, up, radius }), _) => {
@@ -78,7 +78,7 @@ impl<R: Real> Form<R> {
             }
             (valid::Shape::Torus(valid::Torus { center, axis, major, minor }), _) => Self::Torus(torus::Torus {
                 center: Vector::of(*center),
-                axis: Vector::of(axis.normalize()),
+                axis: Vector::of(unit(*axis)?),
                 major: R::of(major.get()),
                 minor: R::of(minor.get()),
             }),

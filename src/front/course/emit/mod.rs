@@ -7,14 +7,12 @@ mod shape;
 
 use super::settings::PATTERNS;
 use crate::ir::{Gooch, Light, MaterialId, Mode, Path, Pattern, Projection, Scene, Settings, Surface};
-use camera::camera_up;
 use std::fmt::Write as _;
 
 /// Writes the scene in the canonical spelling with a `Camera`.
 ///
-/// Lowering the text gives the scene again, without materials that no surface has; a material that several surfaces
-/// share becomes an anchor with aliases, images and meshes are written as the names of their files. The camera comes
-/// back to the last bit if an axis was its `up`, else at least up to rounding, as do textures turned on their spheres.
+/// Lowering the text gives the scene again, to the last bit, without materials that no surface has; a material that
+/// several surfaces share becomes an anchor with aliases, images and meshes are written as the names of their files.
 ///
 /// # Errors
 /// The reason, in words, why the scene can't be said in this format.
@@ -25,7 +23,7 @@ pub fn emit(scene: &Scene) -> Result<String, String> {
         return Err("the scene has an orthographic camera, which this format has not".to_owned());
     }
     let mut text = Text::default();
-    text.camera(camera, camera_up(camera)?);
+    text.camera(camera);
     text.settings(settings, lights)?;
     if let Some(environment) = environment {
         text.environment(environment, images)?;

@@ -4,12 +4,12 @@ use super::material::file_name;
 use super::{Text, number, triple};
 use crate::front::course::sphere::{axis_and_angle, texture_from_world};
 use crate::ir::{Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle};
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 
 impl Text {
     pub(super) fn shape(&mut self, shape: &Shape, scene: &Scene) -> Result<(), String> {
         match shape {
-            Shape::Sphere(sphere) => self.sphere(sphere),
+            Shape::Sphere(sphere) => self.sphere(sphere)?,
             Shape::Plane(Plane { center, normal }) => {
                 self.kind("plane");
                 self.vectors(&[("position", center), ("normal", normal)]);
@@ -54,14 +54,20 @@ impl Text {
         pairs.iter().for_each(|(key, value)| self.numbers(key, value, 4));
     }
 
-    fn sphere(&mut self, Sphere { center, radius, texture_from_world: turn }: &Sphere) {
+    fn sphere(&mut self, Sphere { center, radius, texture_from_world: turn }: &Sphere) -> Result<(), String> {
         self.kind("sphere");
         self.numbers("position", center, 4);
-        let Some(turn) = turn else { return self.number("radius", *radius, 4) };
-        let (axis, angle) = turn_of(*turn);
+        let Some(turn) = turn else {
+            self.number("radius", *radius, 4);
+            return Ok(());
+        };
+        let turn =
+            turn_of(*turn).ok_or("the texture of a sphere is turned as no axis and angle say to the last bit")?;
+        let (axis, angle) = turn;
         self.finite &= [*radius, angle].iter().chain(&axis).all(|number| number.is_finite());
         self.line(4, &format!("radius: [{}, {}]", number(*radius), triple(axis)));
         self.number("angle", angle, 4);
+        Ok(())
     }
 
     fn triangle(&mut self, Triangle { vertices: [a, b, c], uvs }: &Triangle) {
@@ -88,11 +94,27 @@ impl Text {
     }
 }
 
-/// The axis and angle that give a rotation to the last bit if a short angle does, else up to rounding.
-fn turn_of(rows: [[f64; 3]; 3]) -> ([f64; 3], f64) {
-    let (axis, angle) = axis_and_angle(rows);
-    let rounded = |digits: usize| format!("{angle:.digits$}").parse().unwrap_or(angle);
-    let exact = |angle: &f64| texture_from_world(axis.normalize(), *angle) == Some(rows);
-    let angle = [0, 3, 9].map(rounded).into_iter().find(exact).unwrap_or(angle);
-    (axis.to_array(), angle)
+/// An axis and an angle that give a rotation to the last bit, the shorter the better; `None` if none is found, as for a
+/// rotation that no text was lowered to.
+fn turn_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
+    let (axis, nearly) = axis_and_angle(rows);
+    let turns = |angle: &f64| texture_from_world(axis, *angle) == Some(rows);
+    let digits = (0..18).map(|digits: usize| format!("{nearly:.digits$}").parse().unwrap_or(nearly));
+    // Halfway between two quarters it counts from which side the angle is written.
+    let angles = digits.chain(around(nearly, 0.0)).flat_map(|angle| [angle, angle + 360.0, angle - 360.0]);
+    let angle = angles.into_iter().find(turns)?;
+    // Any length will do, so long as it rounds to this axis.
+    let mut lengths = around(1.0, 1.0 / 4096.0);
+    let axis = lengths.find_map(|length| Some(axis * length).filter(|scaled| unit(*scaled) == Some(axis)))?;
+    Some((axis.to_array(), angle))
+}
+
+/// Numbers around one, nearest first, a share of it apart, or if that is 0 all that there are.
+fn around(middle: f64, share: f64) -> impl Iterator<Item = f64> {
+    const TRIES: usize = 1 << 11;
+    let next = move |at: &f64| Some(if share > 0.0 { at + share * middle } else { at.next_up() });
+    let before = move |at: &f64| Some(if share > 0.0 { at - share * middle } else { at.next_down() });
+    let up = std::iter::successors(Some(middle), next);
+    let down = std::iter::successors(Some(middle), before);
+    up.zip(down).take(TRIES).flat_map(|(above, below)| [above, below])
 }

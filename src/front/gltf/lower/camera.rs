@@ -5,7 +5,7 @@ use super::super::field::Fields;
 use super::super::json::NodeId;
 use super::Lowering;
 use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
-use crate::math::{Vec3, cos, sin};
+use crate::math::{Vec3, cos, sin, unit};
 use glam::DAffine3;
 
 /// The height of a picture in pixels, and its width over its height where the asset does not say.
@@ -66,12 +66,9 @@ impl Lowering<'_, '_, '_> {
 /// The camera of a projection at a place; none if the place has no volume.
 fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
     // The directions of the axes count; scale does not.
-    let z = world.z_axis.normalize_or_zero();
-    let x = (world.x_axis - z * world.x_axis.dot(z)).normalize_or_zero();
+    let z = unit(world.z_axis)?;
+    let x = unit(world.x_axis - z * world.x_axis.dot(z))?;
     let y = z.cross(x) * world.y_axis.dot(z.cross(x)).signum();
-    if z == Vec3::ZERO || x == Vec3::ZERO {
-        return None;
-    }
     let (half, kind) = match projection {
         Projection::Perspective { yfov, aspect } => {
             let tangent = sin(yfov / 2.0) / cos(yfov / 2.0);

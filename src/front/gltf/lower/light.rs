@@ -4,6 +4,7 @@ use super::super::field::Fields;
 use super::super::json::NodeId;
 use super::Lowering;
 use crate::ir::{Emitter, Field, Light, Noun, Place, Punctual};
+use crate::math::{Vec3, unit};
 use glam::DAffine3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -13,14 +14,12 @@ impl Lowering<'_, '_, '_> {
         let fields = Fields::new(self.report.json, light);
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
-        let backward = world.z_axis.normalize_or_zero();
+        let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
-            Some("directional") if backward != crate::math::Vec3::ZERO => {
-                Emitter::Sun { direction: backward.to_array() }
-            }
+            Some("directional") if backward != Vec3::ZERO => Emitter::Sun { direction: backward.to_array() },
             Some("point") => Emitter::Point { position, range },
-            Some("spot") if backward != crate::math::Vec3::ZERO => {
+            Some("spot") if backward != Vec3::ZERO => {
                 let angle = |key, default| fields.object("spot").map_or(default, |spot| spot.number_or(key, default));
                 let outer_angle: f64 = angle("outerConeAngle", FRAC_PI_4);
                 let outer_angle = outer_angle.min(FRAC_PI_2);

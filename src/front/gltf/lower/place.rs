@@ -3,7 +3,7 @@
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::pose::Pose;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 use glam::{DAffine3, DQuat};
 
 /// The world transformation of each node; of one in a loop, its own.
@@ -82,7 +82,7 @@ pub(super) fn compose(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]
 /// True if a place keeps a volume, by far more than the IR asks.
 pub(super) fn has_volume(world: DAffine3) -> bool {
     let axes = [world.x_axis, world.y_axis, world.z_axis];
-    let [x, y, z] = axes.map(|axis| axis.normalize_or_zero());
+    let [x, y, z] = axes.map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
     let is_sound = axes.iter().all(|axis| axis.is_finite() && axis.abs().max_element() > f64::MIN_POSITIVE);
     is_sound && x.dot(y.cross(z)).abs() >= 1e-9
 }
