@@ -103,7 +103,7 @@ impl Input {
         let bytes = bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
         // Where the file lies is no part of the scene.
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let picture = assets::environment(&file, &bytes);
+        let picture = assets::environment(&file, &bytes, self.map.budget());
         Ok(picture.map_err(|fault| self.push(assets::refusal(&fault, &name))).map(Surroundings::Picture).ok())
     }
 

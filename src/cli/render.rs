@@ -268,7 +268,9 @@ impl Plan {
             let finding = Diagnostic::new(&codes::UNNUMBERED, format!("pixels that are no number: {unnumbered}"));
             let advice = match self.arithmetic {
                 plan::Arithmetic::Robust => "colours or coefficients are too large".to_owned(),
-                coarse => format!("leave out `--arithmetic {}`", coarse.name()),
+                coarse @ (plan::Arithmetic::Plain | plan::Arithmetic::F32) => {
+                    format!("leave out `--arithmetic {}`", coarse.name())
+                }
             };
             finding.hint(format!("they are black in the file; {advice}"))
         });

@@ -1,8 +1,10 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language, and one for the files they name.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language, one for the files they name, and
+//! what decodes pictures within the budget for all of them.
 
 pub mod assets;
 pub mod course;
 pub mod gltf;
+pub mod pixels;
 
 use crate::ir::{ImageId, MeshId};
 use crate::source::Span;

@@ -8,9 +8,9 @@ mod png;
 mod radiance;
 mod range;
 
-pub use decode::{DecodeError, MAX_PIXELS, Pixels, decode, decode_with_alpha, is_picture};
+pub use decode::{Cost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use look::{Association, Backdrop, Look};
-pub use radiance::{Radiance, decode_radiance, is_radiance};
+pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 
 use std::fmt;

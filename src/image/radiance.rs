@@ -1,15 +1,16 @@
-//! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. Nothing is allocated before
-//! the size of the picture is known to be within limits.
+//! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. A file is opened first, as a
+//! [`super::PixelFile`] is.
 
-use super::DecodeError;
+use super::decode::{Cost, DecodeError, Size};
 use ::exr::meta::MetaData;
+use ::exr::meta::header::Header;
 use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
+use ::image::ImageDecoder;
 use ::image::codecs::hdr::HdrDecoder;
-use ::image::{DynamicImage, ImageDecoder};
 use std::io::Cursor;
 
-/// The most pixels of such a picture: 8192 × 4096.
-const MAX_PIXELS: u64 = 1 << 25;
+/// Bytes of a pixel.
+const PIXEL: usize = 12;
 
 /// A picture of linear values.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,35 +19,72 @@ pub struct Radiance {
     pub width: u32,
     /// Height in pixels, at least 1.
     pub height: u32,
-    /// Rows from the top; red, green, blue, finite and at least 0.
-    pub pixels: Vec<[f32; 3]>,
+    /// Rows from the top; red, green and blue as little-endian 32-bit floats, finite and at least 0.
+    pub bytes: Vec<u8>,
 }
 
-/// Decodes a Radiance HDR or OpenEXR file; of an EXR the first layer with red, green and blue. Negative values, which
-/// filters leave behind, become 0.
-///
-/// # Errors
-/// If the bytes are no such file, damaged, hold a value that is not finite, or ask for too much.
-pub fn decode_radiance(bytes: &[u8]) -> Result<Radiance, DecodeError> {
-    let mut radiance = match (is_exr(bytes), is_hdr(bytes)) {
-        (true, _) => exr(bytes)?,
-        (false, true) => hdr(bytes)?,
-        (false, false) => {
-            let format = ::image::guess_format(bytes).ok();
-            return Err(DecodeError::Format(format.map(|format| format.to_mime_type().trim_start_matches("image/"))));
+/// A picture of light of which the header was read.
+pub struct RadianceFile<'a> {
+    size: Size,
+    /// Bytes that the decoder takes for what it has read and not yet handed on.
+    block: u64,
+    decoder: Decoder<'a>,
+}
+
+enum Decoder<'a> {
+    Hdr(HdrDecoder<Cursor<&'a [u8]>>),
+    Exr(&'a [u8]),
+}
+
+impl<'a> RadianceFile<'a> {
+    /// Reads the header of a Radiance HDR or OpenEXR file.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
+    pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
+        match (is_exr(bytes), is_hdr(bytes)) {
+            (true, _) => open_exr(bytes, most_pixels),
+            (false, true) => open_hdr(bytes, most_pixels),
+            (false, false) => {
+                let format = ::image::guess_format(bytes).ok();
+                let name = format.map(|format| format.to_mime_type().trim_start_matches("image/"));
+                Err(DecodeError::Format(name))
+            }
         }
-    };
-    if radiance.pixels.is_empty() {
-        return Err(DecodeError::Damaged("it has no pixels".to_owned()));
     }
-    if !radiance.pixels.as_flattened().iter().all(|channel| channel.is_finite()) {
-        return Err(DecodeError::Damaged("a pixel is not finite".to_owned()));
+
+    /// What decoding it will take, and the table by which its light is found: eight bytes a pixel.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        let pixels = self.size.pixels();
+        Cost { pixels, memory: pixels.saturating_mul(PIXEL as u64 + 8), passing: self.block }
     }
-    radiance.pixels.as_flattened_mut().iter_mut().for_each(|channel| *channel = channel.max(0.0));
-    Ok(radiance)
+
+    /// Decodes it; of an EXR the first layer with red, green and blue. Negative values, which filters leave behind, become 0.
+    ///
+    /// # Errors
+    /// If the file is damaged or holds a value that is not finite, or there is no memory for it.
+    pub fn decode(self) -> Result<Radiance, DecodeError> {
+        let Self { mut size, block: _, decoder } = self;
+        let mut bytes = size.buffer(PIXEL)?;
+        match decoder {
+            Decoder::Hdr(decoder) => decoder.read_image(&mut bytes).map_err(DecodeError::damaged)?,
+            Decoder::Exr(file) => (size, bytes) = decode_exr(file, bytes)?,
+        }
+        let mut is_finite = true;
+        for channel in bytes.as_chunks_mut::<4>().0 {
+            let value = f32::from_ne_bytes(*channel);
+            is_finite &= value.is_finite();
+            *channel = value.max(0.0).to_le_bytes();
+        }
+        if !is_finite {
+            return Err(DecodeError::Damaged("a pixel is not finite".to_owned()));
+        }
+        Ok(Radiance { width: size.width, height: size.height, bytes })
+    }
 }
 
-/// Whether a file that begins so is one that [`decode_radiance`] reads.
+/// Whether a file that begins so is one that [`RadianceFile`] reads.
 #[must_use]
 pub fn is_radiance(head: &[u8]) -> bool {
     is_exr(head) || is_hdr(head)
@@ -60,47 +98,63 @@ fn is_hdr(head: &[u8]) -> bool {
     head.starts_with(b"#?RADIANCE") || head.starts_with(b"#?RGBE")
 }
 
-fn hdr(bytes: &[u8]) -> Result<Radiance, DecodeError> {
-    let damaged = |error: ::image::ImageError| DecodeError::Damaged(error.to_string());
+fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
     // Only files that begin so pass the strict reader; the others differ in nothing else.
     let is_strict = bytes.starts_with(b"#?RADIANCE");
-    let decoder = HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(damaged)?;
+    let decoder = HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
-    within(width, height)?;
-    let pixels = DynamicImage::from_decoder(decoder).map_err(damaged)?.into_rgb32f().into_raw();
-    Ok(Radiance { width, height, pixels: pixels.as_chunks().0.to_vec() })
+    let size = Size::within(most_pixels, width, height)?;
+    Ok(RadianceFile { size, block: u64::from(width) * 4, decoder: Decoder::Hdr(decoder) })
 }
 
-fn exr(bytes: &[u8]) -> Result<Radiance, DecodeError> {
-    let damaged = |error: ::exr::error::Error| DecodeError::Damaged(error.to_string());
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(damaged)?;
-    let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(DecodeError::damaged)?;
+    let (mut largest, mut block) = (None::<Size>, 0);
     for header in &meta.headers {
-        within(side(header.layer_size.width()), side(header.layer_size.height()))?;
+        let size = size_of(most_pixels, header.layer_size)?;
+        largest = largest.filter(|largest| largest.pixels() >= size.pixels()).or(Some(size));
+        block += passing(header);
     }
+    let size = largest.ok_or_else(|| DecodeError::Damaged("it has no layers".to_owned()))?;
+    Ok(RadianceFile { size, block, decoder: Decoder::Exr(bytes) })
+}
+
+/// The table of the blocks of a layer, and a block packed and unpacked.
+fn passing(header: &Header) -> u64 {
+    (header.chunk_count as u64)
+        .saturating_mul(16)
+        .saturating_add((header.max_block_byte_size() as u64).saturating_mul(3))
+}
+
+/// Decodes into the buffer, which has room for the largest layer, and says of what size the layer is that was decoded.
+fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(Size, Vec<u8>), DecodeError> {
+    let buffer = std::cell::Cell::new(buffer);
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
-            |size, _| Radiance {
-                width: side(size.width()),
-                height: side(size.height()),
-                pixels: vec![[0.0; 3]; size.area()],
+            |size, _| {
+                let mut bytes = buffer.take();
+                bytes.resize(size.area() * PIXEL, 0);
+                (size.width(), bytes)
             },
-            |radiance: &mut Radiance, at: Vec2<usize>, (r, g, b): (f32, f32, f32)| {
-                radiance.pixels[at.y() * radiance.width as usize + at.x()] = [r, g, b];
+            |(width, bytes): &mut (usize, Vec<u8>), at: Vec2<usize>, (r, g, b): (f32, f32, f32)| {
+                let start = (at.y() * *width + at.x()) * PIXEL;
+                let pixel = bytes[start..start + PIXEL].as_chunks_mut::<4>().0;
+                pixel.iter_mut().zip([r, g, b]).for_each(|(bytes, channel)| *bytes = channel.to_ne_bytes());
             },
         )
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
-        .from_buffered(Cursor::new(bytes));
-    Ok(image.map_err(damaged)?.layer_data.channel_data.pixels)
+        .from_buffered(Cursor::new(file));
+    let layer = image.map_err(DecodeError::damaged)?.layer_data;
+    Ok((size_of(u64::MAX, layer.size)?, layer.channel_data.pixels.1))
 }
 
-fn within(width: u32, height: u32) -> Result<(), DecodeError> {
-    let is_within = u64::from(width) * u64::from(height) <= MAX_PIXELS;
-    is_within.then_some(()).ok_or(DecodeError::TooLarge { width, height })
+fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<Size, DecodeError> {
+    let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+    Size::within(most_pixels, side(size.width()), side(size.height()))
 }
 
 #[cfg(test)]
@@ -112,17 +166,19 @@ mod tests {
     /// Two by one pixels: (1, 0.5, 0.25) and black, in exponents of 129 and 0.
     const HDR: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x81\x00\x00\x00\x00";
 
+    fn read(bytes: &[u8]) -> Result<Radiance, DecodeError> {
+        RadianceFile::open(bytes, 1 << 25)?.decode()
+    }
+
     #[test]
     fn both_formats_are_read() {
-        let expected = Radiance { width: 2, height: 1, pixels: vec![[1.0, 0.5, 0.25], [0.0; 3]] };
-        assert_eq!(decode_radiance(HDR).unwrap(), expected);
+        let bytes = [1.0_f32, 0.5, 0.25, 0.0, 0.0, 0.0].into_iter().flat_map(f32::to_le_bytes).collect();
+        let expected = Radiance { width: 2, height: 1, bytes };
+        assert_eq!(read(HDR).unwrap(), expected);
         let named = [b"#?RGBE".as_slice(), &HDR[10..]].concat();
-        assert_eq!(decode_radiance(&named).unwrap(), expected);
+        assert_eq!(read(&named).unwrap(), expected);
         let image = Image { width: 2, height: 1, pixels: vec![[1.0, 0.5, 0.25], [-1.0, 0.0, 0.0]] };
-        assert_eq!(
-            decode_radiance(&Picture::opaque(image).encode(&Form::Exr(Origin::default())).unwrap()).unwrap(),
-            expected
-        );
+        assert_eq!(read(&Picture::opaque(image).encode(&Form::Exr(Origin::default())).unwrap()).unwrap(), expected);
     }
 
     #[test]
@@ -141,7 +197,7 @@ mod tests {
             (huge, "has 65535 × 65535 pixels"),
         ];
         for (bytes, words) in cases {
-            let fault = decode_radiance(bytes).unwrap_err().to_string();
+            let fault = read(bytes).unwrap_err().to_string();
             assert!(fault.starts_with(words), "{fault}");
         }
     }

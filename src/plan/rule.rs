@@ -102,9 +102,11 @@ impl Rule {
                  = 0, and so is the highlight, with shadows by the language or because ks is 0.",
             ),
             Self::ShadowOff => ("E-SHADOW-OFF", "The scene does not ask for shadows."),
-            Self::ShadowFacing => {
-                ("E-SHADOW-NL", "Where N·L ≤ 0 the surface stands in its own light: no shadow ray need say so.")
-            }
+            Self::ShadowFacing => (
+                "E-SHADOW-NL",
+                "Where N·L ≤ 0, with the shading or the geometric normal, the surface stands in its own light: no shadow ray \
+                 need say so.",
+            ),
             Self::ShadowUnlit => {
                 ("E-SHADOW-KM", "At a hit whose kd·C and ks are 0 a light adds nothing, hidden or not: no shadow ray.")
             }

@@ -7,6 +7,7 @@ use super::plane::Plane;
 use super::ray::{Interaction, Ray};
 use super::shape::{Shape, sphere_details, triangle_details};
 use super::sphere::Sphere;
+use super::tie;
 use super::triangle::{Shear, Triangle};
 use crate::math::Vec3;
 use crate::valid;
@@ -52,6 +53,10 @@ impl Geometry for Basic {
             Self::Triangle(triangle, _) => triangle.intersect(ray, shear),
         };
         t.map(|t| (t, 0))
+    }
+
+    fn error(&self, ray: &Ray, t: f64, part: u32) -> f64 {
+        tie::error(ray, t, &self.interaction(ray, t, part))
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _part: u32) -> Interaction {

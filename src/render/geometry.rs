@@ -26,6 +26,26 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
 
+    /// As [`Geometry::intersect`], but of roots as near as rounding can tell the one on the first part.
+    #[must_use]
+    #[inline]
+    fn nearest(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+        self.intersect(ray, shear, t_max)
+    }
+
+    /// Calls `visit` with roots above 0 and their parts: all up to `t_max` that may be the nearest.
+    fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
+        if let Some((t, part)) = self.intersect(ray, shear, t_max) {
+            visit(t, part);
+        }
+    }
+
+    /// How far rounding may have moved a root; 0 for formulas whose errors nobody has bounded.
+    #[must_use]
+    fn error(&self, _ray: &Ray, _t: f64, _part: u32) -> f64 {
+        0.0
+    }
+
     /// What is known of the point at `t`, a root on `part` of this shape.
     #[must_use]
     fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction;

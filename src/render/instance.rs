@@ -2,6 +2,7 @@
 
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
+use super::tie::{self, Nearest, Tie};
 use super::triangle::{Shear, Triangle};
 use super::wide::Wide;
 use crate::math::{Vec3, cross, unit};
@@ -133,6 +134,46 @@ impl Instance {
             best.0
         });
         (best.1 != u32::MAX).then_some(best)
+    }
+
+    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first triangle.
+    #[must_use]
+    pub(super) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let mut nearest = Nearest::up_to(t_max, u32::MAX);
+        self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                nearest.add(t, item);
+            }
+            nearest.t
+        });
+        match nearest.key {
+            u32::MAX => None,
+            _ if nearest.is_tied() => self.settle(ray, nearest.t),
+            part => Some((nearest.t, part)),
+        }
+    }
+
+    /// The first of the roots as near as one at `t`.
+    #[cold]
+    fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
+        let mut tie = Tie::new();
+        self.visit_roots(ray, t, &mut |t, part| tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part));
+        tie.first()
+    }
+
+    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little farther.
+    pub(super) fn visit_roots(&self, ray: &Ray, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let Some(hierarchy) = self.mesh.hierarchy() else { return };
+        hierarchy.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                visit(t, item);
+            }
+            t_max
+        });
     }
 
     /// The root above 0 of triangle `part`.

@@ -33,6 +33,7 @@ mod shade;
 mod shape;
 mod sphere;
 mod texture;
+mod tie;
 mod torus;
 mod triangle;
 mod verify;

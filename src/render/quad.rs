@@ -46,11 +46,8 @@ impl Quad {
         match self {
             Self::Flat { halves, .. } => {
                 let hit = |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
-                match (hit(&halves[0]), hit(&halves[1])) {
-                    (Some(first), Some(second)) if second < first => Some((second, 1)),
-                    (Some(first), _) => Some((first, 0)),
-                    (None, second) => second.map(|t| (t, 1)),
-                }
+                // Both lie in one plane: where both are hit they tie.
+                hit(&halves[0]).map(|t| (t, 0)).or_else(|| hit(&halves[1]).map(|t| (t, 1)))
             }
             Self::Patch(patch) => patch.crossing(ray).map(|(t, _)| (t, 0)),
         }

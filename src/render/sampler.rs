@@ -105,12 +105,18 @@ impl Lobe {
         self.basis.to_world(Vec3::new(sine * x, sine * y, cosine)).normalize()
     }
 
-    /// How many directions lie on the side of `normal`, as long as the count goes on.
+    /// How many directions lie on the side of both normals, as long as the count goes on.
     #[must_use]
-    pub(super) fn count_above(&self, normal: Vec3, mut goes_on: impl FnMut() -> bool) -> u32 {
-        let above = (0..self.count).take_while(|_| goes_on()).filter(|k| self.direction(*k).dot(normal) > 0.0).count();
+    pub(super) fn count_above(&self, normals: [Vec3; 2], mut goes_on: impl FnMut() -> bool) -> u32 {
+        let directions = (0..self.count).take_while(|_| goes_on()).map(|k| self.direction(k));
+        let above = directions.filter(|direction| is_above(*direction, normals)).count();
         u32::try_from(above).unwrap_or(self.count)
     }
+}
+
+/// Whether a direction lies on the side of both normals.
+pub(super) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
+    normals.into_iter().all(|normal| direction.dot(normal) > 0.0)
 }
 
 #[cfg(test)]

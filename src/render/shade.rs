@@ -46,6 +46,19 @@ struct Incidence {
 }
 
 impl View<'_> {
+    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends that.
+    pub(super) fn geometric(&self) -> Vec3 {
+        let normal = self.interaction.normal;
+        if self.to_viewer.dot(normal) < 0.0 { -normal } else { normal }
+    }
+
+    /// Whether a place is on the viewer's side of the surface itself, by the sum that decides where a ray to it starts;
+    /// where both normals are one, the shading normal says so.
+    fn is_before(&self, place: Vec3) -> bool {
+        let normal = self.geometric();
+        normal == self.normal || normal.dot(place - self.interaction.point) > 0.0
+    }
+
     /// `None` if the light stands exactly at the point: it has no direction then, and adds its ambient term only.
     fn incidence(&self, light: Vec3) -> Option<Incidence> {
         let to_light = (light - self.interaction.point).try_normalize()?;
@@ -59,7 +72,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a soft light.
     ///
     /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands between, and where
-    /// N·L ≤ 0: the surface stands in its own light.
+    /// N·L ≤ 0, with the shading or the geometric normal: the surface stands in its own light. So a closed mesh lets no
+    /// light in, whatever the normals of its corners.
     #[must_use]
     pub(super) fn phong(&mut self, view: &View<'_>) -> Vec3 {
         let world = self.world;
@@ -116,7 +130,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// Whether a surface faces a light and nothing stands between.
     fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: Hidden) -> bool {
-        let faces = n_dot_l > 0.0;
+        let faces = n_dot_l > 0.0 && (!Self::can(Features::MAPS) || view.is_before(light));
         if !faces && self.applies(Rule::ShadowFacing) {
             return false;
         }

@@ -10,6 +10,7 @@ use super::plane::Plane;
 use super::quad::Quad;
 use super::ray::{Interaction, Ray};
 use super::sphere::Sphere;
+use super::tie;
 use super::torus::Torus;
 use super::triangle::{Shear, Triangle};
 use crate::math::{Vec3, acos, atan2};
@@ -89,6 +90,27 @@ impl Geometry for Shape {
             Self::Torus(torus) => whole(torus.intersect(ray)),
             Self::Instance(instance) => instance.intersect(ray, t_max),
         }
+    }
+
+    #[inline]
+    fn nearest(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+        if let Self::Instance(instance) = self {
+            instance.nearest(ray, t_max)
+        } else {
+            self.intersect(ray, shear, t_max)
+        }
+    }
+
+    fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
+        if let Self::Instance(instance) = self {
+            instance.visit_roots(ray, t_max, visit);
+        } else if let Some((t, part)) = self.intersect(ray, shear, t_max) {
+            visit(t, part);
+        }
+    }
+
+    fn error(&self, ray: &Ray, t: f64, part: u32) -> f64 {
+        tie::error(ray, t, &self.interaction(ray, t, part))
     }
 
     fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {

@@ -7,7 +7,7 @@ use super::heartbeat::{Heartbeat, Proceed};
 use super::instance::{Asked, Details};
 use super::optics::{reflect, refract};
 use super::ray::{Interaction, Ray};
-use super::sampler::{Key, Lobe};
+use super::sampler::{Key, Lobe, is_above};
 use super::shade::View;
 use super::texture::{Frame, look_up};
 use super::world::{Hit, World};
@@ -44,7 +44,8 @@ enum Pending {
 struct Fan {
     lobe: Lobe,
     from: Interaction,
-    normal: Vec3,
+    /// The normals above which all directions lie.
+    normals: [Vec3; 2],
     next: u32,
     count: u32,
     /// The path each direction goes on with, but for its ray.
@@ -224,7 +225,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             return;
         }
         let direction = path.ray.direction;
-        let refracted = transmit(direction, view);
+        let refracted = transmit(direction, view, self.scene().settings().shadows);
         let mirror_weight = match refracted {
             Some(_) => view.ks,
             None => view.ks + view.material.kt.get(),
@@ -243,10 +244,13 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             return;
         }
         let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
-        let above = lobe.count_above(view.normal, || self.goes_on());
+        // With shadows no light comes through a surface that mirrors.
+        let geometric = if self.scene().settings().shadows { view.geometric() } else { view.normal };
+        let normals = [view.normal, geometric];
+        let above = lobe.count_above(normals, || self.goes_on());
         let ray = Ray { direction: mirror, ..path.ray };
         let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored) else { return };
-        let fan = Fan { lobe, from: view.interaction, normal: view.normal, next: 0, count: glossy_samples.get(), path };
+        let fan = Fan { lobe, from: view.interaction, normals, next: 0, count: glossy_samples.get(), path };
         self.pending.push(Pending::Lobe(Box::new(fan)));
     }
 
@@ -294,7 +298,7 @@ impl Fan {
             let k = self.next;
             self.next += 1;
             let direction = self.lobe.direction(k);
-            if direction.dot(self.normal) > 0.0 {
+            if is_above(direction, self.normals) {
                 let key = self.path.key.child(u64::from(k));
                 return Some(Path { ray: self.from.ray(direction), key, ..self.path });
             }
@@ -311,12 +315,24 @@ fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
 }
 
 /// The refracted direction, if the material lets light through and the angle does.
-fn transmit(direction: Vec3, view: &View<'_>) -> Option<Vec3> {
+///
+/// The geometric normal decides where the shading normal can't: where it is turned away from the ray, or totally reflects
+/// what its mirror then sends into the surface. With `sided` it also does where the shading normal would keep on this side
+/// of the surface what is to go through. So an eta of 1 bends no ray, whatever the shading normal.
+fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
     let Phong { kt, eta, .. } = view.material;
     if kt.get() == 0.0 {
         return None;
     }
     let enters = direction.dot(view.interaction.normal) <= 0.0;
     let (from, to) = if enters { (1.0, eta.get()) } else { (eta.get(), 1.0) };
-    refract(direction, view.normal, from, to)
+    let (shading, geometric) = (view.normal, view.geometric());
+    if direction.dot(shading) < 0.0 {
+        match refract(direction, shading, from, to) {
+            Some(refracted) if !sided || refracted.dot(geometric) < 0.0 => return Some(refracted),
+            None if reflect(direction, shading).dot(geometric) > 0.0 => return None,
+            Some(_) | None => {}
+        }
+    }
+    refract(direction, geometric, from, to)
 }

@@ -5,6 +5,7 @@ use super::geometry::Geometry;
 use super::material::Materials;
 use super::ray::Ray;
 use super::shape::Shape;
+use super::tie::{CLOSE, Nearest, Tie};
 use super::triangle::Shear;
 use super::verify::Verify;
 use super::wide::Wide;
@@ -98,7 +99,8 @@ impl<S: Geometry> World<S> {
         Self { scene, plan, materials, surfaces, verify: None, unbounded, bounded, bvh, merged }
     }
 
-    /// The nearest hit with t > 0; of several at the same t, that of the first surface. Rays that are none hit nothing.
+    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first surface and its first part.
+    /// Rays that are none hit nothing.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         self.nearest_from(ray, NOWHERE)
@@ -112,44 +114,80 @@ impl<S: Geometry> World<S> {
             return None;
         }
         let (ray, unit) = ray.tamed();
-        let mut best = self.nearest_apart(&ray);
+        let mut nearest = self.nearest_apart(&ray);
         if let Some(Merged { parts, hierarchy }) = &self.merged {
-            hierarchy.walk::<true>(&ray, best.t, |item| {
+            hierarchy.walk::<true>(&ray, nearest.t, |item| {
                 let [surface, part] = parts[item as usize];
-                let surface = surface as usize;
-                if (surface, part) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
-                    && (t < best.t || (t == best.t && (surface, part) < (best.surface, best.part)))
+                let key = (surface as usize, part);
+                if key != from
+                    && let Some(t) = self.surfaces[key.0].shape.intersect_part(&ray, part)
                 {
-                    best = Hit { t, surface, part };
+                    nearest.add(t, key);
                 }
-                best.t
+                nearest.t
             });
         }
-        (best.surface != usize::MAX).then_some(Hit { t: best.t * unit, ..best })
+        let (t, (surface, part)) = match nearest.key {
+            NOWHERE => return None,
+            _ if nearest.is_tied() => self.settle(&ray, from, nearest.t)?,
+            key => (nearest.t, key),
+        };
+        Some(Hit { t: t * unit, surface, part })
     }
 
     /// The nearest hit on what is not merged; beyond all if there is none.
-    fn nearest_apart(&self, ray: &Ray) -> Hit {
-        let mut best = Hit { t: f64::INFINITY, surface: usize::MAX, part: 0 };
+    #[inline]
+    fn nearest_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
+        let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
         if self.is_all_merged() {
-            return best;
+            return nearest;
         }
         let shear = Shear::new(ray);
         let mut visit = |surface: u32| {
             let surface = surface as usize;
-            if let Some((t, part)) = self.surfaces[surface].shape.intersect(ray, &shear, best.t)
-                && (t < best.t || (t == best.t && surface < best.surface))
-            {
-                best = Hit { t, surface, part };
+            if let Some((t, part)) = self.surfaces[surface].shape.nearest(ray, &shear, nearest.reach()) {
+                nearest.add(t, (surface, part));
             }
-            best.t
+            nearest.t
         };
         for surface in &self.unbounded {
             visit(*surface);
         }
         self.bvh.walk(ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
-        best
+        nearest
+    }
+
+    /// The first of the hits as near as one at `t`.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
+        let (mut tie, shear) = (Tie::new(), Shear::new(ray));
+        let mut add = |t: f64, surface: usize, part: u32| {
+            tie.add(t, self.surfaces[surface].shape.error(ray, t, part), (surface, part));
+        };
+        let mut visit = |surface: u32| {
+            let surface = surface as usize;
+            let shape = &self.surfaces[surface].shape;
+            shape.visit_roots(ray, &shear, t * CLOSE, &mut |t, part| add(t, surface, part));
+        };
+        self.unbounded.iter().for_each(|surface| visit(*surface));
+        self.bvh.walk(ray, t, |item, _| {
+            visit(self.bounded[item as usize]);
+            t
+        });
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
+            hierarchy.walk::<true>(ray, t, |item| {
+                let [surface, part] = parts[item as usize];
+                let surface = surface as usize;
+                if (surface, part) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(ray, part)
+                {
+                    add(t, surface, part);
+                }
+                t
+            });
+        }
+        tie.first()
     }
 
     /// Whether no surface stands apart from the triangles of meshes.

@@ -207,6 +207,16 @@ impl Budget {
         spent.map(|_| ()).map_err(|spent| Exceeded { resource, total: spent.saturating_add(amount), limit })
     }
 
+    /// Whether so much of a resource is left; nothing is charged.
+    ///
+    /// # Errors
+    /// If there is not so much left.
+    pub fn has(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
+        let limit = self.limit(resource);
+        let total = self.spent[resource as usize].load(Relaxed).saturating_add(amount);
+        if total <= limit { Ok(()) } else { Err(Exceeded { resource, total, limit }) }
+    }
+
     /// How much of a resource may be taken in all, by what was read so far.
     #[must_use]
     pub fn limit(&self, resource: Resource) -> u64 {

@@ -72,6 +72,18 @@ impl Loader {
     }
 }
 
+/// What tells a file from others, by whatever names and links it is reached.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Identity(Key);
+
+/// Device and inode.
+#[cfg(unix)]
+type Key = (u64, u64);
+
+/// The path, free of links.
+#[cfg(not(unix))]
+type Key = PathBuf;
+
 /// A regular file that was opened, and where it lies.
 #[derive(Debug)]
 pub(super) struct Opened {
@@ -101,6 +113,16 @@ impl Opened {
     /// Where it lies, free of links.
     pub(super) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// What tells it from other files; `None` if it can't be read.
+    pub(super) fn identity(&self) -> Option<Identity> {
+        let file = self.file.as_ref().ok()?;
+        #[cfg(unix)]
+        let key = key(&file.metadata().ok()?);
+        #[cfg(not(unix))]
+        let key = file.metadata().ok().map(|_| self.path.clone())?;
+        Some(Identity(key))
     }
 
     /// The first bytes, of at most 64 KiB; none if it can't be read.
@@ -136,11 +158,16 @@ fn without_waiting() -> OpenOptions {
     options
 }
 
+#[cfg(unix)]
+fn key(file: &Metadata) -> Key {
+    use std::os::unix::fs::MetadataExt;
+    (file.dev(), file.ino())
+}
+
 /// True if both are of one file, as far as the system tells.
 #[cfg(unix)]
 fn is_same(a: &Metadata, b: &Metadata) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    (a.dev(), a.ino()) == (b.dev(), b.ino())
+    key(a) == key(b)
 }
 
 #[cfg(not(unix))]
@@ -162,7 +189,8 @@ fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
 
 /// All there is to read, most likely `expected` bytes.
 fn all(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
-    let mut bytes = Vec::with_capacity(expected);
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(expected).map_err(|_| LoadError::Io(std::io::ErrorKind::OutOfMemory.into()))?;
     reader.take(limit + 1).read_to_end(&mut bytes).map_err(LoadError::Io)?;
     if bytes.len() as u64 > limit {
         return Err(LoadError::TooLarge { limit });

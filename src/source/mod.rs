@@ -6,6 +6,6 @@ mod map;
 mod search;
 
 pub use budget::{Budget, Exceeded, Limits, Resource};
-pub use loader::{LoadError, Loader};
+pub use loader::{Identity, LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
 pub use search::{Folder, Found, Kind, Missing, Search};

@@ -5,7 +5,7 @@
 //! it is judged, and only regular files are found. The parent is not the scene's own: what it lends is shown by its name
 //! and its first bytes to be what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
 
-use super::loader::Opened;
+use super::loader::{Identity, Opened};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
@@ -108,6 +108,12 @@ impl Found {
     #[must_use]
     pub fn folder(&self) -> Option<Folder> {
         Some(Folder::named(self.path.parent()?, self.shown.parent().map(Path::to_owned)))
+    }
+
+    /// What tells it from other files; `None` if it can't be read.
+    #[must_use]
+    pub fn identity(&self) -> Option<Identity> {
+        self.opened.identity()
     }
 
     pub(super) fn opened(&self) -> &Opened {

@@ -76,3 +76,19 @@ fn only_bump_maps_that_hold_normals_become_normal_maps() {
         assert_eq!(outcome.findings.starts_with("RE008 note"), becomes, "{}", outcome.findings);
     }
 }
+
+#[test]
+fn a_jpeg_that_ends_early_is_damaged_and_one_that_came_in_scans_is_not() {
+    let noise = image::GrayImage::from_fn(64, 64, |x, y| image::Luma([(x * 37 + y * 101) as u8]));
+    let whole = encoded(&DynamicImage::from(noise), ImageFormat::Jpeg);
+    for length in [whole.len() / 2, whole.len() - 30, whole.len() - 2] {
+        let findings = picture(&whole[..length]).findings;
+        assert!(findings.starts_with("RE004 error") && findings.contains("is damaged: "), "{length}: {findings}");
+    }
+    // What follows the picture is none of it.
+    let more = [whole.as_slice(), b"\xff\xd8 more"].concat();
+    assert_eq!(pixels(&picture(&more)), pixels(&picture(&whole)));
+    // A thumbnail in a segment ends the thumbnail alone.
+    let thumbnail = [&whole[..2], b"\xff\xe1\x00\x06\xff\xd8\xff\xd9", &whole[2..whole.len() - 2]].concat();
+    assert!(picture(&thumbnail).findings.contains("is damaged: it ends before its last pixel"));
+}

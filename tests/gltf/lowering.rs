@@ -2,7 +2,7 @@
 
 use super::make;
 use rtc::codec::{self, Form};
-use rtc::diag::{Severity, Sink};
+use rtc::diag::{Diagnostic, Severity, Sink};
 use rtc::front;
 use rtc::ir::{Environment, Lowered, Mesh, Origins, Overrides, Scene, Shape};
 use rtc::math::Vec3;
@@ -11,14 +11,15 @@ use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
 use rtc::source::SourceMap;
 
-/// The scene that an asset shows; every asset here is sound.
+/// The scene that an asset shows; every asset here is sound, and some have lines or no tangents.
 fn lower(bytes: Vec<u8>, front: front::Options) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("made.gltf", bytes);
     let options = Options { front, ..Options::default() };
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proven = lowered.as_ref().and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
-    assert!(proven.is_some() && sink.kept().iter().all(|finding| finding.severity == Severity::Note), "{sink:#?}");
+    let is_small = |finding: &Diagnostic| finding.severity == Severity::Note || finding.code.id == "GL034";
+    assert!(proven.is_some() && sink.kept().iter().all(is_small), "{sink:#?}");
     lowered.unwrap().scene
 }
 

@@ -114,3 +114,41 @@ fn a_ray_behind_a_veil_is_still_one_of_the_camera() {
     });
     assert_eq!(mean(&render(&scene)), GREEN);
 }
+
+/// The inside of an octahedron with the normals of a ball, or others, under lights and a sky outside: no path takes light
+/// from the side of a face where it does not go on.
+#[test]
+fn no_light_enters_a_closed_smooth_mesh() {
+    let corners =
+        [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let triangles: Vec<[u32; 3]> =
+        vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+    let tilted =
+        [[1.0, 0.8, 0.0], [-1.0, 0.5, 0.9], [0.7, 1.0, 0.0], [0.0, -1.0, 0.9], [0.9, 0.0, 1.0], [0.6, 0.7, -1.0]];
+    let mirror = Standard { roughness: 0.0, double_sided: true, ..Standard::default() };
+    for normals in [corners, tilted] {
+        for standard in [Standard { double_sided: true, ..lambert([0.9; 3]) }, mirror.clone()] {
+            let mut scene = scene(16);
+            (scene.settings.max_depth, scene.environment) = (50, sky(1.0));
+            (scene.camera.eye, scene.camera.center) = ([0.1, 0.05, -0.02], [0.3, 0.2, -0.4]);
+            scene.meshes.push(Mesh {
+                positions: corners.to_vec().into(),
+                normals: normals.to_vec().into(),
+                triangles: triangles.clone().into(),
+                ..Mesh::default()
+            });
+            let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+            let material = material(&mut scene, standard);
+            let shape = Shape::Instance(Instance { mesh: MeshId(0), world_from_object });
+            scene.surfaces.push(Surface { shape, material });
+            for direction in [[3.0, 4.0, 5.0], [-1.0, 0.2, 0.1], [0.3, -1.0, -0.4]] {
+                add_light(&mut scene, Punctual { emitter: Emitter::Sun { direction }, intensity: [5.0; 3] });
+            }
+            let emitter = Emitter::Point { position: [0.5, 0.6, 0.2], range: None };
+            add_light(&mut scene, Punctual { emitter, intensity: [5.0; 3] });
+            let film = render(&scene);
+            assert!(film.counts.hits == 16 * 256 && film.counts.mirror > 16 * 256, "{:?}", film.counts);
+            assert_eq!(film.image.pixels.iter().flatten().filter(|value| **value != 0.0).count(), 0);
+        }
+    }
+}

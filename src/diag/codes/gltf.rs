@@ -51,7 +51,7 @@ super::codes! { GL:
     GLTF_TOGETHER = "GL013", Error, "properties of a glTF asset don't go together",
         "Some properties exclude each other, others need another one beside them; the message says which.",
         ["ONE_OF_MISMATCH", "UNSATISFIED_DEPENDENCY", "NODE_MATRIX_TRS",
-         "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE"];
+         "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE", "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH"];
     GLTF_REFERENCE = "GL014", Error, "a reference of a glTF asset leads nowhere",
         "Parts of a glTF asset refer to each other by their index, from 0. There is no part with this index.",
         ["UNRESOLVED_REFERENCE"];
@@ -131,13 +131,17 @@ super::codes! { GL:
          "ANIMATION_SAMPLER_INPUT_ACCESSOR_TOO_FEW_ELEMENTS", "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH"];
     GLTF_ATTRIBUTE = "GL033", Error, "the attributes of a primitive of a glTF asset are not sound",
         "Names of attributes are those of the specification or start with an underscore; sets are numbered from 0 \
-         without gaps; a material finds the texture coordinates it asks for, and a morph target what it moves.",
+         without gaps; a material finds the texture coordinates and tangents it asks for, and a morph target what it \
+         moves.",
         ["MESH_PRIMITIVE_INVALID_ATTRIBUTE", "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY",
-         "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR"];
+         "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
+         "MESH_PRIMITIVE_NO_TANGENT_SPACE"];
     GLTF_PRIMITIVE_ODD = "GL034", Warning, "a primitive of a glTF asset shows less than it could",
-        "Without positions nothing shows, without normals tangents mean nothing, and vertices that fill no whole \
-         triangle are left over.",
-        ["MESH_PRIMITIVE_NO_POSITION", "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL", "MESH_PRIMITIVE_INCOMPATIBLE_MODE"];
+        "Without positions nothing shows, without normals tangents mean nothing, vertices that fill no whole triangle \
+         are left over, points and lines are not drawn, and tangents that a normal map lacks are made up, which not \
+         all readers do alike.",
+        ["MESH_PRIMITIVE_NO_POSITION", "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL", "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
+         "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"];
     GLTF_INDEX = "GL035", Error, "an index of a primitive of a glTF asset leads beyond its vertices",
         "Indices count the vertices from 0. The greatest number of their type restarts a primitive on some hardware \
          and may not be used.",
@@ -174,17 +178,20 @@ super::codes! { GL:
          itself by the words of its decoder.",
         ["IMAGE_DATA_INVALID", "IMAGE_UNEXPECTED_EOS", "IMAGE_MIME_TYPE_INVALID", "IMAGE_NON_ENABLED_MIME_TYPE",
          "TEXTURE_INVALID_IMAGE_MIME_TYPE"];
-    GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has a format that is not read",
-        "It is neither PNG nor JPEG nor WebP. A texture without an image shows its factor alone.",
+    GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has what is not read",
+        "It is neither PNG nor JPEG nor WebP, or has what is not followed: colours of its own, pixels that are no squares, \
+         an animation. A texture without an image shows its factor alone.",
         ["IMAGE_UNRECOGNIZED_FORMAT", "IMAGE_FEATURES_UNSUPPORTED"];
     GLTF_HUGE_IMAGE = "GL044", Error, "an image of a glTF asset has too many pixels",
         "A small file can ask for much memory, so the size is looked at before an image is decoded: at most 16384 × \
          16384 pixels, and 1 GiB while it is decoded. Scale the picture down.";
     GLTF_MATERIAL_ODD = "GL045", Warning, "a value of a glTF asset has no effect where it stands",
-        "An alpha cutoff needs the mode MASK, a volume needs light that enters it, an emissive strength something that \
-         emits, and a camera opens less than half a turn.",
+        "An alpha cutoff needs the mode MASK, a volume needs light that enters it, dispersion a volume, an emissive \
+         strength something that emits, and a camera opens less than half a turn. Extensions of materials that are not \
+         drawn have no effect either.",
         ["MATERIAL_ALPHA_CUTOFF_INVALID_MODE", "KHR_MATERIALS_VOLUME_NO_TRANSMISSION",
-         "KHR_MATERIALS_VOLUME_DOUBLE_SIDED", "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",
+         "KHR_MATERIALS_VOLUME_DOUBLE_SIDED", "KHR_MATERIALS_DISPERSION_NO_VOLUME",
+         "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",
          "KHR_MATERIALS_CLEARCOAT_CLEARCOAT_NORMAL_TEXTURE_TEXCOORD",
          "KHR_MATERIALS_ANISOTROPY_ANISOTROPY_TEXTURE_TEXCOORD", "CAMERA_YFOV_GEQUAL_PI",
          "CAMERA_XMAG_YMAG_NEGATIVE"];

@@ -21,7 +21,7 @@ super::codes! { RE:
          by the words of its decoder. With `--lenient` the texture falls back to the colour, with a warning.";
     HUGE_PICTURE = "RE005", Error, "a texture has too many pixels",
         "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
-         16384 pixels, and 1 GiB while it is decoded; an environment has at most 8192 × 4096. Scale the picture down.";
+         16384 pixels, unless `--limit pixels=…` allows more. Scale the picture down.";
     BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
         "Meshes are Wavefront OBJ or OFF; of a file that is neither, nothing is shown. The label is at the first place that can't be: a number that is missing or not \
          finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \

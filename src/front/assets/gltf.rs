@@ -1,6 +1,6 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
 
-use super::{Porter, Wanted, Without};
+use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
@@ -10,8 +10,6 @@ use crate::ir::{
 use crate::math::Vec3;
 use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
 use glam::DAffine3;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 /// Such files.
 pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf::begins };
@@ -19,10 +17,10 @@ pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf:
 /// The largest asset read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// The assets brought so far, each once: what is to be placed of them, or nothing if they have errors.
+/// The assets brought so far: what is to be placed of them.
 #[derive(Default)]
 pub(super) struct Assets {
-    known: BTreeMap<PathBuf, Option<Placeable>>,
+    known: Known<Placeable>,
     /// The budget had no room for one of them: that is said once.
     is_over: bool,
 }
@@ -43,8 +41,11 @@ impl Assets {
         lowered: &mut Lowered,
         porter: &mut Porter<'_>,
     ) {
+        if self.is_over {
+            return;
+        }
         let Some(found) = porter.find(wish, Without::Object) else { return };
-        let asset = self.known.entry(found.path.clone()).or_insert_with(|| {
+        let asset = self.known.of(&found, || {
             let bytes = porter.loader.found(&found, MAX_BYTES);
             let bytes =
                 bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
@@ -53,14 +54,12 @@ impl Assets {
             let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
             Some(add(asset, lowered))
         });
-        let Some(asset) = asset.as_ref().filter(|_| !self.is_over) else { return };
+        let Some(asset) = asset else { return };
         match asset.charge(porter.map.budget()) {
             Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
             Err(fault) => {
                 self.is_over = true;
-                let message = format!("the asset asks for too much: {fault}");
-                let finding = Diagnostic::new(&codes::OVER_LIMIT, message).at(wish.span, "placed here");
-                porter.sink.push(finding.hint(fault.hint()));
+                porter.sink.push(over_limit("the asset", &fault).at(wish.span, "placed here"));
             }
         }
     }

@@ -1,10 +1,12 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
-use super::{Porter, Wanted, Without};
+use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::image::{DecodeError, Pixels, decode, is_picture};
+use crate::front::pixels::{self, Refused};
+use crate::image::{DecodeError, Opacity, Pixels, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
 use crate::source::{Found, Kind};
+use std::collections::BTreeMap;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored plainly.
 const MAX_BYTES: u64 = 1 << 30;
@@ -12,21 +14,53 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Such files.
 pub(super) const KIND: Kind = Kind { extensions: &["png", "jpg", "jpeg", "webp"], begins: is_picture };
 
-/// Brings one image; without its file no material looks at it.
-pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
-    let pixels = porter.find(wish, Without::Color).and_then(|found| read(&found, wish, porter));
-    match (pixels, lowered.scene.images.get_mut(id.0 as usize)) {
-        (Some(Pixels { width, height, bytes }), Some(image)) => {
-            (image.width, image.height) = (width, height);
-            image.pixels = bytes.into();
+/// Brings one image, or the one that the same file became before, whatever it was called; `None` without a file.
+pub(super) fn bring(
+    id: ImageId,
+    wish: &Wanted,
+    lowered: &mut Lowered,
+    known: &mut Known<ImageId>,
+    porter: &mut Porter<'_>,
+) -> Option<ImageId> {
+    let found = porter.find(wish, Without::Color)?;
+    let image = known.of(&found, || {
+        let Pixels { width, height, has_alpha: _, bytes } = read(&found, wish, porter)?;
+        let image = lowered.scene.images.get_mut(id.0 as usize)?;
+        (image.width, image.height) = (width, height);
+        image.pixels = bytes.into();
+        Some(id)
+    });
+    image.copied()
+}
+
+/// Has textures look at the images that came of those they wanted, and no material at a texture of which none came.
+pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
+    let mut missing = vec![false; scene.textures.len()];
+    for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
+        if let Texture::Image(id) = texture {
+            match image_of.get(&id.0) {
+                Some(Some(image)) => *id = *image,
+                Some(None) => *missing = true,
+                None => {}
+            }
         }
-        (_, _) => forget(id, &mut lowered.scene),
+    }
+    let is_missing = |texture: &TextureId| missing.get(texture.0 as usize) == Some(&true);
+    for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
+        for map in [&mut phong.color_map, &mut phong.specular_map, &mut phong.normal_map] {
+            map.take_if(|texture| is_missing(texture));
+        }
+        phong.bump.take_if(|bump| is_missing(&bump.texture));
     }
 }
 
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
     match porter.loader.found(found, MAX_BYTES) {
-        Ok(bytes) => decode(&bytes).map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color)).ok(),
+        Ok(bytes) => {
+            porter.map.budget().read(bytes.len());
+            let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
+            pixels.map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color)).ok()
+        }
         Err(error) => {
             porter.unreadable(found, &error.to_string(), wish.span, Without::Color);
             None
@@ -34,28 +68,23 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels>
     }
 }
 
-fn refusal(fault: &DecodeError, found: &Found, wish: &Wanted) -> Diagnostic {
-    let message = format!("the texture `{}` {fault}", found.shown.display());
+fn refusal(fault: &Refused, found: &Found, wish: &Wanted) -> Diagnostic {
+    let name = found.shown.display();
+    let fault = match fault {
+        Refused::Limit(fault) => {
+            return over_limit(&format!("the texture `{name}`"), fault).at(wish.span, "named here");
+        }
+        Refused::File(fault) => fault,
+    };
+    let message = format!("the texture `{name}` {fault}");
     let (code, hint) = match fault {
         DecodeError::Format(_) => (&codes::BAD_PICTURE, "textures are PNG, JPEG or WebP"),
         DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
         DecodeError::TooLarge { width: _, height: _ } => {
-            (&codes::HUGE_PICTURE, "scale it down; a texture has at most 16384 × 16384 pixels")
+            (&codes::HUGE_PICTURE, "scale it down, or set another limit by `--limit pixels=…`")
         }
     };
     Diagnostic::new(code, message).at(wish.span, "named here").hint(hint)
-}
-
-/// Takes an image out of every material.
-fn forget(id: ImageId, scene: &mut Scene) {
-    let textures = &scene.textures;
-    let is_it = |texture: &TextureId| textures.get(texture.0 as usize) == Some(&Texture::Image(id));
-    for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
-        for map in [&mut phong.color_map, &mut phong.specular_map, &mut phong.normal_map] {
-            map.take_if(|texture| is_it(texture));
-        }
-        phong.bump.take_if(|bump| is_it(&bump.texture));
-    }
 }
 
 /// Makes normal maps of the bump maps that hold normals.

@@ -1,10 +1,11 @@
 //! The meshes: OBJ or OFF, told apart by content.
 
 use super::scan::{Fault, Lines, Word};
-use super::{Porter, Wanted, Without, obj, off};
+use super::{Known, Porter, Wanted, Without, obj, off, over_limit};
 use crate::diag::{Diagnostic, codes};
-use crate::ir::{Lowered, Mesh, MeshId};
-use crate::source::{FileId, Found, Kind};
+use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
+use crate::source::{Budget, Exceeded, FileId, Found, Kind};
+use std::collections::BTreeMap;
 
 /// The largest mesh file read, in bytes: some two million triangles.
 const MAX_BYTES: u64 = 1 << 28;
@@ -23,6 +24,20 @@ pub(super) struct Parsed {
     pub(super) not_drawn: Option<(Fault, usize)>,
 }
 
+/// Why a mesh file can't be read.
+pub(super) enum Unread {
+    /// Its faults in the order of the file, at least one.
+    Faults(Vec<Fault>),
+    /// It would take more than the budget has.
+    Limit(Exceeded),
+}
+
+impl From<Exceeded> for Unread {
+    fn from(fault: Exceeded) -> Self {
+        Self::Limit(fault)
+    }
+}
+
 /// A mesh without a name.
 #[derive(Debug, Default)]
 pub(super) struct Geometry {
@@ -32,32 +47,60 @@ pub(super) struct Geometry {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-/// Brings one mesh; without its file it stays empty, and nothing shows of it.
-pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
-    let Some(found) = porter.find(wish, Without::Object) else { return };
-    let Some(file) = read(&found, wish, porter) else { return };
-    match parse(porter.map.bytes(file)) {
+/// Brings one mesh, or the one that the same file became before, whatever it was called; without a file it stays empty,
+/// and nothing shows of it.
+pub(super) fn bring(
+    id: MeshId,
+    wish: &Wanted,
+    lowered: &mut Lowered,
+    known: &mut Known<MeshId>,
+    porter: &mut Porter<'_>,
+) -> MeshId {
+    let Some(found) = porter.find(wish, Without::Object) else { return id };
+    let mesh = known.of(&found, || {
+        let Geometry { positions, normals, uvs, triangles } = load(&found, wish, porter)?;
+        let place = lowered.scene.meshes.get_mut(id.0 as usize)?;
+        let name = std::mem::take(&mut place.name);
+        *place = Mesh {
+            name,
+            positions: positions.into(),
+            normals: normals.into(),
+            uvs: uvs.into(),
+            triangles: triangles.into(),
+            ..Mesh::default()
+        };
+        Some(id)
+    });
+    mesh.copied().unwrap_or(id)
+}
+
+/// Has instances show the meshes that came of those they wanted.
+pub(super) fn settle(mesh_of: &BTreeMap<u32, MeshId>, scene: &mut Scene) {
+    for surface in &mut scene.surfaces {
+        if let Shape::Instance(instance) = &mut surface.shape {
+            instance.mesh = mesh_of.get(&instance.mesh.0).copied().unwrap_or(instance.mesh);
+        }
+    }
+}
+
+/// The mesh in a file, if there is a sound one.
+fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Geometry> {
+    let file = read(found, wish, porter)?;
+    match parse(porter.map.bytes(file), porter.map.budget()) {
         Ok(Parsed { mesh, not_drawn }) => {
             if let Some((first, count)) = not_drawn {
                 let message = format!("{} show: {}", count_of(count), first.message);
                 let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
                 porter.sink.push(finding.also(wish.span, "the file is named here"));
             }
-            if let Some(place) = lowered.scene.meshes.get_mut(id.0 as usize) {
-                let Geometry { positions, normals, uvs, triangles } = mesh;
-                let name = std::mem::take(&mut place.name);
-                *place = Mesh {
-                    name,
-                    positions: positions.into(),
-                    normals: normals.into(),
-                    uvs: uvs.into(),
-                    triangles: triangles.into(),
-                    ..Mesh::default()
-                };
-            }
+            return Some(mesh);
+        }
+        Err(Unread::Limit(fault)) => {
+            let what = format!("the mesh `{}`", found.shown.display());
+            porter.refuse(over_limit(&what, &fault).at(wish.span, "named here"), Without::Object);
         }
         // Lenient, the object is left out once.
-        Err(faults) => {
+        Err(Unread::Faults(faults)) => {
             let told = if porter.options.lenient { 1 } else { MAX_FAULTS };
             for fault in faults.into_iter().take(told) {
                 let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
@@ -66,6 +109,7 @@ pub(super) fn bring(id: MeshId, wish: &Wanted, lowered: &mut Lowered, porter: &m
             }
         }
     }
+    None
 }
 
 fn count_of(count: usize) -> String {
@@ -112,16 +156,17 @@ fn is_mesh(head: &[u8]) -> bool {
     true
 }
 
-/// Reads a mesh file of either format; the faults are in the order of the file, at least one.
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
+/// Reads a mesh file of either format.
+fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut words = Vec::new();
     Lines::new(bytes).next(&mut words);
     let parsed = match words.first() {
-        Some(head) if off::is_head(head) => off::parse(bytes)?,
-        Some(_) | None => obj::parse(bytes)?,
+        Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
+        Some(_) | None => obj::parse(bytes, budget)?,
     };
     if parsed.mesh.triangles.is_empty() {
-        return Err(vec![words.first().unwrap_or(&Word::START).fault("the mesh has no faces", "nothing is drawn")]);
+        let fault = words.first().unwrap_or(&Word::START).fault("the mesh has no faces", "nothing is drawn");
+        return Err(Unread::Faults(vec![fault]));
     }
     Ok(parsed)
 }

@@ -16,7 +16,8 @@ pub use environment::{environment, refusal};
 use super::{Asset, Options, Wanted};
 use crate::diag::{Diagnostic, Severity, Sink, codes};
 use crate::ir::Lowered;
-use crate::source::{FileId, Found, Kind, Loader, Missing, Search, SourceMap, Span};
+use crate::source::{Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
@@ -36,17 +37,47 @@ pub fn bring(
     let folder = map.folder(scene);
     let search = Search::new(folder, options.asset_root.as_deref()).with_parent(folder, options.home.as_deref());
     let mut porter = Porter { search, options, loader: Loader, map, sink };
+    let (mut images, mut meshes) = (Known::default(), Known::default());
     let mut assets = gltf::Assets::default();
+    // Which image and which mesh came of each that was wanted.
+    let (mut image_of, mut mesh_of) = (BTreeMap::new(), BTreeMap::new());
     for wish in wanted {
         match wish.asset {
-            Asset::Image(id) => image::bring(id, &wish, lowered, &mut porter),
-            Asset::Mesh(id) => mesh::bring(id, &wish, lowered, &mut porter),
+            Asset::Image(id) => {
+                image_of.insert(id.0, image::bring(id, &wish, lowered, &mut images, &mut porter));
+            }
+            Asset::Mesh(id) => {
+                mesh_of.insert(id.0, mesh::bring(id, &wish, lowered, &mut meshes, &mut porter));
+            }
             Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
             Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
         }
     }
+    image::settle(&image_of, &mut lowered.scene);
+    mesh::settle(&mesh_of, &mut lowered.scene);
     image::find_normal_maps(lowered, porter.sink);
     lowered.origins.finish();
+}
+
+/// What became of the files read so far, each read once, however it is named; `None` if it can't be used.
+struct Known<T>(BTreeMap<Identity, Option<T>>);
+
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}
+
+impl<T> Known<T> {
+    /// What became of a file; `read` is called if that is not known.
+    fn of(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
+        let Some(identity) = found.identity() else {
+            // It has gone meanwhile: to read it reports that.
+            read();
+            return None;
+        };
+        self.0.entry(identity).or_insert_with(read).as_ref()
+    }
 }
 
 /// Finds files, reads them, and reports on them.
@@ -136,6 +167,11 @@ fn kind_of(asset: &Asset) -> &'static Kind {
 fn as_written(path: &str) -> String {
     let visible = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
     path.chars().map(visible).collect()
+}
+
+/// A file asks for more than the budget has.
+fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
+    Diagnostic::new(&codes::OVER_LIMIT, format!("{what} asks for too much: {fault}")).hint(fault.hint())
 }
 
 /// True if the last component has a dot within: `cat.obj`, and `cat` has not.

@@ -1,14 +1,17 @@
-//! Wavefront OBJ. `tobj` makes triangles of it; before, every line it will read is checked here, so that it meets no
-//! number or index it can't take, and every fault has its place.
+//! Wavefront OBJ: the lines are read three times, for the vertices, for the faults of the faces, and for the faces; so
+//! little is held beside what becomes the mesh, and what that takes is known before.
 //!
 //! Groups and materials make no difference. Corners without a normal, where others have one, are shaded flat.
 
-use super::mesh::{Geometry, MAX_FAULTS, Parsed};
+use super::mesh::{Geometry, MAX_FAULTS, Parsed, Unread};
 use super::scan::{Fault, Lines, Word, numbers};
-use std::fmt::Write as _;
+use crate::source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.
 type Counts = [usize; 3];
+
+/// What a corner refers to, from 0.
+type Corner = [Option<u32>; 3];
 
 /// What corners refer to, in the order of their parts.
 const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
@@ -23,62 +26,72 @@ pub(super) fn is_keyword(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OBJ.
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut check = Check::default();
-    let total = check.vertices(bytes);
+    check.vertices(bytes);
     if check.faults.is_empty() {
-        check.faces(bytes, total);
+        check.faces(bytes);
     }
     if !check.faults.is_empty() {
-        return Err(check.faults);
+        return Err(Unread::Faults(check.faults));
     }
-    let mesh = triangulate(&check.checked(total)).map_err(|words| vec![Word::START.fault(words, "in this file")])?;
+    let mesh = check.mesh(bytes, budget)?;
     Ok(Parsed { mesh, not_drawn: check.not_drawn })
 }
 
 /// What was checked, and what was found.
 #[derive(Default)]
 struct Check {
-    /// The vertices with the numbers that count, one a line.
-    vertices: String,
+    vertices: Vertices,
     /// The corners of all faces.
-    corners: Vec<[Option<u32>; 3]>,
-    /// How many corners each face has.
-    arities: Vec<usize>,
+    corners: usize,
+    /// How many triangles the faces have.
+    triangles: usize,
+    /// Whether any corner has a texture coordinate, and a normal.
+    used: [bool; 2],
     faults: Vec<Fault>,
     not_drawn: Option<(Fault, usize)>,
 }
 
+/// What corners refer to.
+#[derive(Default)]
+struct Vertices {
+    positions: Vec<[f64; 3]>,
+    uvs: Vec<[f64; 2]>,
+    normals: Vec<[f64; 3]>,
+}
+
+impl Vertices {
+    fn counts(&self) -> Counts {
+        [self.positions.len(), self.uvs.len(), self.normals.len()]
+    }
+
+    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), Fault> {
+        match part {
+            0 => self.positions.push(numbers(head, rest)?),
+            // A height of a texture is rarely written.
+            1 if rest.len() == 1 => self.uvs.push([rest[0].number()?, 0.0]),
+            1 => self.uvs.push(numbers(head, rest)?),
+            _ => self.normals.push(numbers(head, rest)?),
+        }
+        Ok(())
+    }
+}
+
 impl Check {
-    /// Checks the vertices and returns how many there are.
-    fn vertices(&mut self, bytes: &[u8]) -> Counts {
-        let (mut lines, mut words, mut total) = (Lines::new(bytes), Vec::new(), Counts::default());
+    fn vertices(&mut self, bytes: &[u8]) {
+        let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
         while lines.next(&mut words) && self.faults.len() < MAX_FAULTS {
             let (head, rest) = (&words[0], &words[1..]);
             if let Some(part) = part_of(head) {
-                total[part] += 1;
-                let outcome = self.vertex(part, head, rest);
+                let outcome = self.vertices.read(part, head, rest);
                 self.faults.extend(outcome.err());
             }
         }
-        total
-    }
-
-    fn vertex(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), Fault> {
-        let [x, y, z] = match part {
-            // A height of a texture is rarely written.
-            1 if rest.len() == 1 => [rest[0].number()?, 0.0, 0.0],
-            1 => numbers::<2>(head, rest).map(|[u, v]| [u, v, 0.0])?,
-            _ => numbers::<3>(head, rest)?,
-        };
-        let keyword = ["v", "vt", "vn"][part];
-        // The shortest text of a number is read back to the same bits.
-        writeln!(self.vertices, "{keyword} {x} {y} {z}").expect("a string takes any text");
-        Ok(())
     }
 
     /// Checks the faces; what they refer to may follow them.
-    fn faces(&mut self, bytes: &[u8], total: Counts) {
+    fn faces(&mut self, bytes: &[u8]) {
         let (mut lines, mut words, mut so_far) = (Lines::new(bytes), Vec::new(), Counts::default());
         while lines.next(&mut words) && self.faults.len() < MAX_FAULTS {
             let (head, rest) = (words[0], &words[1..]);
@@ -87,7 +100,7 @@ impl Check {
             }
             match head.bytes {
                 b"f" | b"fo" if rest.len() >= 3 => {
-                    let outcome = self.face(rest, so_far, total);
+                    let outcome = self.face(rest, so_far);
                     self.faults.extend(outcome.err());
                 }
                 b"f" | b"fo" => self.skip(&head, "faces need three corners"),
@@ -98,11 +111,14 @@ impl Check {
         }
     }
 
-    fn face(&mut self, corners: &[Word<'_>], so_far: Counts, total: Counts) -> Result<(), Fault> {
+    fn face(&mut self, corners: &[Word<'_>], so_far: Counts) -> Result<(), Fault> {
         for corner in corners {
-            self.corners.push(indices(corner, so_far, total)?);
+            let [_, uv, normal] = indices(corner, so_far, self.vertices.counts())?;
+            self.used[0] |= uv.is_some();
+            self.used[1] |= normal.is_some();
         }
-        self.arities.push(corners.len());
+        self.corners += corners.len();
+        self.triangles += corners.len() - 2;
         Ok(())
     }
 
@@ -110,24 +126,115 @@ impl Check {
         self.not_drawn.get_or_insert_with(|| (head.fault(why, "the first one"), 0)).1 += 1;
     }
 
-    /// The file as `tobj` may have it: where one corner has a texture coordinate or a normal, all have; those that had
-    /// none share one of zeros.
-    fn checked(&self, total: Counts) -> String {
-        let used = [1, 2].map(|part| self.corners.iter().any(|corner| corner[part].is_some()));
-        let mut text = self.vertices.clone();
-        text.push_str("vt 0 0 0\nvn 0 0 0\n");
-        let mut corners = self.corners.iter();
-        for arity in &self.arities {
-            text.push('f');
-            for [v, vt, vn] in corners.by_ref().take(*arity) {
-                let index = |index: &Option<u32>, part: usize| index.map_or(total[part], |index| index as usize) + 1;
-                let vt = if used[0] { index(vt, 1).to_string() } else { String::new() };
-                let vn = if used[1] { index(vn, 2).to_string() } else { String::new() };
-                write!(text, " {}/{vt}/{vn}", index(v, 0)).expect("a string takes any text");
+    /// The mesh of a file without faults.
+    fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Geometry, Unread> {
+        let is_plain = self.used == [false; 2];
+        // A corner, and its number, while equal ones are looked for.
+        let passing = if is_plain { 4 * self.vertices.positions.len() } else { 20 * self.corners };
+        let vertex = 24 + 16 * usize::from(self.used[0]) + 24 * usize::from(self.used[1]);
+        let at_most = if is_plain { self.vertices.positions.len().min(self.corners) } else { self.corners };
+        budget.has(Resource::Memory, (passing + vertex * at_most + 12 * self.triangles) as u64)?;
+        let mesh = if is_plain { self.plain(bytes) } else { self.merged(bytes) };
+        let vertices = mesh.positions.len();
+        budget.charge(Resource::Vertices, vertices as u64)?;
+        budget.charge(Resource::Memory, (vertex * vertices + 12 * self.triangles) as u64)?;
+        Ok(mesh)
+    }
+
+    /// The mesh of a file whose corners are positions alone: those that are used, in the order of their first use.
+    fn plain(&mut self, bytes: &[u8]) -> Geometry {
+        const UNUSED: u32 = u32::MAX;
+        let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];
+        let (mut positions, mut triangles) = (Vec::new(), Vec::with_capacity(self.triangles));
+        self.each_face(bytes, |face| {
+            let mut vertex = |corner: &Corner| {
+                let at = corner[0].unwrap_or_default() as usize;
+                if vertex_of[at] == UNUSED {
+                    vertex_of[at] = to_u32(positions.len());
+                    positions.push(self.vertices.positions[at]);
+                }
+                vertex_of[at]
+            };
+            let (first, mut last) = (vertex(&face[0]), vertex(&face[1]));
+            triangles.extend(face[2..].iter().map(|corner| {
+                let before = std::mem::replace(&mut last, vertex(corner));
+                [first, before, last]
+            }));
+        });
+        Geometry { positions, triangles, ..Geometry::default() }
+    }
+
+    /// The mesh of a file whose corners are more than positions.
+    fn merged(&mut self, bytes: &[u8]) -> Geometry {
+        let [_, uvs, normals] = self.vertices.counts();
+        let mut sorted = Vec::with_capacity(self.corners);
+        let mut triangles = Vec::with_capacity(self.triangles);
+        self.each_face(bytes, |face| {
+            let first = to_u32(sorted.len());
+            // Those that have none share one of zeros.
+            let used = |part: usize, index: Option<u32>, none: usize| {
+                if self.used[part] { index.unwrap_or(to_u32(none)) } else { 0 }
+            };
+            for (at, [v, vt, vn]) in (first..).zip(face) {
+                sorted.push([v.unwrap_or_default(), used(0, *vt, uvs), used(1, *vn, normals), at]);
             }
-            text.push('\n');
+            triangles.extend((first + 1..to_u32(sorted.len()) - 1).map(|corner| [first, corner, corner + 1]));
+        });
+        self.merge(sorted, triangles)
+    }
+
+    /// Makes one vertex of equal corners, in the order in which they are first used.
+    fn merge(&mut self, mut sorted: Vec<[u32; 4]>, mut triangles: Vec<[u32; 3]>) -> Geometry {
+        sorted.sort_unstable();
+        let same = |a: &[u32; 4], b: &[u32; 4]| a[..3] == b[..3];
+        // Of each corner the first that is equal, and then the vertex.
+        let mut vertex_of = vec![0; sorted.len()];
+        for equal in sorted.chunk_by(same) {
+            equal.iter().for_each(|corner| vertex_of[corner[3] as usize] = equal[0][3]);
         }
-        text
+        let mut count = 0_u32;
+        for corner in 0..vertex_of.len() {
+            let first = vertex_of[corner] as usize;
+            if first == corner {
+                vertex_of[corner] = count;
+                count += 1;
+            } else {
+                vertex_of[corner] = vertex_of[first];
+            }
+        }
+        for triangle in &mut triangles {
+            *triangle = triangle.map(|corner| vertex_of[corner as usize]);
+        }
+        sorted.dedup_by(|b, a| same(a, b));
+        sorted.shrink_to_fit();
+        sorted.sort_unstable_by_key(|corner| corner[3]);
+        drop(vertex_of);
+        let Vertices { positions, uvs, normals } = std::mem::take(&mut self.vertices);
+        fn pick<const N: usize>(sorted: &[[u32; 4]], part: usize, from: &[[f64; N]]) -> Vec<[f64; N]> {
+            sorted.iter().map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N])).collect()
+        }
+        Geometry {
+            positions: pick(&sorted, 0, &positions),
+            uvs: if self.used[0] { pick(&sorted, 1, &uvs) } else { Vec::new() },
+            normals: if self.used[1] { pick(&sorted, 2, &normals) } else { Vec::new() },
+            triangles,
+        }
+    }
+
+    /// The corners of each face of a file without faults.
+    fn each_face(&self, bytes: &[u8], mut take: impl FnMut(&[Corner])) {
+        let (mut lines, mut words, mut so_far) = (Lines::new(bytes), Vec::new(), Counts::default());
+        let (total, mut corners) = (self.vertices.counts(), Vec::new());
+        while lines.next(&mut words) {
+            if let Some(part) = part_of(&words[0]) {
+                so_far[part] += 1;
+            }
+            if matches!(words[0].bytes, b"f" | b"fo") && words.len() > 3 {
+                corners.clear();
+                corners.extend(words[1..].iter().filter_map(|corner| indices(corner, so_far, total).ok()));
+                take(&corners);
+            }
+        }
     }
 }
 
@@ -142,7 +249,7 @@ fn part_of(head: &Word<'_>) -> Option<usize> {
 }
 
 /// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative, from the last so far.
-fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<[Option<u32>; 3], Fault> {
+fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, Fault> {
     if corner.bytes[0] == b'/' {
         return Err(corner.fault(format!("the corner `{}` has no vertex", corner.text()), "a corner of a face"));
     }
@@ -168,16 +275,7 @@ fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<
     })
 }
 
-/// The triangles of a checked file.
-fn triangulate(text: &str) -> Result<Geometry, String> {
-    let options = tobj::LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Ok(Default::default()))
-        .map_err(|error| error.to_string())?;
-    let Some(tobj::Model { mesh, name: _ }) = models.into_iter().next() else { return Ok(Geometry::default()) };
-    Ok(Geometry {
-        positions: mesh.positions.as_chunks().0.to_vec(),
-        normals: mesh.normals.as_chunks().0.to_vec(),
-        uvs: mesh.texcoords.as_chunks().0.to_vec(),
-        triangles: mesh.indices.as_chunks().0.to_vec(),
-    })
+/// A count of what a file holds.
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).expect("the loader refuses files of 4 GiB and more")
 }

@@ -2,8 +2,9 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::mesh::{Geometry, MAX_FAULTS, Parsed};
+use super::mesh::{Geometry, MAX_FAULTS, Parsed, Unread};
 use super::scan::{Fault, Lines, Word, numbers};
+use crate::source::{Budget, Resource};
 
 /// True if the word opens an OFF file of any kind.
 pub(super) fn is_head(word: &Word<'_>) -> bool {
@@ -11,7 +12,9 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 }
 
 /// Reads an OFF. Normals of vertices are kept, colours are not.
-pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
+pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
+    // A corner of two bytes becomes a triangle of twelve, in a list that grows by doubling.
+    budget.has(Resource::Memory, 12 * bytes.len() as u64)?;
     let mut reader = Reader { lines: Lines::new(bytes), words: Vec::new() };
     let mut faults = Vec::new();
     let mut parsed = Parsed::default();
@@ -19,7 +22,15 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Parsed, Vec<Fault>> {
         Ok(head) => body(&mut reader, &head, &mut parsed, &mut faults),
         Err(fault) => faults.push(fault),
     }
-    if faults.is_empty() { Ok(parsed) } else { Err(faults) }
+    if !faults.is_empty() {
+        return Err(Unread::Faults(faults));
+    }
+    let Geometry { positions, normals, uvs: _, triangles } = &mut parsed.mesh;
+    triangles.shrink_to_fit();
+    budget.charge(Resource::Vertices, positions.len() as u64)?;
+    let bytes = size_of_val(&**positions) + size_of_val(&**normals) + size_of_val(&**triangles);
+    budget.charge(Resource::Memory, bytes as u64)?;
+    Ok(parsed)
 }
 
 struct Reader<'a> {

@@ -55,6 +55,11 @@ impl Component {
         })
     }
 
+    /// True if indices may be of the type.
+    pub(super) fn is_index(self) -> bool {
+        matches!(self, Self::U8 | Self::U16 | Self::U32)
+    }
+
     fn name(self) -> &'static str {
         match self {
             Self::I8 => "i8",
@@ -99,6 +104,13 @@ impl Layout {
         self.packed() - self.column() + self.rows * self.component.size()
     }
 
+    /// True if the numbers can be a bound of the elements.
+    fn is_bound(self, bound: &[f64]) -> bool {
+        let [least, most] = self.component.range().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let is_whole = |number: f64| self.component == Component::F32 || number.fract() == 0.0;
+        bound.len() == self.components() && bound.iter().all(|own| is_whole(*own) && (least..=most).contains(own))
+    }
+
     /// As messages call it: `vec3 of f32`.
     pub(super) fn name(self) -> String {
         let shape = match (self.columns, self.rows) {
@@ -136,19 +148,21 @@ pub(super) struct Sparse {
 
 impl Accessor {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let layout = layout(fields);
+        let bound = |key| fields.numbers(key).filter(|bound| layout.is_some_and(|layout| layout.is_bound(bound)));
         Self {
             at: fields.at,
             view: fields.index("bufferView"),
             offset: fields.index("byteOffset").unwrap_or(0),
             count: fields.index("count").filter(|count| *count > 0),
-            layout: layout(fields),
-            min: fields.numbers("min"),
-            max: fields.numbers("max"),
+            layout,
+            min: bound("min"),
+            max: bound("max"),
             sparse: fields.object("sparse").and_then(sparse),
         }
     }
 
-    /// True if both bounds are given.
+    /// True if both bounds are given and sound.
     pub(super) fn has_bounds(&self) -> bool {
         self.min.is_some() && self.max.is_some()
     }
@@ -171,7 +185,7 @@ fn layout(fields: Fields<'_, '_>) -> Option<Layout> {
 
 fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
     let (indices, values) = (fields.object("indices")?, fields.object("values")?);
-    let component = Component::from_code(indices.whole("componentType")?)?;
+    let component = Component::from_code(indices.whole("componentType")?).filter(|component| component.is_index())?;
     Some(Sparse {
         at: fields.at,
         count: fields.index("count").filter(|count| *count > 0)?,
@@ -180,9 +194,20 @@ fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
     })
 }
 
+/// The accessor of an index with that index, if it is one.
+pub(super) fn find<'d>(
+    doc: &'d Document<'_>,
+    index: Option<usize>,
+    report: &Report<'_, '_>,
+) -> Option<(usize, &'d Accessor)> {
+    let accessor = doc.accessors.get(index?).filter(|accessor| report.is_part(accessor.at))?;
+    Some((index?, accessor))
+}
+
 /// Checks each accessor for itself and against its views.
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
     for accessor in &doc.accessors {
+        depends(accessor, report);
         let Some(layout) = accessor.layout else { continue };
         alone(accessor, layout, report);
         let Some(count) = accessor.count else { continue };
@@ -202,18 +227,21 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
     }
 }
 
+/// An offset counts from the start of a view.
+fn depends(accessor: &Accessor, report: &mut Report<'_, '_>) {
+    if let Some(at) = report.json.get(accessor.at, "byteOffset").filter(|_| accessor.view.is_none()) {
+        let message = "there is an offset, and no view that it could be in".to_owned();
+        report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
+    }
+}
+
 /// What can be said without looking at a view.
 fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
     let fields = Fields::new(report.json, accessor.at);
-    if let Some(at) = fields.node("byteOffset") {
-        if accessor.view.is_none() && !fields.has("bufferView") {
-            let message = "there is an offset, and no view that it could be in".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
-        }
-        if layout.columns > 1 && !accessor.offset.is_multiple_of(4) {
-            let message = format!("matrices start at multiples of 4 bytes, and the offset is {}", accessor.offset);
-            report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_MATRIX_ALIGNMENT", at, message);
-        }
+    if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
+        let at = report.json.at_or(accessor.at, "byteOffset");
+        let message = format!("matrices start at multiples of 4 bytes, and the offset is {}", accessor.offset);
+        report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_MATRIX_ALIGNMENT", at, message);
     }
     if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
@@ -221,21 +249,40 @@ fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
         report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_NORMALIZED_INVALID", at, message);
     }
     for key in ["min", "max"] {
-        let Some(list) = fields.node(key).filter(|list| report.json.kind(*list) == Kind::List) else { continue };
-        bound(list, key, layout, report);
+        if let Some(list) = fields.node(key) {
+            bound(list, key, layout, report);
+        }
     }
 }
 
 /// One bound: as many numbers as an element has, each one that the component type can hold.
 fn bound(list: NodeId, key: &str, layout: Layout, report: &mut Report<'_, '_>) {
+    let kind = report.json.kind(list);
+    if kind != Kind::List {
+        let message = format!("`{key}` is {}, not {}", kind.name(), Kind::List.name());
+        return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
+    }
     let items: Vec<NodeId> = report.json.items(list).collect();
+    if items.is_empty() && layout.component == Component::F32 {
+        return report.say(&codes::GLTF_EMPTY, "EMPTY_ENTITY", list, format!("`{key}` is empty"));
+    }
     if items.len() != layout.components() {
         let message = format!("`{key}` has {} numbers, and an element has {}", items.len(), layout.components());
-        report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", list, message);
+        return report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", list, message);
     }
-    let Some([least, most]) = layout.component.range() else { return };
     for item in items {
-        let Some(number) = report.json.number(item) else { continue };
+        let Some(number) = report.json.number(item) else {
+            let message = format!("an element of `{key}` is {}, not a number", report.json.kind(item).name());
+            report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
+            continue;
+        };
+        let Some([least, most]) = layout.component.range() else {
+            if !number.is_finite() {
+                let message = format!("`{key}` is {}, which is not finite", report.shown(item));
+                report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", item, message);
+            }
+            continue;
+        };
         if number.fract() != 0.0 {
             let message = format!("`{key}` is {}, and the components are whole numbers", report.shown(item));
             report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
@@ -254,7 +301,7 @@ fn fits(
     at: NodeId,
     report: &mut Report<'_, '_>,
 ) {
-    let Some(holder) = doc.views.get(view) else { return };
+    let Some(holder) = doc.views.get(view).filter(|view| report.is_part(view.at)) else { return };
     let code = &codes::GLTF_ACCESSOR;
     let place = report.json.at_or(at, "byteOffset");
     if !offset.is_multiple_of(size) {
@@ -267,7 +314,8 @@ fn fits(
         report.say(code, "ACCESSOR_TOTAL_OFFSET_ALIGNMENT", at, message);
     }
     let end = bytes.saturating_add(offset as u64);
-    if let Some(length) = holder.length.filter(|length| end > *length as u64) {
+    let length = holder.length.unwrap_or(0);
+    if end > length as u64 {
         let at = if offset > length { place } else { at };
         let message = format!("the elements end at byte {end} of buffer view {view}, which has {length}");
         report.say(code, "ACCESSOR_TOO_LONG", at, message);

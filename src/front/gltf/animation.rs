@@ -1,6 +1,6 @@
 //! Animations: channels that move nodes over time, and the keyframes that they go through.
 
-use super::accessor::{Accessor, Component, Layout};
+use super::accessor::{self, Accessor, Component, Layout};
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
 use super::document::Document;
@@ -16,7 +16,6 @@ use std::collections::BTreeMap;
 /// An animation.
 #[derive(Debug)]
 pub(super) struct Animation {
-    at: NodeId,
     pub(super) name: String,
     pub(super) channels: Vec<Channel>,
     pub(super) samplers: Vec<Sampler>,
@@ -60,7 +59,6 @@ pub(super) enum Interpolation {
 impl Animation {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         Self {
-            at: fields.at,
             name: fields.name(),
             channels: fields.objects("channels").map(Channel::read).collect(),
             samplers: fields.objects("samplers").map(Sampler::read).collect(),
@@ -115,7 +113,7 @@ pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Repo
             }
         }
         check_used(animation, report);
-        check_pointers(animation, report);
+        check_pointers(doc, animation, report);
     }
 }
 
@@ -131,11 +129,23 @@ fn check_used(animation: &Animation, report: &mut Report<'_, '_>) {
     }
 }
 
-/// A channel that moves by a pointer names no node.
-fn check_pointers(animation: &Animation, report: &mut Report<'_, '_>) {
+/// A channel that moves by a pointer has the path `pointer` and names no node.
+fn check_pointers(doc: &Document<'_>, animation: &Animation, report: &mut Report<'_, '_>) {
+    const NAME: &str = "KHR_animation_pointer";
+    let is_used = doc.uses(NAME);
     for channel in &animation.channels {
         let Some(target) = Fields::new(report.json, channel.at).object("target") else { continue };
-        let Some(pointer) = target.extension("KHR_animation_pointer") else { continue };
+        let path = target.node("path");
+        if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
+            let message = format!("the path `pointer` is one of `{NAME}`, which the asset does not use");
+            report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
+        }
+        let Some(pointer) = target.extension(NAME).filter(|_| is_used) else { continue };
+        if let Some(at) = path.filter(|path| !report.json.is(*path, "pointer")) {
+            let message = format!("the channel has a pointer, and its path is {}, not `pointer`", report.shown(at));
+            let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
+            report.say(&codes::GLTF_TOGETHER, alias, at, message);
+        }
         let message = "what the pointer names does not move".to_owned();
         report.say(&codes::GLTF_IGNORES, "INCOMPLETE_EXTENSION_SUPPORT", pointer.at, message);
         if target.has("node") {
@@ -149,7 +159,7 @@ fn check_pointers(animation: &Animation, report: &mut Report<'_, '_>) {
 fn check_sampler(doc: &Document<'_>, sampler: &Sampler, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
     let (purposes, usages, demands) = links;
     for (key, index, usage) in [("input", sampler.input, Usage::Times), ("output", sampler.output, Usage::Keyframes)] {
-        let Some((index, accessor)) = index.and_then(|index| Some((index, doc.accessors.get(index)?))) else {
+        let Some((index, accessor)) = accessor::find(doc, index, report) else {
             continue;
         };
         let at = report.json.at_or(sampler.at, key);
@@ -173,8 +183,9 @@ fn is_time(layout: Layout) -> bool {
 }
 
 fn check_times(accessor: &Accessor, sampler: &Sampler, at: NodeId, report: &mut Report<'_, '_>) {
-    if let Some(layout) = accessor.layout.filter(|layout| !is_time(*layout)) {
-        let message = format!("times are {}, not scalar of f32", layout.name());
+    if !accessor.layout.is_some_and(is_time) {
+        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("times are {found}, not scalar of f32");
         report.say(&codes::GLTF_FORMAT, "ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT", at, message);
     }
     if !accessor.has_bounds() {
@@ -198,21 +209,21 @@ fn check_channel(
     let Some(index) = channel.sampler else { return };
     let at = report.json.at_or(channel.at, "sampler");
     let Some(sampler) = animation.samplers.get(index) else {
-        let has_samplers = !animation.samplers.is_empty() || report.json.get(animation.at, "samplers").is_some();
-        if has_samplers {
+        if !animation.samplers.is_empty() {
             let message = format!("the animation has no sampler {index}");
             report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", at, message);
         }
         return;
     };
-    let output = sampler.output.and_then(|index| Some((index, doc.accessors.get(index)?)));
+    let output = accessor::find(doc, sampler.output, report);
     let (Some((output, accessor)), Some(path)) = (output, channel.path) else { return };
     let is_cubic = sampler.interpolation == Interpolation::Cubic;
     if path == Path::Rotation {
         links.2.add(output, if is_cubic { Demand::CubicRotations } else { Demand::Rotations }, at);
     }
-    if let Some(layout) = accessor.layout.filter(|layout| !allows(path, *layout)) {
-        let message = format!("the keyframes are {}, which this path does not take", layout.name());
+    if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
+        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("the keyframes are {found}, which this path does not take");
         report.say(&codes::GLTF_FORMAT, "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT", at, message);
     }
     let times = sampler.input.and_then(|input| doc.accessors.get(input)?.count);
@@ -243,7 +254,8 @@ fn allows(path: Path, layout: Layout) -> bool {
 }
 
 fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut Report<'_, '_>) {
-    let Some(node) = channel.node.and_then(|node| doc.nodes.get(node)) else { return };
+    let node = channel.node.and_then(|node| doc.nodes.get(node)).filter(|node| report.is_part(node.at));
+    let Some(node) = node else { return };
     let at = report.json.at_or(channel.at, "target");
     match channel.path {
         Some(Path::Translation | Path::Rotation | Path::Scale) => {

@@ -108,7 +108,14 @@ pub(super) fn check_format(
         let message = "positions come without `min` and `max`".to_owned();
         report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", attribute.at, message);
     }
-    let Some(layout) = accessor.layout else { return };
+    let Some(layout) = accessor.layout else {
+        if !matches!(semantic, Semantic::Custom | Semantic::None) {
+            let message = format!("`{}` has no element type or no component type", attribute.name);
+            let alias = "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT";
+            report.say(&codes::GLTF_FORMAT, alias, attribute.at, message);
+        }
+        return;
+    };
     let quantized = doc.uses("KHR_mesh_quantization");
     if !allows(semantic, layout, quantized, in_target) {
         let message = format!("`{}` is {}, which no `{}` is", attribute.name, layout.name(), attribute.name);
@@ -153,6 +160,9 @@ pub(super) fn check_place(
     report: &mut Report<'_, '_>,
 ) {
     let Some((index, view)) = accessor.view.and_then(|view| Some((view, doc.views.get(view)?))) else { return };
+    if !report.is_part(view.at) {
+        return;
+    }
     if !is_aligned(accessor, view.stride) {
         let message = "vertices start at multiples of 4 bytes, and these don't".to_owned();
         report.say(&codes::GLTF_ACCESSOR, "MESH_PRIMITIVE_ACCESSOR_UNALIGNED", attribute.at, message);

@@ -36,7 +36,7 @@ impl Buffer<'_> {
         let compressed = |name| fields.extension(name).is_some_and(|fields| fields.truth("fallback"));
         Self {
             at: fields.at,
-            length: fields.index("byteLength"),
+            length: fields.index("byteLength").filter(|length| *length > 0),
             bytes: None,
             is_fallback: compressed("EXT_meshopt_compression") || compressed("KHR_meshopt_compression"),
         }
@@ -86,7 +86,7 @@ impl View {
             at: fields.at,
             buffer: fields.index("buffer"),
             offset: fields.index("byteOffset").unwrap_or(0),
-            length: fields.index("byteLength"),
+            length: fields.index("byteLength").filter(|length| *length > 0),
             stride: fields.index("byteStride").filter(|stride| (4..=252).contains(stride)),
             target: match fields.whole("target") {
                 Some(34962) => Some(Purpose::Vertices),

@@ -22,6 +22,8 @@ pub(super) struct Parts {
     pub(super) bin: Option<Range<usize>>,
     /// It is a `.glb`.
     pub(super) is_glb: bool,
+    /// The file does not end within a chunk.
+    pub(super) is_whole: bool,
 }
 
 /// True if the bytes are a `.glb`, be it with a damaged beginning; `name` decides where they don't.
@@ -33,9 +35,9 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
 pub(super) fn open(file: FileId, bytes: &[u8], sink: &mut Sink) -> Option<Parts> {
     let mut scan = Scan { file, bytes, sink, json: None, bin: None, chunks: 0 };
     scan.header()?;
-    scan.chunks()?;
+    let is_whole = scan.chunks();
     let Scan { json, bin, .. } = scan;
-    json.map(|json| Parts { json, bin, is_glb: true })
+    json.filter(|json| !json.is_empty()).map(|json| Parts { json, bin, is_glb: true, is_whole })
 }
 
 struct Scan<'a> {
@@ -78,46 +80,45 @@ impl Scan<'_> {
             self.say(code, "GLB_INVALID_VERSION", 4..8, format!("the container has version {version}, not 2"));
             return None;
         }
-        if length < HEADER {
-            let message = format!("the header gives the file a length of {length} bytes, less than its own");
+        if length <= HEADER {
+            let message = format!("the header gives the file a length of {length} bytes, no more than its own");
             self.say(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
         }
         Some(())
     }
 
-    /// The chunks; `None` if the file ends within one.
-    fn chunks(&mut self) -> Option<()> {
-        let (declared, size) = (self.word(8)?, self.bytes.len());
+    /// The chunks, up to where the header says that the file ends, or else to its end; false if it ends within one.
+    fn chunks(&mut self) -> bool {
+        let (declared, size) = (self.word(8).unwrap_or(0), self.bytes.len());
         let mut at = HEADER;
-        while at < declared.min(size) || (at < declared && at == HEADER) {
+        while at != size {
+            if at == declared {
+                let message = format!("{} bytes after the last chunk are ignored", size - declared);
+                self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
+                return true;
+            }
             let (Some(length), Some(kind)) = (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER)) else {
                 let message = "the file ends within the header of a chunk".to_owned();
                 self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", at..size, message);
-                return None;
+                return false;
             };
             let kind = [kind[0], kind[1], kind[2], kind[3]];
             let start = at + CHUNK_HEADER;
             let end = start + length;
             self.chunk(kind, at, start..end.min(size), end, declared);
             if end > size {
+                self.json = self.json.take().filter(|json| json.start != start);
                 let message = format!("the file ends {} bytes before its chunk does", end - size);
                 self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_DATA", size..size, message);
-                return None;
+                return false;
             }
             at = end;
         }
-        if declared == HEADER {
-            let message = "the header says that the file ends with it: there is no chunk of JSON".to_owned();
-            self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", 8..12, message);
-        }
-        if size > declared && at == declared {
-            let message = format!("{} bytes after the last chunk are ignored", size - declared);
-            self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
-        } else if at != declared {
+        if at != declared {
             let message = format!("the header gives the file a length of {declared} bytes, and it has {at}");
             self.say(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
         }
-        Some(())
+        true
     }
 
     /// One chunk, whose header is at `at` and whose content should end at `end`.
@@ -159,7 +160,7 @@ impl Scan<'_> {
         if slot.is_some() {
             let message = format!("this is the second {name} chunk");
             self.say(code, "GLB_DUPLICATE_CHUNK", header, message);
-        } else if kind == BIN || !content.is_empty() {
+        } else {
             *slot = Some(content);
         }
     }
@@ -203,14 +204,14 @@ mod tests {
     fn parts_are_where_the_chunks_say() {
         let bytes = glb(&[(JSON, b"{}  "), (BIN, b"12345678")]);
         let (parts, faults) = open_bytes(&bytes);
-        assert_eq!(parts, Some(Parts { json: 20..24, bin: Some(32..40), is_glb: true }));
+        assert_eq!(parts, Some(Parts { json: 20..24, bin: Some(32..40), is_glb: true, is_whole: true }));
         assert!(faults.is_empty(), "{faults:?}");
     }
 
     #[test]
     fn a_file_that_ends_with_its_header_has_no_scene() {
         let (parts, faults) = open_bytes(&glb(&[]));
-        assert_eq!((parts, faults), (None, vec!["GLB_UNEXPECTED_END_OF_CHUNK_HEADER"]));
+        assert_eq!((parts, faults), (None, vec!["GLB_LENGTH_TOO_SMALL"]));
     }
 
     #[test]

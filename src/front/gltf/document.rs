@@ -20,6 +20,8 @@ pub(super) struct Document<'s> {
     pub(super) views: Vec<View>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
+    /// What the images were decoded to, without names.
+    pub(super) pictures: Vec<crate::ir::Image>,
     pub(super) samplers: Vec<Sampler>,
     pub(super) textures: Vec<Texture>,
     /// Where each material was written; its many optional parts are read when it is lowered.
@@ -79,13 +81,16 @@ impl Document<'_> {
             root.objects(key).map(read).collect()
         }
         let root = Fields::new(json, json.root());
-        let lights = root.extension("KHR_lights_punctual");
         let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
+        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let has_lights = extensions.contains("KHR_lights_punctual");
+        let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {
             buffers: each(root, "buffers", Buffer::read),
             views: each(root, "bufferViews", View::read),
             accessors: each(root, "accessors", Accessor::read),
             images: each(root, "images", Image::read),
+            pictures: Vec::new(),
             samplers: each(root, "samplers", Sampler::read),
             textures: each(root, "textures", Texture::read),
             materials: each(root, "materials", |fields| fields.at),
@@ -97,7 +102,7 @@ impl Document<'_> {
             lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
             scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
             scene: root.index("scene"),
-            extensions: texts.map(std::borrow::Cow::into_owned).collect(),
+            extensions,
             is_glb,
         }
     }

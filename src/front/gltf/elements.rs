@@ -51,13 +51,18 @@ impl Integers<'_> {
 }
 
 impl<'d> Elements<'d> {
-    /// The elements of an accessor; none if some of them can't be had.
+    /// The elements of an accessor; none if some of them can't be had, or are not aligned.
     pub(super) fn of(doc: &'d Document<'_>, accessor: &Accessor) -> Option<Self> {
         let (layout, count) = (accessor.layout?, accessor.count?);
         let base = match accessor.view {
             None => None,
             Some(view) => {
-                let stride = doc.views.get(view)?.stride.unwrap_or(layout.packed());
+                let holder = doc.views.get(view)?;
+                let stride = holder.stride.unwrap_or(layout.packed());
+                let start = if holder.decoded.is_some() { 0 } else { holder.offset };
+                if !start.checked_add(accessor.offset)?.is_multiple_of(layout.component.size()) {
+                    return None;
+                }
                 let end = stride.checked_mul(count - 1)?.checked_add(extent(layout))?;
                 let bytes = doc.view_bytes(view)?.get(accessor.offset..accessor.offset.checked_add(end)?)?;
                 (stride >= extent(layout)).then_some((bytes, stride))

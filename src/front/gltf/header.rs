@@ -65,10 +65,10 @@ const PREFIXES: &[&str] = &[
     "WEB3D",
 ];
 
-/// Checks the version.
-pub(super) fn check_version(report: &mut Report<'_, '_>) {
-    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else { return };
-    let Some((at, (major, minor))) = version(asset, "version") else { return };
+/// Checks the version. True if it is 2, whatever comes after the point.
+pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
+    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else { return false };
+    let Some((at, (major, minor))) = version(asset, "version") else { return false };
     if major != 2 {
         let message = format!("the asset is glTF {major}.{minor}, not 2");
         report.say(&codes::GLTF_VERSION, "UNKNOWN_ASSET_MAJOR_VERSION", at, message);
@@ -76,7 +76,7 @@ pub(super) fn check_version(report: &mut Report<'_, '_>) {
         let message = format!("the asset is glTF {major}.{minor} and is read as 2.0");
         report.say(&codes::GLTF_MINOR_VERSION, "UNKNOWN_ASSET_MINOR_VERSION", at, message);
     }
-    let Some((at, least)) = version(asset, "minVersion") else { return };
+    let Some((at, least)) = version(asset, "minVersion") else { return major == 2 };
     if least > (major, minor) {
         let message = format!("the asset needs glTF {}.{}, and says that it is {major}.{minor}", least.0, least.1);
         report.say(&codes::GLTF_VERSION, "ASSET_MIN_VERSION_GREATER_THAN_VERSION", at, message);
@@ -84,12 +84,17 @@ pub(super) fn check_version(report: &mut Report<'_, '_>) {
         let message = format!("the asset needs glTF {}.{}, and this rtc reads 2.0", least.0, least.1);
         report.say(&codes::GLTF_VERSION, "", at, message);
     }
+    major == 2
 }
 
 fn version(asset: Fields<'_, '_>, key: &str) -> Option<(super::json::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
-    Some((asset.node(key)?, (major.parse().ok()?, minor.parse().ok()?)))
+    let number = |digits: &str| {
+        let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+        is_number.then(|| digits.parse().unwrap_or(u64::MAX))
+    };
+    Some((asset.node(key)?, (number(major)?, number(minor)?)))
 }
 
 /// Checks the lists of extensions; one that is required and not supported is refused.
@@ -107,7 +112,7 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
-        if has_used && !used_names.contains(&**name) {
+        if !used_names.contains(&**name) {
             let message = format!("`{}` is required and not listed in `extensionsUsed`", shown(name));
             report.say(&codes::GLTF_EXTENSION, "UNUSED_EXTENSION_REQUIRED", *at, message);
         }
@@ -117,6 +122,7 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
             report.advise(&codes::GLTF_REQUIRES, "UNSUPPORTED_EXTENSION", *at, message, hint);
         }
     }
+    let in_materials = in_materials(report);
     for (at, name) in &used {
         let is_required = required_names.contains(&**name);
         let needed = name == "KHR_mesh_quantization";
@@ -125,10 +131,15 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
             report.say(&codes::GLTF_EXTENSION, "NON_REQUIRED_EXTENSION", *at, message);
         }
         if !is_required && !schema::is_supported(name) {
-            let message = format!("the extension `{}` has no effect", shown(name));
-            let alias =
-                if schema::find(name).is_none() { "UNSUPPORTED_EXTENSION" } else { "INCOMPLETE_EXTENSION_SUPPORT" };
-            report.say(&codes::GLTF_IGNORES, alias, *at, message);
+            if in_materials.contains(&**name) {
+                let message = format!("materials have `{}`, which is not drawn: they look otherwise", shown(name));
+                report.say(&codes::GLTF_MATERIAL_ODD, "", *at, message);
+            } else {
+                let message = format!("the extension `{}` has no effect", shown(name));
+                let alias =
+                    if schema::find(name).is_none() { "UNSUPPORTED_EXTENSION" } else { "INCOMPLETE_EXTENSION_SUPPORT" };
+                report.say(&codes::GLTF_IGNORES, alias, *at, message);
+            }
         }
         match name.split_once('_') {
             Some((prefix, rest)) if !prefix.is_empty() && !rest.is_empty() => {
@@ -143,4 +154,12 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
             }
         }
     }
+}
+
+/// The extensions that some material has.
+fn in_materials(report: &Report<'_, '_>) -> BTreeSet<String> {
+    let json = report.json;
+    let extensions = json.list(json.root(), "materials").filter_map(|material| json.get(material, "extensions"));
+    let keys = extensions.flat_map(|all| json.pairs(all)).filter_map(|(key, _)| json.text(key));
+    keys.map(std::borrow::Cow::into_owned).collect()
 }

@@ -1,12 +1,17 @@
 //! Images: where their bytes are, what they say of themselves, and whether they can be decoded.
 
-use super::buffer::{Bytes, Purpose, Purposes};
+use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
+use super::features;
 use super::field::Fields;
-use super::json::NodeId;
+use super::json::{Kind, NodeId};
 use super::report::Report;
-use crate::diag::codes;
-use crate::image::{DecodeError, MAX_PIXELS, decode};
+use crate::diag::{Code, codes};
+use crate::front::pixels::{self, Refused};
+use crate::image::{DecodeError, Opacity};
+use crate::ir;
+use crate::source::{Budget, Exceeded};
+use std::collections::BTreeMap;
 
 /// An image.
 #[derive(Debug)]
@@ -20,8 +25,8 @@ pub(super) struct Image {
     pub(super) format: Option<Format>,
     /// The bytes of its file or URI; those of a view stay there.
     pub(super) bytes: Option<Bytes<'static>>,
-    /// It was decoded once and is sound.
-    pub(super) is_sound: bool,
+    /// Which picture of the document it is, if it is sound.
+    pub(super) picture: Option<usize>,
 }
 
 /// A format of images.
@@ -96,7 +101,7 @@ impl Image {
             media: fields.text("mimeType"),
             format: None,
             bytes: None,
-            is_sound: false,
+            picture: None,
         }
     }
 }
@@ -114,14 +119,14 @@ impl Document<'_> {
 
 /// Checks what is written about each image.
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
-    for image in &doc.images {
+    for image in doc.images.iter().filter(|image| report.json.kind(image.at) == Kind::Map) {
         let fields = Fields::new(report.json, image.at);
-        if fields.has("uri") == fields.has("bufferView") {
+        if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
             let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
             report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
         }
-        let Some(at) = fields.node("bufferView") else { continue };
-        if !fields.has("mimeType") {
+        let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else { continue };
+        if fields.text("mimeType").is_none() {
             let message = "an image in a buffer view has a `mimeType`, and this has none".to_owned();
             report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
@@ -133,9 +138,12 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
     }
 }
 
-/// Looks at the bytes of each image, and decodes it once to see that it is sound.
+/// Why an image is refused: a code, the validator's name for it, and words.
+type Fault = (&'static Code, &'static str, String);
+
+/// Looks at the bytes of each image, and decodes them; images of the same bytes are one picture.
 pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
-    let mut budget = MAX_PIXELS;
+    let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
         let Some(bytes) = doc.image_bytes(image) else { continue };
@@ -153,44 +161,66 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
             let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
             report.say(&codes::GLTF_IMAGE, "IMAGE_NON_ENABLED_MIME_TYPE", at, message);
         }
-        let is_sound = format.ends_early(bytes).then(|| ends_early(at, report)).is_none()
-            && decodes(bytes, at, &mut budget, report);
-        let image = &mut doc.images[index];
-        (image.format, image.is_sound) = (Some(format), is_sound);
-    }
-}
-
-fn ends_early(at: NodeId, report: &mut Report<'_, '_>) {
-    let message = "the image ends before it tells its size".to_owned();
-    report.say(&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", at, message);
-}
-
-/// Decodes an image within the pixels that are left for all of them.
-fn decodes(bytes: &[u8], at: NodeId, budget: &mut u64, report: &mut Report<'_, '_>) -> bool {
-    match decode(bytes) {
-        Ok(pixels) => {
-            let count = u64::from(pixels.width) * u64::from(pixels.height);
-            if !pixels.width.is_power_of_two() || !pixels.height.is_power_of_two() {
-                let message = format!("the image has {} × {} pixels", pixels.width, pixels.height);
-                report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
-            }
-            if count > *budget {
-                let message = "the images together have more than 16384 × 16384 pixels".to_owned();
-                report.say(&codes::GLTF_HUGE_IMAGE, "", at, message);
-                return false;
-            }
-            *budget -= count;
-            true
+        if let Some(what) = features::unfollowed(format, bytes) {
+            let message = format!("the image has {what}, and that is not followed");
+            report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_FEATURES_UNSUPPORTED", at, message);
         }
-        Err(fault) => {
-            let message = format!("the image {fault}");
-            match fault {
-                DecodeError::TooLarge { width: _, height: _ } => report.say(&codes::GLTF_HUGE_IMAGE, "", at, message),
-                DecodeError::Format(_) | DecodeError::Damaged(_) => {
-                    report.say(&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID", at, message);
+        let own = stretch(bytes);
+        let picture = match known.get(&own) {
+            Some(picture) => picture.clone(),
+            None => match picture(format, bytes, report.budget) {
+                Ok(picture) => {
+                    doc.pictures.push(picture);
+                    Ok(doc.pictures.len() - 1)
                 }
-            }
-            false
+                Err(Refusal::Limit(fault)) => return report.exceeded(at, "the image", &fault),
+                Err(Refusal::Fault(fault)) => Err(fault),
+            },
+        };
+        match &picture {
+            Ok(picture) => remark_size(&doc.pictures[*picture], at, report),
+            Err((code, alias, message)) => report.say(code, alias, at, message.clone()),
         }
+        let image = &mut doc.images[index];
+        (image.format, image.picture) = (Some(format), picture.as_ref().ok().copied());
+        known.insert(own, picture);
     }
+}
+
+fn remark_size(picture: &ir::Image, at: NodeId, report: &mut Report<'_, '_>) {
+    let ir::Image { width, height, .. } = picture;
+    if !width.is_power_of_two() || !height.is_power_of_two() {
+        let message = format!("the image has {width} × {height} pixels");
+        report.say(&codes::GLTF_REMARK, "IMAGE_NPOT_DIMENSIONS", at, message);
+    }
+}
+
+enum Refusal {
+    Fault(Fault),
+    Limit(Exceeded),
+}
+
+/// Decodes an image within the budget of the run.
+fn picture(format: Format, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
+    if format.ends_early(bytes) {
+        let message = "the image ends before it tells its size".to_owned();
+        return Err(Refusal::Fault((&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", message)));
+    }
+    let pixels = pixels::decode(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
+        Refused::Limit(fault) => Refusal::Limit(fault),
+        Refused::File(fault) => {
+            let (code, alias) = match fault {
+                DecodeError::TooLarge { width: _, height: _ } => (&codes::GLTF_HUGE_IMAGE, ""),
+                DecodeError::Format(_) | DecodeError::Damaged(_) => (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID"),
+            };
+            Refusal::Fault((code, alias, format!("the image {fault}")))
+        }
+    })?;
+    Ok(ir::Image {
+        name: String::new(),
+        width: pixels.width,
+        height: pixels.height,
+        kind: if pixels.has_alpha { ir::Pixels::Rgba8 } else { ir::Pixels::Rgb8 },
+        pixels: pixels.bytes.into(),
+    })
 }

@@ -17,6 +17,10 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
             let message = "a directional light reaches everywhere".to_owned();
             report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
+        if let Some(at) = fields.node("spot").filter(|_| !fields.is("type", "spot")) {
+            let message = "only a spot light has a cone".to_owned();
+            report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
+        }
         let Some(spot) = fields.object("spot") else { continue };
         let inner = spot.number_or("innerConeAngle", 0.0);
         let outer = spot.number_or("outerConeAngle", std::f64::consts::FRAC_PI_4);

@@ -7,22 +7,33 @@ use super::report::Report;
 use crate::diag::codes;
 
 /// Each texture of a material with the set of texture coordinates it asks for.
-pub(super) fn texture_coordinates(json: &Tree<'_>, material: NodeId) -> Vec<(NodeId, u64)> {
+pub(super) fn texture_coordinates(doc: &Document<'_>, json: &Tree<'_>, material: NodeId) -> Vec<(NodeId, u64)> {
     let parts = json.at(material, &["pbrMetallicRoughness"]).into_iter();
-    let extensions = json.get(material, "extensions").into_iter().flat_map(|all| json.pairs(all).map(|(_, one)| one));
+    let is_used = |key: NodeId| json.text(key).is_some_and(|name| doc.uses(&name));
+    let extensions = json.get(material, "extensions").into_iter().flat_map(|all| json.pairs(all));
+    let extensions = extensions.filter(|(key, _)| is_used(*key)).map(|(_, one)| one);
     let holders = std::iter::once(material).chain(parts).chain(extensions);
     let mut found = Vec::new();
     for (key, at) in holders.flat_map(|holder| json.pairs(holder)) {
         let is_texture = json.text(key).is_some_and(|key| key.ends_with("Texture")) && json.kind(at) == Kind::Map;
-        if !is_texture || json.get(at, "index").is_none() {
+        if !is_texture {
             continue;
         }
         let fields = Fields::new(json, at);
-        let transform =
-            fields.extension("KHR_texture_transform").and_then(|fields| Some((fields.at, fields.whole("texCoord")?)));
-        found.push(transform.unwrap_or((at, fields.whole("texCoord").unwrap_or(0))));
+        let transform = fields.extension("KHR_texture_transform").filter(|_| doc.uses("KHR_texture_transform"));
+        let transform = transform.and_then(|fields| Some((fields.at, fields.whole("texCoord")?)));
+        let own = || Some((at, if fields.has("texCoord") { fields.whole("texCoord")? } else { 0 }));
+        found.extend(transform.or_else(own));
     }
     found
+}
+
+/// True if a texture of the material follows tangents.
+pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bool {
+    let textures =
+        [("KHR_materials_clearcoat", "clearcoatNormalTexture"), ("KHR_materials_anisotropy", "anisotropyTexture")];
+    let has = |name, key| extension(doc, material, name).and_then(|own| own.object(key)).is_some();
+    material.object("normalTexture").is_some() || textures.into_iter().any(|(name, key)| has(name, key))
 }
 
 /// Checks all materials.
@@ -34,11 +45,12 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
             report.say(&codes::GLTF_MATERIAL_ODD, "MATERIAL_ALPHA_CUTOFF_INVALID_MODE", at, message);
         }
         check_models(fields, report);
-        check_ior(fields, report);
-        check_iridescence(fields, report);
-        check_volume(fields, report);
-        check_coats(fields, report);
-        check_emission(fields, report);
+        check_ior(doc, fields, report);
+        check_iridescence(doc, fields, report);
+        check_volume(doc, fields, report);
+        check_dispersion(doc, fields, report);
+        check_coats(doc, fields, report);
+        check_emission(doc, fields, report);
     }
 }
 
@@ -54,8 +66,13 @@ fn check_models(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_ior(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(ior) = fields.extension("KHR_materials_ior") else { return };
+/// The object of an extension that the asset uses.
+fn extension<'t, 's>(doc: &Document<'_>, fields: Fields<'t, 's>, name: &str) -> Option<Fields<'t, 's>> {
+    fields.extension(name).filter(|_| doc.uses(name))
+}
+
+fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(ior) = extension(doc, fields, "KHR_materials_ior") else { return };
     if let (Some(at), Some(value)) = (ior.node("ior"), ior.number("ior"))
         && value > 0.0
         && value < 1.0
@@ -65,8 +82,8 @@ fn check_ior(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_iridescence(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(film) = fields.extension("KHR_materials_iridescence") else { return };
+fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else { return };
     let [least, most] =
         [film.number_or("iridescenceThicknessMinimum", 100.0), film.number_or("iridescenceThicknessMaximum", 400.0)];
     let texture = film.has("iridescenceThicknessTexture");
@@ -85,11 +102,11 @@ fn check_iridescence(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_volume(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(volume) = fields.extension("KHR_materials_volume") else { return };
+fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(volume) = extension(doc, fields, "KHR_materials_volume") else { return };
     let code = &codes::GLTF_MATERIAL_ODD;
     let entered = ["KHR_materials_transmission", "KHR_materials_diffuse_transmission"];
-    if !entered.iter().any(|name| fields.extension(name).is_some()) {
+    if !entered.iter().any(|name| extension(doc, fields, name).is_some()) {
         let message = "no light enters the volume: the material has no transmission".to_owned();
         report.say(code, "KHR_MATERIALS_VOLUME_NO_TRANSMISSION", volume.at, message);
     }
@@ -99,8 +116,16 @@ fn check_volume(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
+fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let volume = extension(doc, fields, "KHR_materials_volume");
+    if let Some(dispersion) = extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none()) {
+        let message = "only what enters a volume is dispersed, and the material has none".to_owned();
+        report.say(&codes::GLTF_MATERIAL_ODD, "KHR_MATERIALS_DISPERSION_NO_VOLUME", dispersion.at, message);
+    }
+}
+
 /// Textures that share tangents use the texture coordinates of the normal map.
-fn check_coats(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     let set = |texture: Fields<'_, '_>| texture.whole("texCoord").unwrap_or(0);
     let Some(normal) = fields.object("normalTexture").map(set) else { return };
     for (name, key, alias) in [
@@ -111,7 +136,7 @@ fn check_coats(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
         ),
         ("KHR_materials_anisotropy", "anisotropyTexture", "KHR_MATERIALS_ANISOTROPY_ANISOTROPY_TEXTURE_TEXCOORD"),
     ] {
-        let texture = fields.extension(name).and_then(|fields| fields.object(key));
+        let texture = extension(doc, fields, name).and_then(|fields| fields.object(key));
         if let Some(texture) = texture.filter(|texture| set(*texture) != normal) {
             let message = "the texture and the normal map use different texture coordinates".to_owned();
             report.say(&codes::GLTF_MATERIAL_ODD, alias, texture.at, message);
@@ -119,9 +144,10 @@ fn check_coats(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_emission(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(strength) = fields.extension("KHR_materials_emissive_strength") else { return };
-    if fields.vector_or("emissiveFactor", [0.0; 3]).iter().all(|channel| *channel == 0.0) {
+fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let Some(strength) = extension(doc, fields, "KHR_materials_emissive_strength") else { return };
+    let is_one = strength.number_or("emissiveStrength", 1.0) - 1.0 == 0.0;
+    if !is_one && fields.vector_or("emissiveFactor", [0.0; 3]).iter().all(|channel| *channel == 0.0) {
         let message = "nothing emits: the emissive factor is zero".to_owned();
         report.say(&codes::GLTF_MATERIAL_ODD, "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR", strength.at, message);
     }
@@ -129,6 +155,9 @@ fn check_emission(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
 
 /// Checks that each primitive has one material a variant.
 pub(super) fn check_variants(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+    if !doc.uses("KHR_materials_variants") {
+        return;
+    }
     for primitive in doc.meshes.iter().flat_map(|mesh| &mesh.primitives) {
         let Some(variants) = Fields::new(report.json, primitive.at).extension("KHR_materials_variants") else {
             continue;

@@ -1,6 +1,6 @@
 //! Meshes: primitives with their attributes and morph targets, and whether these go together.
 
-use super::accessor::{Accessor, Component, Layout};
+use super::accessor::{self, Accessor, Layout};
 use super::attribute;
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
@@ -68,8 +68,9 @@ impl Mesh {
         self.primitives.first().map_or(0, |primitive| primitive.targets.len())
     }
 
-    pub(super) fn is_skinned(&self) -> bool {
-        self.is_skinned
+    /// True if some of its vertices follow joints; nothing is known of a mesh without primitives.
+    pub(super) fn is_skinned(&self) -> Option<bool> {
+        (!self.primitives.is_empty()).then_some(self.is_skinned)
     }
 }
 
@@ -101,12 +102,6 @@ impl Primitive {
     pub(super) fn influences(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let find = |kind: &str, set: usize| self.find(&format!("{kind}_{set}"));
         (0..).map_while(move |set| Some([find("JOINTS", set)?, find("WEIGHTS", set)?]))
-    }
-
-    /// How many vertices there are.
-    pub(super) fn count(&self, doc: &Document<'_>) -> Option<usize> {
-        let counts = self.attributes.iter().filter_map(|attribute| doc.accessors.get(attribute.accessor)?.count);
-        self.find("POSITION").and_then(|position| doc.accessors.get(position)?.count).or(counts.min())
     }
 }
 
@@ -151,29 +146,41 @@ pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Repo
 
 fn check_primitive(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
     attribute::check_names(primitive, report);
+    if primitive.mode < TRIANGLES {
+        let message = "the primitive has points or lines, which are not drawn".to_owned();
+        report.say(&codes::GLTF_PRIMITIVE_ODD, "", primitive.at, message);
+    }
+    let mut vertices = None;
     for attribute in &primitive.attributes {
-        let Some(accessor) = doc.accessors.get(attribute.accessor) else { continue };
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else { continue };
         links.usages.set(attribute.accessor, Usage::Vertices, attribute.at, report);
         links.purposes.set(accessor.view, Purpose::Vertices, attribute.at, report);
         attribute::check_format(doc, attribute, accessor, false, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
         attribute::demand(attribute, accessor, links.demands);
-        let first = primitive.attributes.first().and_then(|first| doc.accessors.get(first.accessor)?.count);
-        if let (Some(count), Some(first)) = (accessor.count, first)
-            && count != first
-        {
-            let message = format!("`{}` has {count} elements, and the first attribute {first}", attribute.name);
-            report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", attribute.at, message);
+        match vertices {
+            None => vertices = accessor.count,
+            Some(first) if accessor.count != Some(first) => {
+                let count = accessor.count.unwrap_or(0);
+                let message = format!("`{}` has {count} elements, and the first attribute {first}", attribute.name);
+                report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", attribute.at, message);
+            }
+            Some(_) => {}
         }
     }
-    check_indices(doc, primitive, links, report);
+    check_indices(doc, (primitive, vertices), links, report);
     check_targets(doc, primitive, links, report);
     check_material(doc, primitive, links, report);
+    check_tangents(doc, primitive, report);
 }
 
-fn check_indices(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
-    let vertices = primitive.count(doc);
-    let indices = primitive.indices.and_then(|index| Some((index, doc.accessors.get(index)?)));
+fn check_indices(
+    doc: &Document<'_>,
+    (primitive, vertices): (&Primitive, Option<usize>),
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    let indices = accessor::find(doc, primitive.indices, report);
     if let Some((index, accessor)) = indices {
         let at = report.json.at_or(primitive.at, "indices");
         links.usages.set(index, Usage::Indices, at, report);
@@ -182,15 +189,13 @@ fn check_indices(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_
             let message = "the view of the indices has a stride".to_owned();
             report.say(&codes::GLTF_VIEW, "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", at, message);
         }
-        let is_index = |layout: &Layout| {
-            let fits = matches!(layout.component, Component::U8 | Component::U16 | Component::U32);
-            fits && layout.components() == 1 && !layout.normalized
-        };
-        if let Some(layout) = accessor.layout.filter(|layout| !is_index(layout)) {
-            let message = format!("the indices are {}, not scalar of u8, u16 or u32", layout.name());
+        let is_index = |layout: Layout| layout.component.is_index() && layout.components() == 1 && !layout.normalized;
+        if accessor.layout.is_some_and(is_index) {
+            links.demands.add(index, Demand::Below(vertices.unwrap_or(0), primitive.mode), at);
+        } else {
+            let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+            let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
             report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", at, message);
-        } else if let Some(vertices) = vertices {
-            links.demands.add(index, Demand::Below(vertices, primitive.mode), at);
         }
     }
     let count = if primitive.indices.is_some() { indices.and_then(|(_, indices)| indices.count) } else { vertices };
@@ -214,7 +219,7 @@ fn fills(mode: u64, count: usize) -> bool {
 
 fn check_targets(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
     for attribute in primitive.targets.iter().flatten() {
-        let Some(accessor) = doc.accessors.get(attribute.accessor) else { continue };
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else { continue };
         links.usages.set(attribute.accessor, Usage::Vertices, attribute.at, report);
         links.purposes.set(accessor.view, Purpose::Vertices, attribute.at, report);
         attribute::check_format(doc, attribute, accessor, true, report);
@@ -224,24 +229,18 @@ fn check_targets(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_
             report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR", attribute.at, message);
             continue;
         };
-        let counts = (accessor.count, doc.accessors.get(base).and_then(|base| base.count));
-        if let (Some(count), Some(base)) = counts
-            && count != base
-        {
-            let message = format!("{count} elements, and the primitive has {base} vertices");
-            report.say(
-                &codes::GLTF_COUNT,
-                "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT",
-                attribute.at,
-                message,
-            );
+        let base = doc.accessors.get(base).and_then(|base| base.count);
+        if let Some(base) = base.filter(|base| accessor.count != Some(*base)) {
+            let message = format!("{} elements, and the primitive has {base} vertices", accessor.count.unwrap_or(0));
+            let alias = "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT";
+            report.say(&codes::GLTF_COUNT, alias, attribute.at, message);
         }
     }
 }
 
 fn check_material(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
     let Some(material) = primitive.material.and_then(|material| doc.materials.get(material)) else { return };
-    let textures = || material::texture_coordinates(report.json, *material);
+    let textures = || material::texture_coordinates(doc, report.json, *material);
     for (binding, set) in &*links.textures.entry(*material).or_insert_with(textures) {
         if primitive.find(&format!("TEXCOORD_{set}")).is_none() {
             let at = report.json.at_or(primitive.at, "material");
@@ -249,11 +248,29 @@ fn check_material(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'
             report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", at, message);
         }
     }
-    let normal_map = Fields::new(report.json, *material).has("normalTexture");
-    let tangent = primitive.attributes.iter().find(|attribute| attribute.name == "TANGENT");
-    if let Some(tangent) = tangent.filter(|_| !normal_map) {
-        let message = "the material has no normal map, so tangents have no effect".to_owned();
+}
+
+/// Checks that there are tangents where the material looks at them, and none where not.
+fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut Report<'_, '_>) {
+    let material = primitive.material.and_then(|material| doc.materials.get(material));
+    let material = material.map(|material| Fields::new(report.json, *material));
+    let is_needed = material.is_some_and(|material| material::needs_tangents(doc, material));
+    let find = |name| primitive.attributes.iter().find(|attribute| attribute.name == name);
+    if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
+        let message = "no texture of the material follows tangents, so they have no effect".to_owned();
         report.say(&codes::GLTF_REMARK, "UNUSED_MESH_TANGENT", tangent.at, message);
+    }
+    let (Some(material), true) = (material, is_needed) else { return };
+    if find("TANGENT").is_some() && find("NORMAL").is_some() {
+        return;
+    }
+    let at = report.json.at_or(primitive.at, "material");
+    if material.object("normalTexture").is_some() {
+        let message = "the material has a normal map, and the tangents it follows are made up".to_owned();
+        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE", at, message);
+    } else {
+        let message = "the material needs tangents, and there are none, nor a normal map to make them by".to_owned();
+        report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_NO_TANGENT_SPACE", at, message);
     }
 }
 

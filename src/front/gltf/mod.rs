@@ -13,6 +13,7 @@ mod contents;
 mod document;
 mod draco;
 mod elements;
+mod features;
 mod field;
 mod header;
 mod image;
@@ -89,9 +90,10 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
     if !is_small {
         return None;
     }
+    let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let doc = read(&tree, (parts.is_glb, chunk), Resources::new(search), &mut report);
+    let doc = fill(doc, chunk, Resources::new(search), &mut report);
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -101,7 +103,7 @@ fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
     if container::is_glb(map.name(file), bytes) {
         container::open(file, bytes, sink)
     } else {
-        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false })
+        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false, is_whole: true })
     }
 }
 
@@ -136,17 +138,21 @@ fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
     }
 }
 
-/// Checks the asset from its JSON to its contents.
-fn read<'s>(
-    tree: &'s Tree<'s>,
-    (is_glb, chunk): (bool, Option<&'s [u8]>),
+/// Checks the JSON of an asset for itself. Of one that is not glTF 2 nothing is known beyond its header.
+fn shape<'s>(tree: &'s Tree<'s>, is_glb: bool, report: &mut Report<'_, 's>) -> Option<Document<'s>> {
+    let is_known = header::check_version(report);
+    schema::walk(is_known, report);
+    header::check_extensions(report);
+    is_known.then(|| Document::read(tree, is_glb))
+}
+
+/// Brings the files of an asset, and checks how its parts fit together and what is in them.
+fn fill<'s>(
+    mut doc: Document<'s>,
+    chunk: Option<&'s [u8]>,
     mut resources: Resources,
     report: &mut Report<'_, 's>,
 ) -> Document<'s> {
-    schema::walk(report);
-    header::check_version(report);
-    header::check_extensions(report);
-    let mut doc = Document::read(tree, is_glb);
     resources.bring_buffers(&mut doc, chunk, report);
     resources.bring_images(&mut doc, report);
     let demands = check_links(&doc, report);

@@ -3,10 +3,10 @@
 use super::document::Document;
 use super::field::Fields;
 use super::json::{NodeId, Tree};
-use super::mesh::Mesh;
 use super::report::Report;
 use crate::diag::codes;
 use crate::math::unit;
+use std::collections::BTreeSet;
 
 /// How far a rotation may be from length 1.
 const UNIT: f64 = 0.007_69;
@@ -75,10 +75,13 @@ pub(super) struct Forest {
 
 /// Checks each node, and that they form trees.
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
-    for node in &doc.nodes {
+    let joints: BTreeSet<usize> = doc.skins.iter().flat_map(|skin| skin.joints.iter().copied()).collect();
+    for (index, node) in doc.nodes.iter().enumerate() {
         check_transform(node, report);
         check_mesh(doc, node, report);
-        check_empty(node, report);
+        if !joints.contains(&index) && report.is_part(node.at) {
+            check_empty(node, report);
+        }
     }
     let mut parents = vec![None; doc.nodes.len()];
     let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.whole(at)?).ok();
@@ -152,7 +155,7 @@ fn check_transform(node: &Node, report: &mut Report<'_, '_>) {
         Transform::Matrix(matrix) => {
             let at = report.json.at_or(node.at, "matrix");
             let fields = Fields::new(report.json, node.at);
-            if ["translation", "rotation", "scale"].iter().any(|key| fields.has(key)) {
+            if ["translation", "rotation", "scale"].iter().any(|key| fields.numbers(key).is_some()) {
                 let message = "a node has a matrix or its parts, not both".to_owned();
                 report.say(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
             }
@@ -199,26 +202,27 @@ fn is_sheared(matrix: &[f64; 16]) -> bool {
 fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
     let mesh = node.mesh.and_then(|mesh| doc.meshes.get(mesh));
     let fields = Fields::new(report.json, node.at);
-    if let Some(at) = fields.node("weights") {
-        let targets = mesh.map_or(0, Mesh::targets);
+    if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
         if node.mesh.is_none() {
             let message = "there are weights, and no mesh that they could move".to_owned();
             report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
-        } else if mesh.is_some() && node.weights.len() != targets {
-            let message = format!("{} weights for {targets} morph targets", node.weights.len());
+        } else if let Some(mesh) =
+            mesh.filter(|mesh| !mesh.primitives.is_empty() && mesh.targets() != node.weights.len())
+        {
+            let message = format!("{} weights for {} morph targets", node.weights.len(), mesh.targets());
             report.say(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
         }
     }
-    if let Some(at) = fields.node("skin").filter(|_| !fields.has("mesh")) {
+    if let Some(at) = fields.node("skin").filter(|_| node.skin.is_some() && node.mesh.is_none()) {
         let message = "there is a skin, and no mesh that it could move".to_owned();
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
-    match (mesh, node.skin) {
-        (Some(mesh), Some(_)) if !mesh.is_skinned() => {
+    match (mesh, node.skin.and_then(|skin| doc.skins.get(skin))) {
+        (Some(mesh), Some(_)) if mesh.is_skinned() == Some(false) => {
             let message = "the node has a skin, and its mesh no joints".to_owned();
             report.say(&codes::GLTF_SKIN, "NODE_SKIN_WITH_NON_SKINNED_MESH", node.at, message);
         }
-        (Some(mesh), None) if mesh.is_skinned() => {
+        (Some(mesh), None) if mesh.is_skinned() == Some(true) => {
             let message = "the mesh has joints, and the node no skin".to_owned();
             report.say(&codes::GLTF_SKIN_ODD, "NODE_SKINNED_MESH_WITHOUT_SKIN", node.at, message);
         }

@@ -1,6 +1,6 @@
 //! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator of Khronos has for it.
 
-use super::json::{NodeId, Tree};
+use super::json::{Kind, NodeId, Tree};
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
 use crate::source::{Budget, Exceeded, Resource};
@@ -67,6 +67,11 @@ impl<'r, 's> Report<'r, 's> {
         } else {
             code.severity
         }
+    }
+
+    /// True if the part at a node is an object; what refers to another one refers to nothing, which the walk has told.
+    pub(super) fn is_part(&self, at: NodeId) -> bool {
+        self.json.kind(at) == Kind::Map
     }
 
     /// True if an error was reported, here or before.

@@ -7,10 +7,9 @@ use super::json::NodeId;
 use super::report::{Report, shown};
 use super::uri::{self, Fault, Uri};
 use crate::diag::codes;
-use crate::source::{Loader, Missing, Search};
+use crate::source::{Identity, Loader, Missing, Search};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The largest file read, in bytes.
@@ -19,7 +18,9 @@ const MAX_BYTES: u64 = 1 << 30;
 /// Reads files, and remembers them.
 pub(super) struct Resources {
     search: Search,
-    files: BTreeMap<PathBuf, Bytes<'static>>,
+    files: BTreeMap<Identity, Bytes<'static>>,
+    /// What was written in place.
+    data: BTreeSet<Bytes<'static>>,
 }
 
 /// What is behind a URI: bytes, and the media type of a data URI.
@@ -27,7 +28,7 @@ type Found = (Bytes<'static>, Option<String>);
 
 impl Resources {
     pub(super) fn new(search: Search) -> Self {
-        Self { search, files: BTreeMap::new() }
+        Self { search, files: BTreeMap::new(), data: BTreeSet::new() }
     }
 
     /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
@@ -44,7 +45,7 @@ impl Resources {
                 remark_uri(is_glb, at, report);
                 self.fetch(at, is_glb, report)
                     .and_then(|(bytes, media)| is_buffer(media.as_deref(), at, report).then_some(bytes))
-            } else if is_glb && index == 0 && !buffer.is_fallback {
+            } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
                     let message = "the buffer is the binary chunk, and there is none".to_owned();
                     report.say(&codes::GLTF_BUFFER, "BUFFER_MISSING_GLB_DATA", buffer.at, message);
@@ -89,7 +90,13 @@ impl Resources {
                     let message = "data is written in Base64 where a chunk would do".to_owned();
                     report.say(&codes::GLB_EXTRA, "DATA_URI_GLB", at, message);
                 }
-                Some((Rc::new(Cow::Owned(bytes)), Some(media)))
+                let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
+                let known = self.data.get(&bytes).cloned();
+                let bytes = known.unwrap_or_else(|| {
+                    self.data.insert(Rc::clone(&bytes));
+                    bytes
+                });
+                Some((bytes, Some(media)))
             }
             Ok(Uri::Path(path)) => self.file(&path, at, report).map(|bytes| (bytes, None)),
             Err(Fault::Malformed(why)) => {
@@ -125,13 +132,17 @@ impl Resources {
                 return None;
             }
         };
-        if let Some(bytes) = self.files.get(&found.path) {
+        let identity = found.identity();
+        if let Some(bytes) = identity.as_ref().and_then(|identity| self.files.get(identity)) {
             return Some(Rc::clone(bytes));
         }
         match Loader.found(&found, MAX_BYTES) {
             Ok(bytes) => {
+                report.budget.read(bytes.len());
                 let bytes: Bytes<'static> = Rc::new(Cow::Owned(bytes));
-                self.files.insert(found.path, Rc::clone(&bytes));
+                if let Some(identity) = identity {
+                    self.files.insert(identity, Rc::clone(&bytes));
+                }
                 Some(bytes)
             }
             Err(error) => {

@@ -1,6 +1,6 @@
 //! Skins: joints in one tree, their matrices, and the weights by which vertices follow them.
 
-use super::accessor::Component;
+use super::accessor::{self, Component, Layout};
 use super::buffer::{Purpose, Purposes};
 use super::contents::{Demand, Demands};
 use super::document::Document;
@@ -50,7 +50,8 @@ pub(super) fn check(
     let mut shows = Shows::new(doc, forest);
     let mut done = Done::default();
     for (index, node) in doc.nodes.iter().enumerate() {
-        let Some((of, skin)) = node.skin.and_then(|skin| Some((skin, doc.skins.get(skin)?))) else { continue };
+        let skin = node.skin.and_then(|skin| Some((skin, doc.skins.get(skin)?)));
+        let Some((of, skin)) = skin.filter(|(_, skin)| !skin.joints.is_empty()) else { continue };
         let Some((at, mesh)) = node.mesh.and_then(|mesh| Some((mesh, doc.meshes.get(mesh)?))) else { continue };
         check_node((index, node), forest, report);
         if shows.apart(forest.roots[index], of) {
@@ -147,11 +148,11 @@ impl Order {
 }
 
 fn check_tree(doc: &Document<'_>, skin: &Skin, forest: &Forest, order: &Order, report: &mut Report<'_, '_>) {
-    if skin.joints.is_empty() {
+    let Some(at) = report.json.get(skin.at, "joints").filter(|at| report.json.items(*at).next().is_some()) else {
         return;
-    }
-    let at = report.json.at_or(skin.at, "joints");
-    let known: Vec<usize> = skin.joints.iter().copied().filter(|joint| *joint < doc.nodes.len()).collect();
+    };
+    let is_node = |joint: &usize| doc.nodes.get(*joint).is_some_and(|node| report.is_part(node.at));
+    let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
     let root = known.first().and_then(|joint| forest.roots[*joint]);
     if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
         let message = "no node lies above all joints".to_owned();
@@ -171,9 +172,7 @@ fn check_matrices(
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
     report: &mut Report<'_, '_>,
 ) {
-    let Some((index, accessor)) = skin.matrices.and_then(|index| Some((index, doc.accessors.get(index)?))) else {
-        return;
-    };
+    let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else { return };
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
     usages.set(index, Usage::InverseBindMatrices, at, report);
     purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
@@ -181,15 +180,15 @@ fn check_matrices(
         let message = "the view of inverse bind matrices has a stride".to_owned();
         report.say(&codes::GLTF_VIEW, "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", at, message);
     }
-    if let Some(layout) = accessor.layout {
-        if layout.columns == 4 && layout.component == Component::F32 && !layout.normalized {
-            demands.add(index, Demand::Affine, at);
-        } else {
-            let message = format!("inverse bind matrices are {}, not mat4 of f32", layout.name());
-            report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
-        }
+    let is_matrix = |layout: Layout| layout.columns == 4 && layout.component == Component::F32 && !layout.normalized;
+    if accessor.layout.is_some_and(is_matrix) {
+        demands.add(index, Demand::Affine, at);
+    } else {
+        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("inverse bind matrices are {found}, not mat4 of f32");
+        report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
-    if let Some(count) = accessor.count.filter(|count| *count < skin.joints.len()) {
+    if let Some(count) = Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len()) {
         let message = format!("{count} matrices for {} joints", skin.joints.len());
         report.say(&codes::GLTF_COUNT, "INVALID_IBM_ACCESSOR_COUNT", at, message);
     }
@@ -236,8 +235,11 @@ fn check_influences(
     };
     let sets = accessors.into_iter().map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
     let sets: Vec<[Elements<'_>; 2]> = sets.collect();
-    let counts = || sets.iter().map(|[own, weights]| own.count.min(weights.count));
-    let work = counts().map(|count| count as u64).fold(0, u64::saturating_add);
+    let count = sets.first().map_or(0, |[own, _]| own.count);
+    if sets.iter().flatten().any(|elements| elements.count != count) {
+        return;
+    }
+    let work = (count as u64).saturating_mul(sets.len() as u64);
     if !report.charge(Resource::Vertices, work, primitive.at, "the skin") {
         return;
     }
@@ -245,9 +247,9 @@ fn check_influences(
     #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
     let joints = joints as f64;
     let mut vertex = Vec::new();
-    for at in 0..counts().max().unwrap_or(0) {
+    for at in 0..count {
         vertex.clear();
-        for [own, weights] in sets.iter().filter(|[own, weights]| at < own.count.min(weights.count)) {
+        for [own, weights] in &sets {
             vertex.extend(own.at::<4>(at).into_iter().zip(weights.at::<4>(at)));
         }
         found.look(at, &vertex, joints);
@@ -269,30 +271,32 @@ fn check_influences(
 
 impl Influences {
     fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
-        /// What 8 bits a weight allow the sum to miss for each two weights beyond the first two.
-        const STEP: f64 = 0.003_921_6;
-        const ROUNDING: f64 = 2e-6;
-        let put = |slot: &mut Option<usize>, is_wrong: bool| {
-            if is_wrong {
-                slot.get_or_insert(at);
-            }
+        /// What each weight may add to what the sum misses.
+        const ROUNDING: f64 = 2e-7;
+        let put = |slot: &mut Option<usize>| {
+            slot.get_or_insert(at);
         };
-        let mut moving: Vec<f64> = Vec::with_capacity(vertex.len());
-        let mut sum = 0.0;
+        let (mut sum, mut slack, mut moving) = (0.0_f64, 0.0, BTreeSet::new());
         for (joint, weight) in vertex {
-            put(&mut self.out, *joint >= joints);
-            put(&mut self.negative, *weight < 0.0);
-            if *weight == 0.0 {
-                put(&mut self.idle, *joint != 0.0);
-                continue;
+            if *joint >= joints {
+                put(&mut self.out);
+            } else if *weight == 0.0 {
+                if *joint != 0.0 {
+                    put(&mut self.idle);
+                }
+            } else if !moving.insert(joint.to_bits()) {
+                put(&mut self.twice);
+            } else if *weight < 0.0 {
+                put(&mut self.negative);
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "readers sum in 32 bits")]
+                let added = (sum + weight) as f32;
+                sum = f64::from(added);
+                slack += ROUNDING;
             }
-            moving.push(*joint);
-            sum += weight;
         }
-        moving.sort_unstable_by(f64::total_cmp);
-        put(&mut self.twice, moving.windows(2).any(|pair| pair[0].total_cmp(&pair[1]).is_eq()));
-        let used = u32::try_from(moving.len()).unwrap_or(u32::MAX);
-        let slack = STEP * f64::from(used.saturating_sub(1) / 2) + ROUNDING;
-        put(&mut self.sum, (sum - 1.0).abs() > slack);
+        if (sum - 1.0).abs() > slack {
+            put(&mut self.sum);
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::image::Format;
 use super::json::NodeId;
-use super::report::Report;
+use super::report::{Report, shown};
 use crate::diag::codes;
 
 /// An image and the way it is looked up.
@@ -49,19 +49,25 @@ impl Sampler {
 /// Checks that the images of textures are of the formats that their places ask for.
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     for texture in &doc.textures {
-        let format = |image: Option<usize>| doc.images.get(image?)?.format;
-        let faulty = |report: &mut Report<'_, '_>, at, found: Format, wanted: &str| {
-            let message = format!("the image is of the type {}, not {wanted}", found.media());
+        let faulty = |report: &mut Report<'_, '_>, at, found: &str, wanted: &str| {
+            let message = format!("the image is of the type {}, not {wanted}", shown(found));
             report.say(&codes::GLTF_IMAGE, "TEXTURE_INVALID_IMAGE_MIME_TYPE", at, message);
         };
-        if let Some(found) = format(texture.source).filter(|found| *found == Format::WebP) {
+        let core = [Format::Png.media(), Format::Jpeg.media()];
+        if let Some(found) = media(doc, texture.source).filter(|found| !core.contains(found)) {
             let at = report.json.at_or(texture.at, "source");
             faulty(report, at, found, "image/png or image/jpeg");
         }
-        if let Some(found) = format(texture.webp).filter(|found| *found != Format::WebP) {
+        if let Some(found) = media(doc, texture.webp).filter(|found| *found != Format::WebP.media()) {
             let way = ["extensions", "EXT_texture_webp", "source"];
             let at = report.json.at(texture.at, &way).unwrap_or(texture.at);
             faulty(report, at, found, "image/webp");
         }
     }
+}
+
+/// What an image says that it is, or else what its bytes say.
+fn media<'d>(doc: &'d Document<'_>, image: Option<usize>) -> Option<&'d str> {
+    let image = doc.images.get(image?)?;
+    image.media.as_deref().or(image.format.map(Format::media))
 }

@@ -1,6 +1,8 @@
 //! The path integrator: the light that arrives along all paths, by next-event estimation and scattering together.
 //!
-//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads.
+//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads. No path goes on, and no
+//! light is taken, on another side of the surface itself than its kind demands: closed meshes let no light in, whatever the
+//! normals of their corners.
 
 mod aov;
 mod environment;

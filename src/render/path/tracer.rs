@@ -222,6 +222,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         let [u, v] = walk.pair(1);
         let Some(sample) = bsdf.sample([choice, u, v]) else { return false };
         let wi = frame.to_world(sample.wi).normalize();
+        // Light that the shading normal lets through and the surface itself does not, or the reverse, would leak.
         let through = sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;

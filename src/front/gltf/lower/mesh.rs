@@ -7,7 +7,6 @@ use super::super::mesh::{Attribute, Primitive, TRIANGLES};
 use super::super::report::Report;
 use super::shape::{Shape, ShapeId};
 use super::{deform, tangent, topology};
-use crate::diag::codes;
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
 use std::collections::BTreeMap;
@@ -77,10 +76,6 @@ impl<'d> Meshes<'d> {
         });
         if known.is_none() {
             self.made.insert(key, made);
-        }
-        if made.is_none() {
-            let message = "the primitive has points or lines or no positions, so it does not show".to_owned();
-            report.say(&codes::GLTF_REMARK, "", primitive.at, message);
         }
         made
     }

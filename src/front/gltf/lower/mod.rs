@@ -33,7 +33,7 @@ const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
 
 /// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of its parts.
-pub(in crate::front) const SURFACE: u64 = 512;
+pub(in crate::front) const SURFACE: u64 = 1024;
 
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
@@ -144,7 +144,8 @@ impl Lowering<'_, '_, '_> {
             self.light(*light, world);
         }
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
-        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && mesh.is_skinned());
+        let is_skinned = mesh.is_skinned() == Some(true);
+        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && is_skinned);
         let Some(shape) = self.shapes.of_node(doc, (index, skin), (pose, worlds), self.report) else { return };
         let places = match (skin, node.instances) {
             (Some(_), _) => Places::One(DAffine3::IDENTITY),

@@ -4,14 +4,15 @@ use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::report::Report;
 use crate::diag::codes;
-use crate::image::decode_with_alpha;
-use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Pixels, Place, Sampled, Scene, TextureId, Wrap};
+use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap};
 use crate::math::{cos, sin};
+use std::collections::BTreeMap;
 
 /// What became of the textures and images of the asset.
 pub(super) struct Textures {
     textures: Vec<Option<Option<TextureId>>>,
-    images: Vec<Option<Option<ImageId>>>,
+    /// The image that each picture of the document became.
+    images: BTreeMap<usize, ImageId>,
 }
 
 /// The codes of OpenGL for what lies beyond an image, and for the nearest texel.
@@ -21,7 +22,7 @@ const NEAREST: u64 = 9728;
 
 impl Textures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
-        Self { textures: vec![None; doc.textures.len()], images: vec![None; doc.images.len()] }
+        Self { textures: vec![None; doc.textures.len()], images: BTreeMap::new() }
     }
 
     /// The map that a texture info of a material stands for; none if its texture has no image that can be read.
@@ -57,7 +58,7 @@ impl Textures {
         }
         let texture = &doc.textures[index];
         let mut images = [texture.webp, texture.source].into_iter().flatten();
-        let image = images.find(|image| doc.images.get(*image).is_some_and(|image| image.is_sound));
+        let image = images.find(|image| doc.images.get(*image).is_some_and(|image| image.picture.is_some()));
         let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
         if image.is_none() {
             let message = "the texture has no image that can be read, so it has no effect".to_owned();
@@ -85,25 +86,14 @@ impl Textures {
         origins: &mut Origins,
         report: &Report<'_, '_>,
     ) -> Option<ImageId> {
-        if let Some(known) = self.images.get(index)? {
-            return *known;
-        }
-        let image = &doc.images[index];
-        let decoded = doc.image_bytes(image).and_then(|bytes| decode_with_alpha(bytes).ok());
-        let id = decoded.map(|(pixels, has_alpha)| {
+        let image = doc.images.get(index)?;
+        let picture = image.picture?;
+        Some(*self.images.entry(picture).or_insert_with(|| {
             let at = scene.images.len();
             origins.record(Place::new(Noun::Image, at, Field::Whole), report.json.span(image.at));
-            scene.images.push(ir::Image {
-                name: image.name.clone(),
-                width: pixels.width,
-                height: pixels.height,
-                kind: if has_alpha { Pixels::Rgba8 } else { Pixels::Rgb8 },
-                pixels: pixels.bytes.into(),
-            });
+            scene.images.push(ir::Image { name: image.name.clone(), ..doc.pictures[picture].clone() });
             ImageId(super::mesh::to_u32(at))
-        });
-        self.images[index] = Some(id);
-        id
+        }))
     }
 }
 

@@ -215,7 +215,7 @@ static PRIMITIVE: Object = Object {
         required("attributes", Attributes),
         optional("indices", Index(Pool::Accessors)),
         optional("material", Index(Pool::Materials)),
-        optional("mode", Choice(&[0, 1, 2, 3, 4, 5, 6])),
+        optional("mode", Whole(0, 6)),
         optional("targets", Targets),
     ],
 };

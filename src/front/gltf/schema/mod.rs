@@ -51,7 +51,7 @@ enum Value {
     Number(Bounds),
     /// A list of as many numbers as one of these says; at least one if none does.
     Numbers(&'static [usize], Bounds),
-    /// A list of numbers, as many as another property says.
+    /// A list of numbers, as many and of the kind that other properties say.
     Elements,
     /// A list of different texts.
     Texts,

@@ -18,11 +18,8 @@ impl Walk<'_, '_, '_> {
             Value::Whole(min, max) => self.whole(node, *min, *max, name),
             Value::Choice(choices) => self.choice(node, choices, name),
             Value::Number(bounds) => self.number(node, *bounds, name),
-            Value::Elements => {
-                for item in self.list(node, name) {
-                    self.element(item, Kind::Number, name);
-                }
-            }
+            // An accessor is checked with its bounds, once its type is known.
+            Value::Elements => {}
             Value::Numbers(lengths, bounds) => self.numbers(node, lengths, *bounds, name),
             Value::Texts => self.texts(node, name),
             Value::Index(pool) => {
@@ -33,7 +30,7 @@ impl Walk<'_, '_, '_> {
             Value::Indices(pool) => {
                 let mut seen = BTreeSet::new();
                 for item in self.items(node, name) {
-                    let Some(index) = self.index(item, name) else { continue };
+                    let Some(index) = self.item_index(item, name) else { continue };
                     if !seen.insert(index) {
                         let message = format!("`{name}` holds {index} twice");
                         self.report.say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
@@ -44,7 +41,9 @@ impl Walk<'_, '_, '_> {
             Value::Attributes => self.attributes(node, name),
             Value::Targets => {
                 for item in self.items(node, name) {
-                    self.attributes(item, name);
+                    if self.element(item, Kind::Map, name) {
+                        self.attributes(item, name);
+                    }
                 }
             }
             Value::One(object) => {
@@ -53,8 +52,11 @@ impl Walk<'_, '_, '_> {
                 }
             }
             Value::Many(object) => {
+                let is_root = self.report.json.parent(node) == self.report.json.root();
                 for item in self.items(node, name) {
-                    if self.element(item, Kind::Map, name) {
+                    let is_object =
+                        if is_root { self.expect(item, Kind::Map, name) } else { self.element(item, Kind::Map, name) };
+                    if is_object {
                         self.open.push((item, object));
                     }
                 }
@@ -138,6 +140,16 @@ impl Walk<'_, '_, '_> {
         number
     }
 
+    /// The index that an element of a list or map of indices is.
+    fn item_index(&mut self, node: NodeId, name: &str) -> Option<u64> {
+        let number = self.report.json.whole(node);
+        if number.is_none() {
+            let message = format!("`{name}` holds {}, which is no index", self.report.shown(node));
+            self.report.say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+        }
+        number
+    }
+
     fn number(&mut self, node: NodeId, bounds: Bounds, name: &str) {
         if self.expect(node, Kind::Number, name) {
             self.bounded(node, bounds, name);
@@ -165,7 +177,7 @@ impl Walk<'_, '_, '_> {
             return;
         }
         let items: Vec<NodeId> = self.report.json.items(node).collect();
-        if lengths.is_empty() {
+        if items.is_empty() || lengths.is_empty() {
             self.not_empty(node, items.len(), name);
         } else if !lengths.contains(&items.len()) {
             let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
@@ -212,7 +224,7 @@ impl Walk<'_, '_, '_> {
         for (key, value) in json.pairs(node) {
             count += 1;
             let attribute = json.text(key).unwrap_or_default();
-            if let Some(index) = self.index(value, &attribute)
+            if let Some(index) = self.item_index(value, &attribute)
                 && !is_draco
             {
                 self.follow(value, super::Pool::Accessors, index);

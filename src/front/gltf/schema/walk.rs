@@ -7,43 +7,55 @@ use crate::front::gltf::json::{Kind, NodeId};
 use crate::front::gltf::report::{Report, shown};
 use std::collections::BTreeSet;
 
-/// Checks the shape of the whole asset, and that its references lead somewhere.
-pub(in super::super) fn walk(report: &mut Report<'_, '_>) {
+/// The properties of an asset that say what the others are.
+const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
+
+/// Checks the shape of the whole asset, and that its references lead somewhere; only of its header if the rest `is_known`
+/// not.
+pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
     let root = report.json.root();
     if report.json.kind(root) != Kind::Map {
         let kind = report.json.kind(root).name();
-        return report.say(
-            &codes::GLTF_TYPE,
-            "TYPE_MISMATCH",
-            root,
-            format!("an asset is an object, and this is {kind}"),
-        );
+        let message = format!("an asset is an object, and this is {kind}");
+        return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
     }
-    let texts = |key| {
-        let list = report.json.list(root, key);
-        list.filter_map(|item| report.json.text(item)).map(std::borrow::Cow::into_owned).collect::<BTreeSet<_>>()
-    };
-    let declared = texts("extensionsUsed");
-    let counts = POOLS.map(|(_, way)| {
-        let list = report.json.at(root, way).filter(|list| report.json.kind(*list) == Kind::List);
-        list.map_or(0, |list| report.json.items(list).count())
+    let json = report.json;
+    let declared = json.list(root, "extensionsUsed").filter_map(|item| json.text(item));
+    let declared = declared.map(std::borrow::Cow::into_owned).collect();
+    let slot = |item| if json.kind(item) == Kind::Map { Slot::Unused } else { Slot::NoPart };
+    let slots = POOLS.map(|(_, way)| {
+        let list = json.at(root, way).filter(|list| json.kind(*list) == Kind::List);
+        list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
-    let used = counts.map(|count| vec![false; count]);
-    let mut walk = Walk { report, declared, counts, used, open: vec![(root, &ROOT)] };
+    let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
+    let mut walk = Walk { report, declared, slots, present, is_known, open: vec![(root, &ROOT)] };
     while let Some((node, object)) = walk.open.pop() {
         walk.object(node, object);
     }
-    walk.tell_unused();
+    if is_known {
+        walk.tell_unused();
+    }
+}
+
+/// An element of a list of parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Slot {
+    Unused,
+    Used,
+    /// It is no object, so nothing can refer to it.
+    NoPart,
 }
 
 pub(super) struct Walk<'w, 'r, 's> {
     pub(super) report: &'w mut Report<'r, 's>,
     /// The extensions in `extensionsUsed`.
     declared: BTreeSet<String>,
-    /// How many there are in each pool.
-    counts: [usize; POOLS.len()],
-    /// Which of them something refers to.
-    used: [Vec<bool>; POOLS.len()],
+    /// What is in each pool.
+    slots: [Vec<Slot>; POOLS.len()],
+    /// The asset has the extension that the pool lies in, if it lies in one.
+    present: [bool; POOLS.len()],
+    /// The asset is glTF 2; else only its header is looked at.
+    is_known: bool,
     /// Objects that are still to be checked.
     pub(super) open: Vec<(NodeId, &'static Object)>,
 }
@@ -52,18 +64,29 @@ impl Walk<'_, '_, '_> {
     fn object(&mut self, node: NodeId, object: &'static Object) {
         let json = self.report.json;
         let mut seen: u32 = 0;
+        let is_header = !self.is_known && node == json.root();
         for (name, value) in json.pairs(node) {
+            let known = object.keys.iter().position(|key| json.is(name, key.name));
+            let is_common = json.is(name, "extensions") || json.is(name, "extras");
+            if is_header && (known.is_some() || is_common) && !HEADER.iter().any(|key| json.is(name, key)) {
+                continue;
+            }
             if json.is(name, "extensions") {
                 self.extensions(value, object);
             } else if json.is(name, "extras") {
                 self.extras(value);
-            } else if let Some(at) = object.keys.iter().position(|key| json.is(name, key.name)) {
-                seen |= 1 << at;
+            } else if let Some(at) = known {
+                seen |= u32::from(json.kind(value) != Kind::Null) << at;
                 self.value(value, &object.keys[at].value, object.keys[at].name);
             } else {
                 self.unknown(name, object);
             }
         }
+        self.missing(node, object, seen);
+    }
+
+    /// Reports the properties that an object needs and has not; `seen` has a bit for each that it has.
+    fn missing(&mut self, node: NodeId, object: &'static Object, seen: u32) {
         for (at, Key { name, value: _, required }) in object.keys.iter().enumerate() {
             if *required && seen & (1 << at) == 0 {
                 let message = format!("the {} has no `{name}`", object.name);
@@ -79,7 +102,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn extras(&mut self, value: NodeId) {
-        if self.report.json.kind(value) != Kind::Map {
+        if ![Kind::Map, Kind::Null].contains(&self.report.json.kind(value)) {
             let message = "extras are best an object".to_owned();
             self.report.say(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
         }
@@ -92,23 +115,34 @@ impl Walk<'_, '_, '_> {
         }
         for (key, value) in json.pairs(node) {
             let name = json.text(key).unwrap_or_default();
+            let is_object = self.expect(value, Kind::Map, &name);
             if !self.declared.contains(&*name) {
                 let message = format!("the extension `{}` is not listed in `extensionsUsed`", shown(&name));
                 self.report.say(&codes::GLTF_EXTENSION, "UNDECLARED_EXTENSION", value, message);
                 continue;
             }
             let Some(extension) = extension::find(&name) else { continue };
-            match extension.places.iter().find(|(place, _)| *place == owner.name) {
-                Some((_, object)) => {
-                    if self.expect(value, Kind::Map, &name) {
-                        self.open.push((value, object));
-                    }
-                }
+            let place = extension.places.iter().find(|(place, _)| *place == owner.name);
+            if place.is_some() {
+                self.has_root(&name, value, owner);
+            }
+            match place {
+                Some((_, object)) if is_object => self.open.push((value, object)),
+                Some((_, object)) => self.missing(value, object, 0),
                 None => {
                     let message = format!("the extension `{name}` means nothing in a {}", owner.name);
                     self.report.say(&codes::GLTF_EXTENSION, "UNEXPECTED_EXTENSION_OBJECT", value, message);
                 }
             }
+        }
+    }
+
+    /// What an extension says of a part leans on what it says of the asset, if it says anything there.
+    fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
+        let pool = POOLS.iter().position(|(_, way)| way.len() > 1 && way[1] == name);
+        if owner.name != ROOT.name && pool.is_some_and(|pool| !self.present[pool]) {
+            let message = format!("this refers to `{name}` of the asset, which has none");
+            self.report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", value, message);
         }
     }
 
@@ -126,17 +160,16 @@ impl Walk<'_, '_, '_> {
     pub(super) fn follow(&mut self, node: NodeId, pool: Pool, index: u64) {
         let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else { return };
         let way = POOLS[at].1;
-        let json = self.report.json;
-        if let ["extensions", extension, _] = way
-            && json.at(json.root(), &way[..2]).is_none()
-        {
-            let message = format!("this refers to `{extension}` of the asset, which has none");
-            let holder = json.parent(node);
-            return self.report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", holder, message);
+        if !self.present[at] {
+            return;
         }
-        let (count, pool) = (self.counts[at], way[way.len() - 1]);
-        match usize::try_from(index).ok().and_then(|index| self.used[at].get_mut(index)) {
-            Some(used) => *used = true,
+        let (count, pool) = (self.slots[at].len(), way[way.len() - 1]);
+        match usize::try_from(index).ok().and_then(|index| self.slots[at].get_mut(index)) {
+            Some(slot @ (Slot::Unused | Slot::Used)) => *slot = Slot::Used,
+            Some(Slot::NoPart) => {
+                let message = format!("what is {index} in `{pool}` is no object");
+                self.report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", node, message);
+            }
             None => {
                 let message = format!("there is no {index} in `{pool}`, which {}", count_words(count));
                 self.report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", node, message);
@@ -147,11 +180,12 @@ impl Walk<'_, '_, '_> {
     /// Notes what nothing refers to: it costs space and has no effect.
     fn tell_unused(&mut self) {
         let json = self.report.json;
-        for ((pool, way), used) in POOLS.iter().zip(&self.used) {
+        for ((pool, way), slots) in POOLS.iter().zip(&self.slots) {
             if matches!(pool, Pool::Nodes | Pool::Scenes | Pool::Lights | Pool::Variants) {
                 continue;
             }
-            for (node, _) in json.list(json.root(), way[0]).zip(used).filter(|(_, used)| !**used) {
+            let unused = |(_, slot): &(NodeId, &Slot)| **slot == Slot::Unused;
+            for (node, _) in json.list(json.root(), way[0]).zip(slots).filter(unused) {
                 self.report.say(&codes::GLTF_REMARK, "UNUSED_OBJECT", node, "nothing refers to this");
             }
         }

@@ -1,0 +1,94 @@
+//! How decoders lay out pixels, and the way from there to bytes of red, green, blue and, it may be, opacity: in place.
+
+/// A pixel as a decoder writes it: grey, or red, green and blue, with opacity or without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    /// From 1 to 4: grey, grey and opacity, colour, colour and opacity.
+    pub(super) channels: usize,
+    /// Whether a channel has two bytes, the high one first.
+    pub(super) is_wide: bool,
+}
+
+impl Layout {
+    /// Bytes of a pixel.
+    pub(super) fn bytes(self) -> usize {
+        self.channels * if self.is_wide { 2 } else { 1 }
+    }
+
+    pub(super) fn has_alpha(self) -> bool {
+        self.channels.is_multiple_of(2)
+    }
+
+    /// Where the decoder writes, in a buffer that has room for every pixel before and after: at its end, so that pixels
+    /// that grow never run over those not yet converted.
+    pub(super) fn place(self, buffer: &mut [u8], channels: usize) -> &mut [u8] {
+        let pixels = buffer.len() / self.bytes().max(channels);
+        let start = buffer.len() - pixels * self.bytes();
+        &mut buffer[start..]
+    }
+
+    /// Makes pixels of `channels` bytes, 3 or 4, of those that the decoder wrote.
+    pub(super) fn convert(self, buffer: &mut Vec<u8>, channels: usize) {
+        let own = self.bytes();
+        if own == channels && !self.is_wide {
+            return;
+        }
+        let pixels = buffer.len() / own.max(channels);
+        let start = buffer.len() - pixels * own;
+        for pixel in 0..pixels {
+            let made = self.pixel(&buffer[start + pixel * own..][..own]);
+            buffer[pixel * channels..][..channels].copy_from_slice(&made[..channels]);
+        }
+        buffer.truncate(pixels * channels);
+        buffer.shrink_to_fit();
+    }
+
+    #[inline]
+    fn pixel(self, coded: &[u8]) -> [u8; 4] {
+        let channel = |k: usize| if self.is_wide { narrow([coded[2 * k], coded[2 * k + 1]]) } else { coded[k] };
+        let opacity = |k: usize| if self.has_alpha() { channel(k) } else { u8::MAX };
+        match self.channels {
+            1 | 2 => [channel(0), channel(0), channel(0), opacity(1)],
+            _ => [channel(0), channel(1), channel(2), opacity(3)],
+        }
+    }
+}
+
+/// The byte nearest to a number of 16 bits: 65535 is 255 · 257.
+#[expect(clippy::cast_possible_truncation, reason = "at most 255")]
+fn narrow(bytes: [u8; 2]) -> u8 {
+    ((u32::from(u16::from_be_bytes(bytes)) + 128) / 257) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn converted(channels: usize, is_wide: bool, to: usize) -> Vec<u8> {
+        let layout = Layout { channels, is_wide };
+        let mut buffer = vec![0; 2 * layout.bytes().max(to)];
+        let coded = layout.place(&mut buffer, to);
+        // Byte k of both pixels together is 10·k, those of wide channels doubled: then the value is the same.
+        let each = if is_wide { 2 } else { 1 };
+        coded.iter_mut().enumerate().for_each(|(k, byte)| *byte = u8::try_from(k / each * 10).unwrap());
+        layout.convert(&mut buffer, to);
+        buffer
+    }
+
+    #[test]
+    fn every_layout_becomes_bytes() {
+        for is_wide in [false, true] {
+            assert_eq!(converted(1, is_wide, 3), [0, 0, 0, 10, 10, 10]);
+            assert_eq!(converted(2, is_wide, 3), [0, 0, 0, 20, 20, 20]);
+            assert_eq!(converted(2, is_wide, 4), [0, 0, 0, 10, 20, 20, 20, 30]);
+            assert_eq!(converted(3, is_wide, 3), [0, 10, 20, 30, 40, 50]);
+            assert_eq!(converted(4, is_wide, 3), [0, 10, 20, 40, 50, 60]);
+            assert_eq!(converted(4, is_wide, 4), [0, 10, 20, 30, 40, 50, 60, 70]);
+        }
+    }
+
+    #[test]
+    fn sixteen_bits_are_rounded() {
+        assert_eq!([[0, 128], [0, 129], [255, 126], [255, 127]].map(narrow), [0, 1, 254, 255]);
+    }
+}

@@ -1,0 +1,199 @@
+//! Pixel files read: PNG, JPEG and WebP, told apart by content, to 8 bits a channel.
+//!
+//! A file is opened first, which reads its header alone and tells what decoding will take; who opened it decides whether
+//! it is decoded. Its pixels are decoded into the buffer that is handed on, and there turned into bytes: nothing is
+//! copied.
+
+mod jpeg;
+mod layout;
+mod png;
+mod webp;
+
+use ::image::ImageFormat;
+use layout::Layout;
+use std::fmt;
+
+/// A picture of 8 bits a channel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pixels {
+    /// Width in pixels, at least 1.
+    pub width: u32,
+    /// Height in pixels, at least 1.
+    pub height: u32,
+    /// Whether pixels have a fourth byte, their opacity.
+    pub has_alpha: bool,
+    /// Rows from the top; red, green, blue.
+    pub bytes: Vec<u8>,
+}
+
+/// What becomes of the opacity of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opacity {
+    /// It is dropped.
+    Dropped,
+    /// It is kept where there is one.
+    Kept,
+}
+
+/// What decoding a picture takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// Its pixels.
+    pub pixels: u64,
+    /// Bytes of the buffer that is handed on.
+    pub memory: u64,
+    /// Bytes that the decoder takes beside it, until it is done.
+    pub passing: u64,
+}
+
+/// Why a file can't be read as a picture; prints as a clause about the file.
+#[derive(Debug)]
+pub enum DecodeError {
+    /// It is no picture, or of a format that is not read, which then is named.
+    Format(Option<&'static str>),
+    /// It has more pixels than it may have, or than there is memory for.
+    TooLarge {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// It is damaged; in the decoder's words.
+    Damaged(String),
+}
+
+impl fmt::Display for DecodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Format(None) => f.write_str("is not a picture"),
+            Self::Format(Some(name)) => write!(f, "is a {name} file"),
+            Self::TooLarge { width, height } => write!(f, "has {width} × {height} pixels"),
+            Self::Damaged(words) => write!(f, "is damaged: {words}"),
+        }
+    }
+}
+
+impl DecodeError {
+    pub(super) fn damaged(words: impl fmt::Display) -> Self {
+        Self::Damaged(words.to_string().trim_end_matches('.').to_owned())
+    }
+}
+
+/// A pixel file of which the header was read.
+pub struct PixelFile<'a> {
+    size: Size,
+    opacity: Opacity,
+    decoder: Decoder<'a>,
+}
+
+enum Decoder<'a> {
+    Png(png::Png<'a>),
+    Jpeg(jpeg::Jpeg<'a>),
+    WebP(webp::WebP<'a>),
+}
+
+/// Width and height in pixels, each at least 1.
+#[derive(Clone, Copy)]
+pub(super) struct Size {
+    pub(super) width: u32,
+    pub(super) height: u32,
+}
+
+impl Size {
+    /// A size, if it is of at most so many pixels.
+    pub(super) fn within(most_pixels: u64, width: u32, height: u32) -> Result<Self, DecodeError> {
+        if width == 0 || height == 0 {
+            return Err(DecodeError::Damaged("it has no pixels".to_owned()));
+        }
+        let size = Self { width, height };
+        if size.pixels() > most_pixels { Err(size.too_large()) } else { Ok(size) }
+    }
+
+    pub(super) fn pixels(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    pub(super) fn too_large(self) -> DecodeError {
+        DecodeError::TooLarge { width: self.width, height: self.height }
+    }
+
+    /// A buffer of so many bytes for each pixel, if there is memory for it.
+    pub(super) fn buffer(self, pixel: usize) -> Result<Vec<u8>, DecodeError> {
+        let bytes = usize::try_from(self.pixels()).ok().and_then(|pixels| pixels.checked_mul(pixel));
+        let bytes = bytes.ok_or(self.too_large())?;
+        let mut buffer = Vec::new();
+        buffer.try_reserve_exact(bytes).map_err(|_| self.too_large())?;
+        buffer.resize(bytes, 0);
+        Ok(buffer)
+    }
+}
+
+/// Whether a file that begins so is one that [`PixelFile`] reads.
+#[must_use]
+pub fn is_picture(head: &[u8]) -> bool {
+    ::image::guess_format(head)
+        .is_ok_and(|format| matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP))
+}
+
+impl<'a> PixelFile<'a> {
+    /// Reads the header of a pixel file.
+    ///
+    /// # Errors
+    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
+    pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
+        let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
+        let (size, decoder) = match format {
+            ImageFormat::Png => png::open(bytes, most_pixels).map(|(size, png)| (size, Decoder::Png(png)))?,
+            ImageFormat::Jpeg => jpeg::open(bytes, most_pixels).map(|(size, jpeg)| (size, Decoder::Jpeg(jpeg)))?,
+            ImageFormat::WebP => webp::open(bytes, most_pixels).map(|(size, webp)| (size, Decoder::WebP(webp)))?,
+            _ => return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/")))),
+        };
+        Ok(Self { size, opacity, decoder })
+    }
+
+    /// What decoding it will take.
+    #[must_use]
+    pub fn cost(&self) -> Cost {
+        let (pixels, passing) = (
+            self.size.pixels(),
+            match &self.decoder {
+                Decoder::Png(png) => png.passing(),
+                Decoder::Jpeg(jpeg) => jpeg.passing(),
+                Decoder::WebP(webp) => webp.passing(self.size),
+            },
+        );
+        let pixel = self.layout().bytes().max(self.channels()) as u64;
+        Cost { pixels, memory: pixels.saturating_mul(pixel), passing }
+    }
+
+    /// Decodes it. Colours stay as stored: profiles and gamma are not applied, 16 bits are rounded to 8.
+    ///
+    /// # Errors
+    /// If the file is damaged or ends early, or there is no memory for it.
+    pub fn decode(self) -> Result<Pixels, DecodeError> {
+        let (layout, channels, size) = (self.layout(), self.channels(), self.size);
+        let mut bytes = size.buffer(layout.bytes().max(channels))?;
+        let coded = layout.place(&mut bytes, channels);
+        match self.decoder {
+            Decoder::Png(png) => png.decode(coded)?,
+            Decoder::Jpeg(jpeg) => jpeg.decode(coded)?,
+            Decoder::WebP(webp) => webp.decode(coded)?,
+        }
+        layout.convert(&mut bytes, channels);
+        Ok(Pixels { width: size.width, height: size.height, has_alpha: channels == 4, bytes })
+    }
+
+    /// How the decoder lays out pixels.
+    fn layout(&self) -> Layout {
+        match &self.decoder {
+            Decoder::Png(png) => png.layout,
+            Decoder::Jpeg(jpeg) => jpeg.layout,
+            Decoder::WebP(webp) => webp.layout,
+        }
+    }
+
+    /// How many channels of a byte the pixels will have.
+    fn channels(&self) -> usize {
+        if self.opacity == Opacity::Kept && self.layout().has_alpha() { 4 } else { 3 }
+    }
+}
