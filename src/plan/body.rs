@@ -85,6 +85,18 @@ impl Body {
         Self::within(Space::of(quad.vertices), form)
     }
 
+    /// Makes room for points that are off by `blur`. Where that is no small part of the thickness, they may be anywhere on the
+    /// surface, and its form says nothing of them.
+    fn blur(&mut self, blur: f64, thickness: f64) {
+        const SMALL: f64 = 1.0 / 1024.0;
+        if let Extent::Within(space) = &mut self.extent {
+            *space = space.grown(blur);
+        }
+        if blur > SMALL * thickness {
+            self.form = Form::Other;
+        }
+    }
+
     /// The box around it, if it has one.
     pub(super) fn space(&self) -> Option<&Space> {
         match &self.extent {
@@ -113,11 +125,35 @@ impl Body {
     }
 }
 
-/// The bodies of all surfaces.
+/// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and round by its coordinates.
 pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
-    scene.surfaces().iter().map(|surface| Body::of(&surface.shape, &meshes)).collect()
+    let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
+    let mut bodies = surfaces().map(|shape| Body::of(shape, &meshes)).collect::<Vec<_>>();
+    let eye = scene.camera().eye.abs().max_element();
+    let farthest = bodies.iter().filter_map(Body::space).map(Space::size).fold(eye, f64::max);
+    for (body, shape) in bodies.iter_mut().zip(surfaces()) {
+        body.blur(ROOM * farthest, thickness(shape));
+    }
+    bodies
+}
+
+/// How thick a solid is, or how long the shortest side of a face.
+fn thickness(shape: &Shape) -> f64 {
+    let shortest = |corners: &[Vec3]| {
+        let sides = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a - *b).abs().max_element());
+        sides.fold(f64::INFINITY, f64::min)
+    };
+    match shape {
+        Shape::Sphere(sphere) => sphere.radius.get(),
+        Shape::Triangle(triangle) => shortest(&triangle.vertices),
+        Shape::Quad(quad) => shortest(&quad.vertices),
+        Shape::Disc(disc) => disc.radius.get(),
+        Shape::Cylinder(Cylinder { height, radius, .. }) => height.get().min(radius.get()),
+        Shape::Cone(Cone { up, radius, .. }) => up.abs().max_element().min(radius.get()),
+        Shape::Plane(_) | Shape::Torus(_) | Shape::Instance(_) => f64::INFINITY,
+    }
 }
 
 /// The plane of a triangle, unless its corners are so nearly in line that rounding moves its normal.

@@ -12,7 +12,6 @@ use rtc::render::{Job, Values};
 use rtc::source::SourceMap;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::ops::Range;
 
 fn is_sound(scene: &Scene) -> bool {
     let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
@@ -89,12 +88,15 @@ fn smallest(mut scene: Scene) -> Scene {
     scene
 }
 
+/// Scenes that broke a law once.
+const FOUND: [u64; 12] = [1243, 1635, 3321, 5438, 11865, 12376, 25322, 38809, 38838, 43900, 44689, 58013];
+
 /// The scenes to be looked at.
-fn seeds() -> Range<u64> {
-    let Ok(wanted) = std::env::var("RTC_SCENES") else { return 0..64 };
+fn seeds() -> Vec<u64> {
+    let Ok(wanted) = std::env::var("RTC_SCENES") else { return (0..64).chain(FOUND).collect() };
     let ends = wanted.split_once("..").and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
     let (from, to) = ends.expect("RTC_SCENES is a range, as 0..2000");
-    from..to
+    (from..to).collect()
 }
 
 /// Of the scenes that break a law all are named, and the first is shown.
@@ -102,7 +104,7 @@ fn seeds() -> Range<u64> {
 fn laws_hold_for_scenes_of_all_kinds() {
     let (mut faults, mut first, mut refused) = (String::new(), None, 0);
     let seeds = seeds();
-    let scenes = seeds.clone().count();
+    let scenes = seeds.len();
     for seed in seeds {
         let scene = Dice::new(seed).extreme();
         if !is_sound(&scene) {
