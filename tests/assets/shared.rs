@@ -68,9 +68,9 @@ fn a_file_of_many_names_is_read_once() {
     let meshes: Vec<_> = scene
         .surfaces
         .iter()
-        .map(|surface| match &surface.shape {
-            Shape::Instance(instance) => instance.mesh,
-            shape => panic!("{shape:?}"),
+        .map(|surface| {
+            let Shape::Instance(instance) = &surface.shape else { panic!("{:?}", surface.shape) };
+            instance.mesh
         })
         .collect();
     assert_eq!(textures, [true; 4]);

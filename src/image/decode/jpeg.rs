@@ -24,10 +24,8 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), D
     };
     let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
     let size = Size::within(most_pixels, side(width), side(height))?;
-    let color = match coded {
-        ColorSpace::Luma | ColorSpace::LumaA | ColorSpace::RGBA => coded,
-        _ => ColorSpace::RGB,
-    };
+    let is_kept = matches!(coded, ColorSpace::Luma | ColorSpace::LumaA | ColorSpace::RGBA);
+    let color = if is_kept { coded } else { ColorSpace::RGB };
     // Odd headers are forgiven, pixels that are missing are not.
     decoder.set_options(options.jpeg_set_out_colorspace(color).set_strict_mode(true));
     let frame = Frame::of(bytes);

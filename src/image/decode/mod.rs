@@ -87,9 +87,9 @@ pub struct PixelFile<'a> {
 }
 
 enum Decoder<'a> {
-    Png(png::Png<'a>),
-    Jpeg(jpeg::Jpeg<'a>),
-    WebP(webp::WebP<'a>),
+    Png(Box<png::Png<'a>>),
+    Jpeg(Box<jpeg::Jpeg<'a>>),
+    WebP(Box<webp::WebP<'a>>),
 }
 
 /// Width and height in pixels, each at least 1.
@@ -142,11 +142,14 @@ impl<'a> PixelFile<'a> {
     /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
     pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
         let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
-        let (size, decoder) = match format {
-            ImageFormat::Png => png::open(bytes, most_pixels).map(|(size, png)| (size, Decoder::Png(png)))?,
-            ImageFormat::Jpeg => jpeg::open(bytes, most_pixels).map(|(size, jpeg)| (size, Decoder::Jpeg(jpeg)))?,
-            ImageFormat::WebP => webp::open(bytes, most_pixels).map(|(size, webp)| (size, Decoder::WebP(webp)))?,
-            _ => return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/")))),
+        let (size, decoder) = if format == ImageFormat::Png {
+            png::open(bytes, most_pixels).map(|(size, png)| (size, Decoder::Png(Box::new(png))))?
+        } else if format == ImageFormat::Jpeg {
+            jpeg::open(bytes, most_pixels).map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?
+        } else if format == ImageFormat::WebP {
+            webp::open(bytes, most_pixels).map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?
+        } else {
+            return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/"))));
         };
         Ok(Self { size, opacity, decoder })
     }
