@@ -7,6 +7,7 @@ mod check;
 mod compile;
 mod cost;
 mod explain;
+mod findings;
 mod input;
 mod interrupt;
 mod look;

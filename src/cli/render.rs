@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::args;
+use super::findings;
 use super::input::{self, Input, Proven};
 use super::interrupt::Interrupt;
 use super::look::Look;
@@ -9,11 +10,11 @@ use super::output::{self, Output};
 use super::progress::{self, Progress};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
-use crate::diag::{Diagnostic, codes};
+use crate::diag::Diagnostic;
 use crate::image::{Image, Layers, Lost, Origin};
-use crate::ir::{Field, Noun, Overrides, Place, Scene};
+use crate::ir::{Overrides, Scene};
 use crate::pipeline::{self, Meter, Renderer};
-use crate::plan::{self, Rule, Rules, Symptom};
+use crate::plan::{self, Rule, Rules};
 use crate::render::{Counts, Crop, Fault, Film, Job};
 use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
 use crate::valid::ValidScene;
@@ -105,7 +106,7 @@ impl Plan {
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         self.window(&proven.lowered.scene)?;
-        if let Some(warning) = imprecise(&proven, self.arithmetic) {
+        if let Some(warning) = findings::imprecise(&proven, self.arithmetic) {
             input.push(warning);
             input.tell(talk)?;
         }
@@ -151,7 +152,7 @@ impl Plan {
             }
         };
         if self.crop.is_none() && shot.counts.hits == 0 {
-            input.push(nothing_in_view(&subject.proven));
+            input.push(findings::nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
         let summary = self.summary(path, &shot);
@@ -160,7 +161,8 @@ impl Plan {
         let mut picture = self.look.develop(shot.image, shot.coverage, &subject.proven.scene.settings().mode);
         picture.layers = self.layers(subject, window, interrupt)?;
         let lost = self.look.lost(&picture);
-        let findings = self.unholdable(&Lost { unnumbered: lost.unnumbered.max(unnumbered), ..lost });
+        let findings =
+            findings::unholdable(&Lost { unnumbered: lost.unnumbered.max(unnumbered), ..lost }, self.arithmetic);
         if !findings.is_empty() {
             findings.into_iter().for_each(|finding| input.push(finding));
             input.tell(talk)?;
@@ -303,26 +305,6 @@ impl Plan {
         Ok((proven, renderer.insert(made)))
     }
 
-    /// Warns of what the file can't hold.
-    fn unholdable(&self, Lost { unnumbered, beyond }: &Lost) -> Vec<Diagnostic> {
-        let names = beyond.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let beyond = (!beyond.is_empty()).then(|| {
-            let finding = Diagnostic::new(&codes::BEYOND_FLOAT, format!("values beyond a 32-bit float in {names}"));
-            finding.hint("the file has 3.4e38 there; a smaller scene makes the same picture")
-        });
-        let unnumbered = (*unnumbered > 0).then(|| {
-            let finding = Diagnostic::new(&codes::UNNUMBERED, format!("pixels that are no number: {unnumbered}"));
-            let advice = match self.arithmetic {
-                plan::Arithmetic::Robust => "colours or coefficients are too large".to_owned(),
-                coarse @ (plan::Arithmetic::Plain | plan::Arithmetic::F32) => {
-                    format!("leave out `--arithmetic {}`", coarse.name())
-                }
-            };
-            finding.hint(format!("they are black in the file; {advice}"))
-        });
-        beyond.into_iter().chain(unnumbered).collect()
-    }
-
     fn summary(&self, path: &Path, shot: &Shot) -> String {
         let Shot { image, counts, elapsed, quality, coverage: _ } = shot;
         let work = progress::summary(counts.rays(), *elapsed);
@@ -396,33 +378,4 @@ fn beside_here(file: &Path, stdin_name: Option<&str>) -> Result<PathBuf, Failure
     let stem = name.and_then(Path::file_stem);
     let stem = stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
     Ok(PathBuf::from(stem).with_added_extension("png"))
-}
-
-fn nothing_in_view(proven: &Proven) -> Diagnostic {
-    let camera = proven.lowered.origins.span(Place::new(Noun::Camera, 0, Field::Whole));
-    Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
-        .at(camera, "this camera sees only the background")
-        .hint("check where the camera stands and looks, and where the objects are")
-}
-
-/// Warns of what the arithmetic chosen loses; none of the robust one.
-fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
-    let loss = plan::loss(&proven.scene, arithmetic)?;
-    let option = arithmetic.name();
-    let (fault, label) = match loss.symptom {
-        Symptom::SelfHit => {
-            let off = format!("rays start about {:.0e} off this surface and meet it again", loss.error);
-            ("surfaces shade or mirror themselves", off)
-        }
-        Symptom::Shape => ("curved surfaces lose their shape", format!("points are about {:.0e} off", loss.error)),
-        Symptom::Skipped => ("rays pass by what is near", "hardly larger than the 1e-5 that rays skip".to_owned()),
-    };
-    let surface = proven.scene.surfaces()[loss.surface].index;
-    let span = proven.lowered.origins.span(Place::new(Noun::Surface, surface, Field::Whole));
-    let finding = Diagnostic::new(&codes::IMPRECISE, format!("in {option} this picture will be wrong: {fault}"));
-    let others = match loss.surfaces - 1 {
-        0 => String::new(),
-        others => format!("; {others} more such surfaces"),
-    };
-    Some(finding.at(span, format!("{label}{others}")).hint(format!("leave out `--arithmetic {option}`")))
 }

@@ -30,7 +30,7 @@ fn the_pixel_at_which_rays_run_out_is_the_same_on_any_number_of_threads() {
         assert_eq!(code(&output), 1, "{}", stderr(&output));
         stderr(&output)
     };
-    for (limit, pixel) in [("rays=20000", "0, 0"), ("rays=100", "0, 0")] {
+    for (limit, pixel) in [("rays=20000", "0, 0"), ("rays=200", "0, 0")] {
         let one = told("1", limit);
         assert!(one.contains("error[RD006]") && one.contains(&format!("they run out at pixel {pixel}")), "{one}");
         assert!(one.contains("lobes.yaml:7:") && one.contains("`glossySamples` is 20"), "{one}");

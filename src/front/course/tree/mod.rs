@@ -193,7 +193,9 @@ mod tests {
         ] {
             with(text, |tree| {
                 let (_, value) = tree.pairs(tree.root()).next().unwrap();
-                assert_eq!(tree.shape(value), Shape::Text(word), "{text:?}");
+                let Shape::Text(found) = tree.shape(value) else { panic!("{text:?} is no text") };
+                // Whether a last line that does not end gets an end is the parser's affair.
+                assert_eq!(found.trim_end_matches('\n'), word, "{text:?}");
             });
         }
     }
