@@ -2,7 +2,7 @@
 
 use super::{film, noise, proven, random, scene};
 use rtc::ir::{self, Scene};
-use rtc::math::{U, Vec3};
+use rtc::math::{U, Vec3, pow};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Geometry, Ray, Shape, World};
 
@@ -29,7 +29,7 @@ fn aimed(index: u64) -> Ray {
     let [u, v] = [noise(7 * index + 1_000_003), noise(7 * index + 1_000_004)];
     let target =
         Vec3::new(1.0, 1.0, 1.0) + Vec3::new(2.0, -1.0, 0.0) * (4.0 * u) + Vec3::new(3.0, 0.0, -1.0) * (3.0 * v);
-    let (away, far) = (random(index).normalize(), 1000.0_f64.powf(noise(7 * index + 1_000_005)));
+    let (away, far) = (random(index).normalize(), pow(1000.0, noise(7 * index + 1_000_005)));
     let height = away.dot(Vec3::new(1.0, 2.0, 3.0).normalize());
     // The prism lies on one side.
     let away = if height < 0.0 { -away } else { away };
@@ -89,7 +89,7 @@ fn of_many_coplanar_quads_the_first_is_seen() {
 fn a_decal_four_error_bounds_in_front_is_seen() {
     let mut tried = 0;
     for index in 0..1000 {
-        let corner = random(3 * index) * 10.0_f64.powf(3.0 * noise(index + 5));
+        let corner = random(3 * index) * pow(10.0, 3.0 * noise(index + 5));
         let (first, second) = (random(3 * index + 1), random(3 * index + 2));
         if first.cross(second).length() < 0.1 {
             continue;
@@ -113,7 +113,7 @@ fn a_decal_four_error_bounds_in_front_is_seen() {
 fn aimed_at(target: Vec3, normal: Vec3, index: u64) -> Ray {
     let away = random(index + 9000).normalize();
     let away = if away.dot(normal) < 0.0 { -away } else { away };
-    Ray { origin: target + away * 100.0_f64.powf(noise(index + 31)), direction: -away }
+    Ray { origin: target + away * pow(100.0, noise(index + 31)), direction: -away }
 }
 
 /// A picture of two overlapping quads shows no speckle, without and with shadows and mirrors.
