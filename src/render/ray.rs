@@ -32,6 +32,14 @@ impl Ray {
         }
     }
 
+    /// As [`Ray::tamed`], but for lengths from 2^−64 to 2^64 as they are: to scale them takes time and changes no bit.
+    #[inline]
+    pub(super) fn in_range(self) -> (Self, f64) {
+        const MOST: f64 = 18_446_744_073_709_551_616.0;
+        let size = self.direction.abs().max_element();
+        if (1.0 / MOST..=MOST).contains(&size) { (self, 1.0) } else { self.tamed() }
+    }
+
     /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶ times as far as the surface is
     /// large, rounding may leave that no length: then the surface faces the ray.
     #[must_use]
