@@ -226,8 +226,8 @@ impl Plan {
         };
         let elapsed = progress.finish();
         let film = film.map_err(no_threads)?;
-        if let Some(pixel) = meter.ran_out().filter(|_| !interrupt.is_raised()) {
-            return Ok(Err(Box::new(meter.finding(&subject.proven.lowered, pixel))));
+        if let Some(finding) = ran_out(&meter, subject, interrupt) {
+            return Ok(Err(finding));
         }
         let film = film.ok_or(Failure::Interrupted)?;
         let Film { image, coverage, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
@@ -268,8 +268,8 @@ impl Plan {
         let reached = reached.map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
         let elapsed = progress.finish();
         let reached = reached.map_err(no_threads)?;
-        if let Some(pixel) = meter.ran_out().filter(|_| !interrupt.is_raised()) {
-            return Ok(Err(Box::new(meter.finding(&subject.proven.lowered, pixel))));
+        if let Some(finding) = ran_out(&meter, subject, interrupt) {
+            return Ok(Err(finding));
         }
         let reached = reached.map_err(|Stopped| Failure::Interrupted)?;
         let Reached { image, coverage, counts, samples: Samples { least, mean, most }, .. } = reached;
@@ -348,6 +348,12 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
         Some([]) => Rules::NONE,
         Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
     }
+}
+
+/// What to say if the rays ran out, unless a signal ended the render.
+fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Box<Diagnostic>> {
+    let pixel = meter.ran_out().filter(|_| !interrupt.is_raised())?;
+    Some(Box::new(meter.finding(&subject.proven.lowered, pixel)))
 }
 
 /// What to say of a rule that was wrong.

@@ -18,26 +18,20 @@ pub struct Ray {
 impl Ray {
     /// The ray with a direction whose square can be computed, and what one `t` of it is worth in `t` of `self`.
     ///
-    /// Unit vectors stay as they are; others are brought to about 1 by a power of two, which rounds nothing.
+    /// Lengths from about 2^−64 to 2^64 stay as they are; others are brought to about 1 by a power of two, which rounds
+    /// nothing.
     #[must_use]
     #[inline]
     pub fn tamed(self) -> (Self, f64) {
+        const MOST: f64 = 18_446_744_073_709_551_616.0;
         let size = self.direction.abs().max_element();
-        if (0.5..=1.0).contains(&size) {
+        if (1.0 / MOST..=MOST).contains(&size) {
             return (self, 1.0);
         }
         match unit_scale(self.direction) {
             Some((direction, exponent)) => (Self { direction, ..self }, ldexp(1.0, -exponent)),
             None => (self, 1.0),
         }
-    }
-
-    /// As [`Ray::tamed`], but for lengths from 2^−64 to 2^64 as they are: to scale them takes time and changes no bit.
-    #[inline]
-    pub(super) fn in_range(self) -> (Self, f64) {
-        const MOST: f64 = 18_446_744_073_709_551_616.0;
-        let size = self.direction.abs().max_element();
-        if (1.0 / MOST..=MOST).contains(&size) { (self, 1.0) } else { self.tamed() }
     }
 
     /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶ times as far as the surface is

@@ -214,7 +214,7 @@ impl<S: Geometry> World<S> {
     /// is 0. Only triangles of meshes that are [`World::is_merged`] are asked about: all else lets nothing pass. The ray
     /// starts at the part of a surface given.
     pub(super) fn passing(&self, ray: &Ray, t_max: f64, from: (usize, u32), mut pass: impl FnMut(Hit) -> f64) -> f64 {
-        let (ray, unit) = ray.in_range();
+        let (ray, unit) = ray.tamed();
         let t_max = t_max / unit;
         if self.is_blocked_apart(&ray, t_max) {
             return 0.0;
