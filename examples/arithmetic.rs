@@ -1,7 +1,8 @@
 //! What robust arithmetic costs beside plain f64 and f32, and where the pictures differ.
 //!
-//! `arithmetic FILE…` prints a line for each scene and arithmetic; with `--cost N` it measures CPU time as well, N times
-//! by turns on one thread. `arithmetic --once NAME FILE` renders once and prints nothing, for a profiler.
+//! `arithmetic FILE…` prints a line for each scene and arithmetic; with `--cost N` it measures CPU
+//! time as well, N times by turns on one thread. `arithmetic --once NAME FILE` renders once and
+//! prints nothing, for a profiler.
 
 #![expect(
     clippy::unwrap_used,
@@ -20,12 +21,18 @@ use rtc::source::{Loader, SourceMap};
 use rtc::valid::ValidScene;
 use std::path::Path;
 
-const ALL: [(&str, Arithmetic); 3] =
-    [("robust", Arithmetic::Robust), ("plain", Arithmetic::Plain), ("f32", Arithmetic::F32)];
+const ALL: [(&str, Arithmetic); 3] = [
+    ("robust", Arithmetic::Robust),
+    ("plain", Arithmetic::Plain),
+    ("f32", Arithmetic::F32),
+];
 
 fn main() {
     // One thread, this one, so that its time is all there is.
-    let _pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    let _pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
+        .build_global();
     let mut args = std::env::args().skip(1).peekable();
     let mut repeats = 0;
     match args.peek().map(String::as_str) {
@@ -40,7 +47,11 @@ fn main() {
     }
     for file in args {
         let scene = scene(&file);
-        let name = Path::new(&file).file_stem().unwrap().to_string_lossy().into_owned();
+        let name = Path::new(&file)
+            .file_stem()
+            .unwrap()
+            .to_string_lossy()
+            .into_owned();
         differences(&name, &scene);
         if repeats > 0 {
             costs(&name, &scene, repeats);
@@ -55,28 +66,44 @@ fn scene(file: &str) -> ValidScene {
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
     let [width, height] = lowered.scene.camera.size;
     let shrink = f64::from(width.max(height)) / 160.0;
-    let size = [width, height].map(|side| (f64::from(side) / shrink.max(1.0)).round().max(1.0) as u32);
-    let overrides = Overrides { size: Some(size), ..Overrides::default() };
+    let size =
+        [width, height].map(|side| (f64::from(side) / shrink.max(1.0)).round().max(1.0) as u32);
+    let overrides = Overrides {
+        size: Some(size),
+        ..Overrides::default()
+    };
     overrides.apply(&mut lowered.scene);
     pipeline::prove(&lowered, &options, &mut sink).unwrap()
 }
 
 fn render(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
-    render::render(scene, &Plan::by(arithmetic, scene, Rules::ALL), &Job::default(), &|_| true).unwrap()
+    render::render(
+        scene,
+        &Plan::by(arithmetic, scene, Rules::ALL),
+        &Job::default(),
+        &|_| true,
+    )
+    .unwrap()
 }
 
-/// The share of pixels whose bytes differ from the robust ones, and of those that differ by more than 8.
+/// The share of pixels whose bytes differ from the robust ones, and of those that differ by more
+/// than 8.
 fn differences(name: &str, scene: &ValidScene) {
     let robust = render(scene, Arithmetic::Robust);
     for (arithmetic, choice) in &ALL[1..] {
         let film = render(scene, *choice);
         let pairs = || film.image.pixels.iter().zip(&robust.image.pixels);
         let share = |least: u8| {
-            let differ =
-                |(a, b): &(&[f64; 3], &[f64; 3])| (0..3).any(|k| quantize8(a[k]).abs_diff(quantize8(b[k])) >= least);
+            let differ = |(a, b): &(&[f64; 3], &[f64; 3])| {
+                (0..3).any(|k| quantize8(a[k]).abs_diff(quantize8(b[k])) >= least)
+            };
             100.0 * pairs().filter(differ).count() as f64 / pairs().count() as f64
         };
-        println!("{name:<45} {arithmetic:<6} differ {:8.4} %, by more than 8 {:8.4} %", share(1), share(9));
+        println!(
+            "{name:<45} {arithmetic:<6} differ {:8.4} %, by more than 8 {:8.4} %",
+            share(1),
+            share(9)
+        );
     }
 }
 
@@ -102,7 +129,10 @@ fn costs(name: &str, scene: &ValidScene, repeats: usize) {
         times[times.len() / 2]
     });
     let (a, b) = (robust / plain, f32 / plain);
-    println!("{name:<45} plain {:7.1} ms, robust / plain {a:5.2}, f32 / plain {b:5.2}", plain * 1e3);
+    println!(
+        "{name:<45} plain {:7.1} ms, robust / plain {a:5.2}, f32 / plain {b:5.2}",
+        plain * 1e3
+    );
 }
 
 /// The time this thread has run, on Linux.

@@ -1,6 +1,7 @@
-//! A large asset: `write FILE [TRIANGLES]` makes a `.glb` of one mesh, a bumpy globe with normals and texture
-//! coordinates; `start FILE` loads and proves a scene as `rtc render` does and prints the time of each step in
-//! CPU-milliseconds, up to where the hierarchies of its meshes are built. `benches/big-asset.sh` runs both.
+//! A large asset: `write FILE [TRIANGLES]` makes a `.glb` of one mesh, a bumpy globe with normals
+//! and texture coordinates; `start FILE` loads and proves a scene as `rtc render` does and prints
+//! the time of each step in CPU-milliseconds, up to where the hierarchies of its meshes are built.
+//! `benches/big-asset.sh` runs both.
 
 #![expect(
     clippy::unwrap_used,
@@ -29,9 +30,16 @@ struct Grid {
 impl Grid {
     /// The grid of about so many triangles.
     fn of(triangles: f64) -> Self {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count below 2^32")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a count below 2^32"
+        )]
         let columns = triangles.sqrt().round() as u32;
-        Self { columns, rows: columns / 2 }
+        Self {
+            columns,
+            rows: columns / 2,
+        }
     }
 
     fn vertices(&self) -> u32 {
@@ -46,7 +54,12 @@ impl Grid {
     fn uvs(&self) -> impl Iterator<Item = [f64; 2]> {
         let (columns, rows) = (self.columns, self.rows);
         let row = move |v: u32| {
-            (0..=columns).map(move |u| [f64::from(u) / f64::from(columns), f64::from(v) / f64::from(rows)])
+            (0..=columns).map(move |u| {
+                [
+                    f64::from(u) / f64::from(columns),
+                    f64::from(v) / f64::from(rows),
+                ]
+            })
         };
         (0..=rows).flat_map(row)
     }
@@ -61,11 +74,16 @@ impl Grid {
     }
 }
 
-/// The point of the globe at these coordinates; it stays a little short of the poles, so that no triangle is flat.
+/// The point of the globe at these coordinates; it stays a little short of the poles, so that no
+/// triangle is flat.
 fn position([u, v]: [f64; 2]) -> [f64; 3] {
     let (across, down) = (TAU * u, PI * (0.001 + 0.998 * v));
     let radius = 1.0 + 0.05 * sin(8.0 * across) * sin(6.0 * down);
-    [radius * sin(down) * cos(across), radius * cos(down), radius * sin(down) * sin(across)]
+    [
+        radius * sin(down) * cos(across),
+        radius * cos(down),
+        radius * sin(down) * sin(across),
+    ]
 }
 
 /// The unit normal there, by differences.
@@ -79,21 +97,32 @@ fn normal(uv: [f64; 2]) -> [f64; 3] {
         [b[0] - a[0], b[1] - a[1], b[2] - a[2]]
     };
     let (s, t) = (along(0), along(1));
-    let n = [t[1] * s[2] - t[2] * s[1], t[2] * s[0] - t[0] * s[2], t[0] * s[1] - t[1] * s[0]];
+    let n = [
+        t[1] * s[2] - t[2] * s[1],
+        t[2] * s[0] - t[0] * s[2],
+        t[0] * s[1] - t[1] * s[0],
+    ];
     let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
     n.map(|x| -x / length)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "glTF has 32-bit floats")]
 fn floats(numbers: impl IntoIterator<Item = f64>, bin: &mut Vec<u8>) {
-    bin.extend(numbers.into_iter().flat_map(|number| (number as f32).to_le_bytes()));
+    bin.extend(
+        numbers
+            .into_iter()
+            .flat_map(|number| (number as f32).to_le_bytes()),
+    );
 }
 
 /// The least and the greatest position, as 32-bit floats.
 #[expect(clippy::cast_possible_truncation, reason = "glTF has 32-bit floats")]
 fn bounds(grid: &Grid) -> [[f32; 3]; 2] {
     let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
-    for point in grid.uvs().map(|uv| position(uv).map(|number| number as f32)) {
+    for point in grid
+        .uvs()
+        .map(|uv| position(uv).map(|number| number as f32))
+    {
         for axis in 0..3 {
             bounds[0][axis] = bounds[0][axis].min(point[axis]);
             bounds[1][axis] = bounds[1][axis].max(point[axis]);
@@ -127,8 +156,16 @@ fn start(path: &str) {
     let world = World::<Shape>::prepare(&proven, &plan);
     let built = begin.elapsed();
     drop(world);
-    let steps = [("read", read), ("decode", loaded - read), ("prove", checked - loaded), ("plan", planned - checked)];
-    for (step, time) in steps.into_iter().chain([("all before the build", planned), ("build", built - planned)]) {
+    let steps = [
+        ("read", read),
+        ("decode", loaded - read),
+        ("prove", checked - loaded),
+        ("plan", planned - checked),
+    ];
+    for (step, time) in steps.into_iter().chain([
+        ("all before the build", planned),
+        ("build", built - planned),
+    ]) {
         println!("{step}: {:.1} ms", 1e3 * time.as_secs_f64());
     }
 }
@@ -173,7 +210,10 @@ fn write(path: &str, triangles: f64) {
 /// The container: a header, the text, the bytes.
 fn write_glb(path: &str, text: &[u8], bin: &[u8]) -> std::io::Result<()> {
     let word = |length: usize| u32::try_from(length).unwrap().to_le_bytes();
-    #[expect(clippy::disallowed_methods, reason = "a measurement writes what it measures")]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "a measurement writes what it measures"
+    )]
     let mut file = BufWriter::new(File::create(path)?);
     file.write_all(b"glTF\x02\0\0\0")?;
     file.write_all(&word(12 + 8 + text.len() + 8 + bin.len()))?;

@@ -1,7 +1,11 @@
-//! Traces rays through a thousand spheres: sound ones, or the same with a component that is no number. Prints how many
-//! hit; `benches/broken-rays.sh` counts the instructions of `trace` under callgrind.
+//! Traces rays through a thousand spheres: sound ones, or the same with a component that is no
+//! number. Prints how many hit; `benches/broken-rays.sh` counts the instructions of `trace` under
+//! callgrind.
 
-#![expect(clippy::unwrap_used, reason = "a measurement stops at the first surprise")]
+#![expect(
+    clippy::unwrap_used,
+    reason = "a measurement stops at the first surprise"
+)]
 use rtc::diag::Sink;
 use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
@@ -13,7 +17,11 @@ use std::fmt::Write as _;
 /// Numbers in [−1, 1): a golden ratio sequence for each coordinate.
 fn point(k: u32, seed: f64) -> Vec3 {
     let coordinate = |step: f64| (f64::from(k) * step + seed).fract() * 2.0 - 1.0;
-    Vec3::new(coordinate(0.819_172_513), coordinate(0.671_043_606), coordinate(0.549_700_477))
+    Vec3::new(
+        coordinate(0.819_172_513),
+        coordinate(0.671_043_606),
+        coordinate(0.549_700_477),
+    )
 }
 
 fn world() -> World {
@@ -40,12 +48,17 @@ fn ray(k: u32, values: &[f64]) -> Ray {
             place => parts[place / 3][place % 3] = *value,
         }
     }
-    Ray { origin: Vec3::from_array(parts[0]), direction: Vec3::from_array(parts[1]) }
+    Ray {
+        origin: Vec3::from_array(parts[0]),
+        direction: Vec3::from_array(parts[1]),
+    }
 }
 
 #[inline(never)]
 fn trace(world: &World, rays: &[Ray]) -> usize {
-    rays.iter().filter(|ray| world.nearest(ray).is_some()).count()
+    rays.iter()
+        .filter(|ray| world.nearest(ray).is_some())
+        .count()
 }
 
 #[expect(clippy::print_stdout, reason = "it prints what it counted")]

@@ -1,5 +1,6 @@
-//! Checks a made-up scene of as many spheres as asked for and plans its picture; prints the size of its text, the peak of
-//! memory above it, and the time of the plan. `benches/check-cost.sh` runs it under callgrind.
+//! Checks a made-up scene of as many spheres as asked for and plans its picture; prints the size of
+//! its text, the peak of memory above it, and the time of the plan. `benches/check-cost.sh` runs it
+//! under callgrind.
 
 #![expect(
     clippy::unwrap_used,
@@ -25,7 +26,10 @@ static PEAK: AtomicUsize = AtomicUsize::new(0);
 // SAFETY: everything is passed on to the system's allocator as it came.
 unsafe impl GlobalAlloc for Watching {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        PEAK.fetch_max(LIVE.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
+        PEAK.fetch_max(
+            LIVE.fetch_add(layout.size(), Relaxed) + layout.size(),
+            Relaxed,
+        );
         // SAFETY: the caller's promise is passed on.
         unsafe { System.alloc(layout) }
     }
@@ -85,15 +89,27 @@ fn proof_to_plan(scene: &ValidScene) -> Plan {
 
 #[expect(clippy::print_stdout, reason = "it prints what it measured")]
 fn main() {
-    let spheres = std::env::args().nth(1).map_or(5_000, |number| number.parse().unwrap());
+    let spheres = std::env::args()
+        .nth(1)
+        .map_or(5_000, |number| number.parse().unwrap());
     let mut bytes = text(spheres).into_bytes();
     bytes.shrink_to_fit();
     let size = bytes.len();
     PEAK.store(LIVE.load(Relaxed), Relaxed);
     let before = LIVE.load(Relaxed);
     let scene = text_to_proof(bytes).expect("the scene is sound");
-    println!("{spheres} spheres, {size} bytes of text: {} bytes above it at the peak", PEAK.load(Relaxed) - before);
+    println!(
+        "{spheres} spheres, {size} bytes of text: {} bytes above it at the peak",
+        PEAK.load(Relaxed) - before
+    );
     let start = Instant::now();
-    let kept = proof_to_plan(&scene).surfaces.iter().filter(|kept| **kept).count();
-    println!("planned in {:.1} ms, {kept} spheres kept", 1e3 * start.elapsed().as_secs_f64());
+    let kept = proof_to_plan(&scene)
+        .surfaces
+        .iter()
+        .filter(|kept| **kept)
+        .count();
+    println!(
+        "planned in {:.1} ms, {kept} spheres kept",
+        1e3 * start.elapsed().as_secs_f64()
+    );
 }

@@ -1,7 +1,9 @@
-//! Renders the set-up of a reference picture and says how far the two are apart: `compare REFERENCE.json [SAMPLES]`.
+//! Renders the set-up of a reference picture and says how far the two are apart: `compare
+//! REFERENCE.json [SAMPLES]`.
 //!
-//! The set-up names the asset, the camera and the lights; `REFERENCE.exr` beside it is the picture, linear. One line of
-//! JSON comes out: ratios of the means, the relative mean square error, and errors of the means of blocks of 8 × 8 pixels.
+//! The set-up names the asset, the camera and the lights; `REFERENCE.exr` beside it is the picture,
+//! linear. One line of JSON comes out: ratios of the means, the relative mean square error, and
+//! errors of the means of blocks of 8 × 8 pixels.
 
 #![expect(
     clippy::unwrap_used,
@@ -26,15 +28,24 @@ const BLOCK: usize = 8;
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().expect("usage: compare REFERENCE.json [SAMPLES]");
-    let samples = arguments.next().map_or(256, |samples| samples.parse().unwrap());
+    let path = arguments
+        .next()
+        .expect("usage: compare REFERENCE.json [SAMPLES]");
+    let samples = arguments
+        .next()
+        .map_or(256, |samples| samples.parse().unwrap());
     let path = Path::new(&path);
     let lowered = setup::load_set_up(path, samples);
     let proof = setup::prove(&lowered);
     let plan = Plan::new(&proof, Rules::ALL);
-    let job = Job { values: Values::Linear, ..Job::default() };
+    let job = Job {
+        values: Values::Linear,
+        ..Job::default()
+    };
     let start = ProcessTime::now();
-    let film = pipeline::render(&proof, &plan, &job, 1, &|_| true).unwrap().unwrap();
+    let film = pipeline::render(&proof, &plan, &job, 1, &|_| true)
+        .unwrap()
+        .unwrap();
     let seconds = start.elapsed().as_secs_f64();
     let reference = reference(&path.with_extension("exr"));
     println!("{}", report(&film, &reference, seconds));
@@ -71,15 +82,25 @@ fn blocks(pixels: &[[f64; 3]], width: usize) -> Vec<Vec3> {
 
 fn report(film: &Film, reference: &[[f64; 3]], seconds: f64) -> Value {
     let width = film.image.width as usize;
-    let mean = |pixels: &[[f64; 3]]| pixels.iter().map(|p| Vec3::from_array(*p)).sum::<Vec3>() / pixels.len() as f64;
+    let mean = |pixels: &[[f64; 3]]| {
+        pixels.iter().map(|p| Vec3::from_array(*p)).sum::<Vec3>() / pixels.len() as f64
+    };
     let ratio = mean(&film.image.pixels) / mean(reference);
     let (ours, theirs) = (blocks(&film.image.pixels, width), blocks(reference, width));
     let error = |(a, b): (&Vec3, &Vec3)| ((*a - *b).abs() / (*b + 0.01)).max_element();
-    let mut errors = ours.iter().zip(&theirs).map(error).enumerate().collect::<Vec<_>>();
+    let mut errors = ours
+        .iter()
+        .zip(&theirs)
+        .map(error)
+        .enumerate()
+        .collect::<Vec<_>>();
     errors.sort_by(|a, b| a.1.total_cmp(&b.1));
     let at = |share: f64| errors[(share * (errors.len() - 1) as f64).round() as usize].1;
-    let square =
-        |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|k| (a[k] - b[k]).powi(2) / (b[k] * b[k] + 0.01)).sum::<f64>();
+    let square = |(a, b): (&[f64; 3], &[f64; 3])| {
+        (0..3)
+            .map(|k| (a[k] - b[k]).powi(2) / (b[k] * b[k] + 0.01))
+            .sum::<f64>()
+    };
     let squares: f64 = film.image.pixels.iter().zip(reference).map(square).sum();
     let columns = width / BLOCK;
     let worst = errors.last().unwrap().0;

@@ -1,6 +1,6 @@
-//! Writes the hostile files of `tests/hostile` into a folder, each set in a folder of its own, and prints a line for each:
-//! the folder, the code that is expected or `-`, the name, and the arguments of `rtc`, apart by tabs. `benches/hostile.sh`
-//! measures what they cost.
+//! Writes the hostile files of `tests/hostile` into a folder, each set in a folder of its own, and
+//! prints a line for each: the folder, the code that is expected or `-`, the name, and the
+//! arguments of `rtc`, apart by tabs. `benches/hostile.sh` measures what they cost.
 
 #![expect(
     clippy::unwrap_used,
@@ -18,13 +18,27 @@ use std::{env, fs};
 
 fn main() {
     let folder = PathBuf::from(env::args_os().nth(1).expect("usage: hostile FOLDER"));
-    for (index, repro) in make::gltf::all().into_iter().chain(make::media::all()).enumerate() {
-        let Repro { name, files, arguments, expected } = repro;
+    for (index, repro) in make::gltf::all()
+        .into_iter()
+        .chain(make::media::all())
+        .enumerate()
+    {
+        let Repro {
+            name,
+            files,
+            arguments,
+            expected,
+        } = repro;
         let own = folder.join(format!("{index:03}"));
         fs::create_dir_all(&own).unwrap();
         for (name, bytes) in files {
             fs::write(own.join(name), bytes).unwrap();
         }
-        println!("{}\t{}\t{name}\t{}", own.display(), expected.unwrap_or("-"), arguments.join("\t"));
+        println!(
+            "{}\t{}\t{name}\t{}",
+            own.display(),
+            expected.unwrap_or("-"),
+            arguments.join("\t")
+        );
     }
 }

@@ -1,6 +1,6 @@
-//! `kernels planned|everything|unpruned SCENE` renders 160 × 160 pixels and says nothing, for a profiler to count the
-//! instructions of `picture`: as planned, as planned but by the integrator that can do everything for all shapes, or with
-//! no rule of the plan.
+//! `kernels planned|everything|unpruned SCENE` renders 160 × 160 pixels and says nothing, for a
+//! profiler to count the instructions of `picture`: as planned, as planned but by the integrator
+//! that can do everything for all shapes, or with no rule of the plan.
 
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
 
@@ -15,11 +15,21 @@ use std::path::Path;
 
 fn main() {
     // One thread, this one, so that its instructions are all there are.
-    let _pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
+    let _pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .use_current_thread()
+        .build_global();
     let mut args = std::env::args().skip(1);
     let (which, file) = (args.next().unwrap(), args.next().unwrap());
     let scene = scene(&file);
-    let mut plan = Plan::new(&scene, if which == "unpruned" { Rules::NONE } else { Rules::ALL });
+    let mut plan = Plan::new(
+        &scene,
+        if which == "unpruned" {
+            Rules::NONE
+        } else {
+            Rules::ALL
+        },
+    );
     if which == "everything" {
         (plan.features, plan.shapes) = (Features::EVERYTHING, Shapes::All);
     }
@@ -35,6 +45,10 @@ fn scene(file: &str) -> ValidScene {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let read = Loader.file(Path::new(file), &mut map).unwrap();
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
-    Overrides { size: Some([160; 2]), ..Overrides::default() }.apply(&mut lowered.scene);
+    Overrides {
+        size: Some([160; 2]),
+        ..Overrides::default()
+    }
+    .apply(&mut lowered.scene);
     pipeline::prove(&lowered, &options, &mut sink).unwrap()
 }

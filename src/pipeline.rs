@@ -1,4 +1,5 @@
-//! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here prints or exits.
+//! The doors the stages are joined by: bytes to scene, scene to proof, proof to film. Nothing here
+//! prints or exits.
 
 mod meter;
 pub mod trial;
@@ -27,20 +28,32 @@ pub struct Options {
     pub valid: valid::Options,
 }
 
-/// Reads a scene in any form: the course's YAML, glTF, or the text or binary form of the IR, told apart by content. The
-/// files a YAML names come into the map.
-pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+/// Reads a scene in any form: the course's YAML, glTF, or the text or binary form of the IR, told
+/// apart by content. The files a YAML names come into the map.
+pub fn load(
+    file: FileId,
+    map: &mut SourceMap,
+    options: &Options,
+    sink: &mut Sink,
+) -> Option<Lowered> {
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
             refuse_choices(&options.front, false, sink);
             let scene = codec::decode(form, file, map, sink)?;
-            Some(Lowered { scene, origins: Origins::default() })
+            Some(Lowered {
+                scene,
+                origins: Origins::default(),
+            })
         }
-        None if gltf::recognise(map.name(file), map.bytes(file)) => gltf::lower(file, map, &options.front, sink),
+        None if gltf::recognise(map.name(file), map.bytes(file)) => {
+            gltf::lower(file, map, &options.front, sink)
+        }
         None => {
             let mut draft = course::lower(file, map, &options.front, sink)?;
             let wanted = std::mem::take(&mut draft.wanted);
-            let has_assets = wanted.iter().any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+            let has_assets = wanted
+                .iter()
+                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
             refuse_choices(&options.front, has_assets, sink);
             assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
             Some(draft.finish())
@@ -48,18 +61,29 @@ pub fn load(file: FileId, map: &mut SourceMap, options: &Options, sink: &mut Sin
     }
 }
 
-/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may hold some. A time to be
-/// chosen there shows nothing else.
+/// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may
+/// hold some. A time to be chosen there shows nothing else.
 fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
-    let front::Options { camera, animation, variant, time, .. } = options;
+    let front::Options {
+        camera,
+        animation,
+        variant,
+        time,
+        ..
+    } = options;
     if time.is_some() && !has_assets {
         let remark = Diagnostic::new(&codes::GLTF_STILL, "the scene is the same at all times");
         sink.push(remark.hint("only a glTF asset has animations"));
     }
-    let parts = [("animation", animation), ("variant", variant)].into_iter().filter(|_| !has_assets);
+    let parts = [("animation", animation), ("variant", variant)]
+        .into_iter()
+        .filter(|_| !has_assets);
     for (noun, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };
-        let fault = Diagnostic::new(&codes::GLTF_CHOSEN, format!("the scene has no {noun} called `{}`", clip(name)));
+        let fault = Diagnostic::new(
+            &codes::GLTF_CHOSEN,
+            format!("the scene has no {noun} called `{}`", clip(name)),
+        );
         sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }
@@ -69,13 +93,26 @@ pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
     let fault = match stage.apply(lowered) {
         Ok(false) => return,
         Ok(true) => {
-            let note = Diagnostic::new(&codes::STUDIO, "the scene has no light, so it stands in the studio");
-            return sink
-                .push(note.hint("light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness"));
+            let note = Diagnostic::new(
+                &codes::STUDIO,
+                "the scene has no light, so it stands in the studio",
+            );
+            return sink.push(note.hint(
+                "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness",
+            ));
         }
-        Err(BasisFault::ZeroGaze) => (&codes::EYE_IS_CENTER, "the view asked for is from the point that it looks at"),
-        Err(BasisFault::ZeroUp) => (&codes::ZERO_UP, "the upward direction asked for has no length"),
-        Err(BasisFault::Parallel) => (&codes::UP_PARALLEL, "the upward direction asked for is along the view"),
+        Err(BasisFault::ZeroGaze) => (
+            &codes::EYE_IS_CENTER,
+            "the view asked for is from the point that it looks at",
+        ),
+        Err(BasisFault::ZeroUp) => (
+            &codes::ZERO_UP,
+            "the upward direction asked for has no length",
+        ),
+        Err(BasisFault::Parallel) => (
+            &codes::UP_PARALLEL,
+            "the upward direction asked for is along the view",
+        ),
     };
     sink.push(Diagnostic::new(fault.0, fault.1));
 }
@@ -97,8 +134,15 @@ impl Renderer {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn new(scene: &ValidScene, plan: &Plan, threads: usize) -> Result<Self, ThreadPoolBuildError> {
-        Ok(Self { pool: pool(threads)?, world: AnyWorld::prepare(scene, plan) })
+    pub fn new(
+        scene: &ValidScene,
+        plan: &Plan,
+        threads: usize,
+    ) -> Result<Self, ThreadPoolBuildError> {
+        Ok(Self {
+            pool: pool(threads)?,
+            world: AnyWorld::prepare(scene, plan),
+        })
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone.
@@ -106,12 +150,14 @@ impl Renderer {
         self.world.change(scene);
     }
 
-    /// Whether there is memory for so many bytes: they are asked for, and given back at once. A picture is asked for so
-    /// before it is made, for who runs out of memory on the way can say nothing any more.
+    /// Whether there is memory for so many bytes: they are asked for, and given back at once. A
+    /// picture is asked for so before it is made, for who runs out of memory on the way can say
+    /// nothing any more.
     #[must_use]
     pub fn has_room(&self, bytes: usize) -> bool {
         // A thread that takes its first byte takes room for more.
-        self.pool.broadcast(|_| drop(std::hint::black_box(Box::new(0_u8))));
+        self.pool
+            .broadcast(|_| drop(std::hint::black_box(Box::new(0_u8))));
         Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
@@ -127,15 +173,26 @@ impl Renderer {
     ///
     /// # Errors
     /// If someone said stop.
-    pub fn approach(&mut self, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+    pub fn approach(
+        &mut self,
+        scene: &Scene,
+        order: &Order,
+        watch: &Watch<'_>,
+    ) -> Result<Reached, Stopped> {
         let Self { world, pool } = self;
         pool.install(|| study::approach(world, scene, order, watch))
     }
 
     /// Renders layers of a part of the picture. `None` if `proceed` said stop.
     #[must_use]
-    pub fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
-        self.pool.install(|| self.world.layers(wanted, crop, proceed))
+    pub fn layers(
+        &self,
+        wanted: &[Aov],
+        crop: Crop,
+        proceed: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Layers> {
+        self.pool
+            .install(|| self.world.layers(wanted, crop, proceed))
     }
 }
 
@@ -153,7 +210,8 @@ pub fn render(
     Ok(Renderer::new(scene, plan, threads)?.render(job, proceed))
 }
 
-/// Renders on `threads` threads as planned and once more with everything that was left out, and compares.
+/// Renders on `threads` threads as planned and once more with everything that was left out, and
+/// compares.
 ///
 /// # Errors
 /// If the system gives no threads; within, if something that was left out would show.

@@ -132,7 +132,10 @@ proptest! {
 
 fn camera(eye: Vec3, center: Vec3, right: Vec3, up: Vec3) -> Camera {
     let count = |n| NonZeroU32::new(n).unwrap();
-    let lens = Lens { radius: rtc::math::NonNegative::new(0.0).unwrap(), samples: count(1) };
+    let lens = Lens {
+        radius: rtc::math::NonNegative::new(0.0).unwrap(),
+        samples: count(1),
+    };
     Camera {
         eye,
         center,
@@ -153,11 +156,17 @@ fn points(n: u32) -> Vec<[f64; 2]> {
 #[test]
 fn the_centre_of_mass_of_the_lens_tends_to_its_middle() {
     let centre = |n: u32| {
-        let sum = points(n).iter().fold([0.0; 2], |sum, p| [sum[0] + p[0], sum[1] + p[1]]);
+        let sum = points(n)
+            .iter()
+            .fold([0.0; 2], |sum, p| [sum[0] + p[0], sum[1] + p[1]]);
         (sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / f64::from(n)
     };
     for n in [16, 64, 256, 1024, 4096, 1_000_000] {
-        assert!(centre(n) < 0.5 / f64::from(n).sqrt(), "{n} points: {}", centre(n));
+        assert!(
+            centre(n) < 0.5 / f64::from(n).sqrt(),
+            "{n} points: {}",
+            centre(n)
+        );
     }
 }
 
@@ -170,12 +179,19 @@ fn each_point_of_the_lens_stands_for_the_same_area() {
         rings[((x * x + y * y) * 8.0 + 1e-9) as usize] += 1;
         quadrants[usize::from(x < 0.0) * 2 + usize::from(y < 0.0)] += 1;
     }
-    assert!(rings.iter().all(|count| count.abs_diff(n / 8) <= 1), "{rings:?}");
-    assert!(quadrants.iter().all(|count| count.abs_diff(n / 4) <= 8), "{quadrants:?}");
+    assert!(
+        rings.iter().all(|count| count.abs_diff(n / 8) <= 1),
+        "{rings:?}"
+    );
+    assert!(
+        quadrants.iter().all(|count| count.abs_diff(n / 4) <= 8),
+        "{quadrants:?}"
+    );
 }
 
-/// The best any n points can do is the hexagonal grid: a distance of √(2A/√3) for an area A each. Points 0 and 1 of the
-/// course's formula are 0.52 of it apart; the mean over all points must reach 0.6, and no pair may be closer than those.
+/// The best any n points can do is the hexagonal grid: a distance of √(2A/√3) for an area A each.
+/// Points 0 and 1 of the course's formula are 0.52 of it apart; the mean over all points must reach
+/// 0.6, and no pair may be closer than those.
 #[test]
 fn points_of_the_lens_keep_their_distance() {
     for n in [16_u32, 64, 256, 1024] {
@@ -186,13 +202,18 @@ fn points_of_the_lens_keep_their_distance() {
                 (x * x + y * y).sqrt()
             };
             let others = points.iter().enumerate().filter(|(j, _)| *j != k);
-            others.map(|(_, p)| distance(p)).fold(f64::INFINITY, f64::min)
+            others
+                .map(|(_, p)| distance(p))
+                .fold(f64::INFINITY, f64::min)
         };
         let best = (2.0 * std::f64::consts::PI / f64::from(n) / 3.0_f64.sqrt()).sqrt();
         let distances = (0..points.len()).map(nearest).collect::<Vec<_>>();
         let mean = distances.iter().sum::<f64>() / f64::from(n);
         let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
         assert!(mean >= 0.6 * best, "{n} points: mean {mean} of {best}");
-        assert!(least >= (1.0 - 1e-12) / f64::from(n).sqrt(), "{n} points: {least}");
+        assert!(
+            least >= (1.0 - 1e-12) / f64::from(n).sqrt(),
+            "{n} points: {least}"
+        );
     }
 }

@@ -1,5 +1,5 @@
-//! The course's YAML there and back: what is written again lowers to the same scene, whoever reads it; spellings don't
-//! change what a scene means.
+//! The course's YAML there and back: what is written again lowers to the same scene, whoever reads
+//! it; spellings don't change what a scene means.
 
 #![expect(
     clippy::unwrap_used,
@@ -21,17 +21,30 @@ fn scene(text: &str) -> Option<Scene> {
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
     let lowered = course::lower(file, &map, &Options::default(), &mut sink);
-    lowered.filter(|_| !sink.has_errors()).map(|draft| draft.finish().scene)
+    lowered
+        .filter(|_| !sink.has_errors())
+        .map(|draft| draft.finish().scene)
 }
 
 fn texts() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut open = vec![root.join("scenes"), root.join("tests/diagnostics"), root.join("tests/ir/shapes")];
+    let mut open = vec![
+        root.join("scenes"),
+        root.join("tests/diagnostics"),
+        root.join("tests/ir/shapes"),
+    ];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {
         if path.is_dir() {
-            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "yaml") {
+            open.extend(
+                fs::read_dir(path)
+                    .unwrap()
+                    .map(|entry| entry.unwrap().path()),
+            );
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "yaml")
+        {
             found.extend(fs::read_to_string(&path).ok().map(|text| (path, text)));
         }
     }
@@ -45,11 +58,19 @@ fn comes_back(scene_in: &Scene) {
     let other: serde_json::Value = serde_yaml::from_str(&text).unwrap();
     let unshared = scene(&other.to_string()).unwrap();
     let clothes = |scene: &Scene| {
-        let clothed = scene.surfaces.iter().map(|s| (s.shape.clone(), scene.materials[s.material.0 as usize].clone()));
+        let clothed = scene.surfaces.iter().map(|s| {
+            (
+                s.shape.clone(),
+                scene.materials[s.material.0 as usize].clone(),
+            )
+        });
         clothed.collect::<Vec<_>>()
     };
     assert_eq!(clothes(&unshared), clothes(scene_in));
-    assert_eq!((unshared.camera, unshared.settings), (scene_in.camera.clone(), scene_in.settings.clone()));
+    assert_eq!(
+        (unshared.camera, unshared.settings),
+        (scene_in.camera.clone(), scene_in.settings.clone())
+    );
     assert_eq!(unshared.lights, scene_in.lights);
 }
 
@@ -82,7 +103,11 @@ fn both_cameras_of_one_view_are_one() {
     let old = scene(&format!("Eye: [200, 200, 1000]\n{OBJECTS}")).unwrap();
     let new = "Camera: {eye: [200, 200, 1000], center: [200, 200, 0], up: [0, 1, 0], viewSize: [400, 400]}\n";
     assert_eq!(scene(&format!("{new}{OBJECTS}")).unwrap(), old);
-    assert_eq!((old.materials.len(), old.surfaces.len()), (1, 2), "an alias shares the material");
+    assert_eq!(
+        (old.materials.len(), old.surfaces.len()),
+        (1, 2),
+        "an alias shares the material"
+    );
     comes_back(&old);
 }
 
@@ -90,10 +115,16 @@ fn both_cameras_of_one_view_are_one() {
 fn a_camera_of_any_frame_comes_back() {
     let mut seen = scene("Eye: [0, 200, 1000]\n").unwrap();
     comes_back(&seen);
-    assert!(course::emit(&seen).unwrap().contains("right: [1, 0, 0]"), "it looks at a slant");
+    assert!(
+        course::emit(&seen).unwrap().contains("right: [1, 0, 0]"),
+        "it looks at a slant"
+    );
     seen = scene("Eye: [200, 200, 1000]\n").unwrap();
     comes_back(&seen);
-    assert!(!course::emit(&seen).unwrap().contains("right:"), "an `up` says it all");
+    assert!(
+        !course::emit(&seen).unwrap().contains("right:"),
+        "an `up` says it all"
+    );
     for right in [[2.0, 0.0, 0.0], [-1.0, 0.0, 0.0]] {
         seen.camera.right = right;
         comes_back(&seen);
@@ -106,7 +137,11 @@ fn what_the_format_cant_hold_is_said_in_words() {
     seen.camera.projection = ir::Projection::Orthographic;
     assert!(course::emit(&seen).unwrap_err().contains("orthographic"));
     seen.camera.projection = ir::Projection::Perspective;
-    seen.lights.push(ir::Light::Point(ir::PointLight { position: [f64::NAN, 0.0, 0.0], color: [1.0; 3], radius: 0.0 }));
+    seen.lights.push(ir::Light::Point(ir::PointLight {
+        position: [f64::NAN, 0.0, 0.0],
+        color: [1.0; 3],
+        radius: 0.0,
+    }));
     assert!(course::emit(&seen).unwrap_err().contains("finite"));
 }
 
@@ -132,20 +167,28 @@ const CLAY: &str = "material: {color: [1, 1, 1], ka: 1, kd: 1, ks: 0, n: 1}";
 
 /// The lowered scene of one object; its keys stand in braces.
 fn object(keys: &str) -> Scene {
-    scene(&format!("Eye: [200, 200, 1000]\nObjects:\n- {{{keys}, {CLAY}}}\n")).unwrap()
+    scene(&format!(
+        "Eye: [200, 200, 1000]\nObjects:\n- {{{keys}, {CLAY}}}\n"
+    ))
+    .unwrap()
 }
 
 /// The corners of the triangles that a scene is made of.
 fn triangles(scene: &Scene) -> Vec<[Vec3; 3]> {
-    let corners = scene.surfaces.iter().map(|ir::Surface { shape, material: _ }| {
-        let ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) = shape else { panic!("{shape:?}") };
-        vertices.map(Vec3::from_array)
-    });
+    let corners = scene
+        .surfaces
+        .iter()
+        .map(|ir::Surface { shape, material: _ }| {
+            let ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) = shape else {
+                panic!("{shape:?}")
+            };
+            vertices.map(Vec3::from_array)
+        });
     corners.collect()
 }
 
-/// The volume that triangles enclose, counted from their windings; and the sum of their area vectors, which is 0 for a
-/// closed surface.
+/// The volume that triangles enclose, counted from their windings; and the sum of their area
+/// vectors, which is 0 for a closed surface.
 fn enclosed(scene: &Scene) -> (f64, Vec3) {
     let mut sums = (0.0, Vec3::ZERO);
     for [a, b, c] in triangles(scene) {
@@ -160,19 +203,54 @@ fn solids_are_closed_and_face_outwards() {
     for (keys, count, volume) in [
         ("type: box, min: [1, 2, 3], max: [2, 4, 6]", 12, 6.0),
         ("type: box, min: [2, 2, 6], max: [1, 4, 3]", 12, 6.0),
-        ("type: box, position: [5, 5, 5], dimension: [1, 2, 3]", 12, 6.0),
-        ("type: box, position: [5, 5, 5], dimension: [1, 2, 3], rotation: [1, 2, 3]", 12, 6.0),
-        ("type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, 1]", 12, 6.0),
-        ("type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, -1]", 12, 6.0),
-        ("type: tetrahedron, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 4, 1], v3: [1, 1, 2]", 4, 1.0),
-        ("type: tetrahedron, v0: [1, 1, 1], v1: [1, 4, 1], v2: [3, 1, 1], v3: [1, 1, 2]", 4, 1.0),
-        ("type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, 3]", 8, 6.0),
-        ("type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, -3]", 8, 6.0),
+        (
+            "type: box, position: [5, 5, 5], dimension: [1, 2, 3]",
+            12,
+            6.0,
+        ),
+        (
+            "type: box, position: [5, 5, 5], dimension: [1, 2, 3], rotation: [1, 2, 3]",
+            12,
+            6.0,
+        ),
+        (
+            "type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, 1]",
+            12,
+            6.0,
+        ),
+        (
+            "type: box, position: [1, 1, 1], up: [0, 2, 0], side: [3, 1, 0], depth: [0, 0, -1]",
+            12,
+            6.0,
+        ),
+        (
+            "type: tetrahedron, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 4, 1], v3: [1, 1, 2]",
+            4,
+            1.0,
+        ),
+        (
+            "type: tetrahedron, v0: [1, 1, 1], v1: [1, 4, 1], v2: [3, 1, 1], v3: [1, 1, 2]",
+            4,
+            1.0,
+        ),
+        (
+            "type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, 3]",
+            8,
+            6.0,
+        ),
+        (
+            "type: prism, v0: [1, 1, 1], v1: [3, 1, 1], v2: [1, 3, 1], up: [5, 0, -3]",
+            8,
+            6.0,
+        ),
     ] {
         let scene = object(keys);
         let (found, open) = enclosed(&scene);
         assert!((found - volume).abs() < 1e-12, "{keys}: {found}");
-        assert!(open.length() < 1e-12 && scene.surfaces.len() == count, "{keys}: {open}");
+        assert!(
+            open.length() < 1e-12 && scene.surfaces.len() == count,
+            "{keys}: {open}"
+        );
         assert_eq!(scene.materials.len(), 1, "all faces have the one material");
     }
 }
@@ -180,10 +258,18 @@ fn solids_are_closed_and_face_outwards() {
 #[test]
 fn a_box_is_turned_about_x_then_y_then_z() {
     let quarter = std::f64::consts::FRAC_PI_2;
-    let keys = format!("type: box, position: [0, 0, 0], dimension: [2, 4, 6], rotation: [{quarter}, 0, {quarter}]");
+    let keys = format!(
+        "type: box, position: [0, 0, 0], dimension: [2, 4, 6], rotation: [{quarter}, 0, {quarter}]"
+    );
     let corners = triangles(&object(&keys));
-    let far = corners.iter().flatten().fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
-    assert!(far.distance(Vec3::new(3.0, 1.0, 2.0)) < 1e-15, "y goes to z, then x to y and z to −x: {far}");
+    let far = corners
+        .iter()
+        .flatten()
+        .fold(Vec3::ZERO, |far, corner| far.max(corner.abs()));
+    assert!(
+        far.distance(Vec3::new(3.0, 1.0, 2.0)) < 1e-15,
+        "y goes to z, then x to y and z to −x: {far}"
+    );
 }
 
 #[test]
@@ -213,23 +299,45 @@ fn other_ways_to_say_the_same() {
             "type: torus, position: [0, 0, 0], radius: 3, alpha: 1",
             "type: torus, position: [0, 0, 0], radius: 3, alpha: 1, direction: [0, 0, 1]",
         ),
-        ("type: OBJModel, path: 'a\\b.obj', size: 2", "type: mesh, file: a/b.obj, position: [0, 0, 0], scale: 2"),
+        (
+            "type: OBJModel, path: 'a\\b.obj', size: 2",
+            "type: mesh, file: a/b.obj, position: [0, 0, 0], scale: 2",
+        ),
     ] {
         assert_eq!(object(wild), object(canonical), "{wild}");
     }
-    let settings = |text: &str| scene(&format!("Eye: [200, 200, 1000]\n{text}")).unwrap().settings;
+    let settings = |text: &str| {
+        scene(&format!("Eye: [200, 200, 1000]\n{text}"))
+            .unwrap()
+            .settings
+    };
     assert_eq!(settings("renderMode: 1"), settings("RenderMode: zbuffer"));
     assert_eq!(settings("renderMode: 2"), settings("RenderMode: normal"));
     assert_eq!(
         settings("Reflections: true\nAA: 3\nShadows: 1"),
         settings("MaxRecursionDepth: 2\nSuperSampling: 3\nShadows: true")
     );
-    assert_eq!(settings("Reflections: true\nMaxRecursionDepth: 5").max_depth, 5);
-    assert_eq!(settings("Reflections: false\nMaxRecursionDepth: 5").max_depth, 0);
-    assert_eq!(settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]").light_samples, 1);
-    assert_eq!(settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1], size: 2}]").light_samples, 16);
-    let look = scene("CameraEye: [1, 2, 30]\nCameraLookPoint: [1, 2, 3]\nCameraUpVector: [0, 0.5, 0]\n").unwrap();
-    let camera = "Camera: {eye: [1, 2, 30], center: [1, 2, 3], up: [0, 0.5, 0], viewSize: [400, 400]}\n";
+    assert_eq!(
+        settings("Reflections: true\nMaxRecursionDepth: 5").max_depth,
+        5
+    );
+    assert_eq!(
+        settings("Reflections: false\nMaxRecursionDepth: 5").max_depth,
+        0
+    );
+    assert_eq!(
+        settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]").light_samples,
+        1
+    );
+    assert_eq!(
+        settings("Lights: [{position: [0, 0, 0], color: [1, 1, 1], size: 2}]").light_samples,
+        16
+    );
+    let look =
+        scene("CameraEye: [1, 2, 30]\nCameraLookPoint: [1, 2, 3]\nCameraUpVector: [0, 0.5, 0]\n")
+            .unwrap();
+    let camera =
+        "Camera: {eye: [1, 2, 30], center: [1, 2, 3], up: [0, 0.5, 0], viewSize: [400, 400]}\n";
     assert_eq!(Some(look), scene(camera));
 }
 
@@ -243,16 +351,38 @@ fn files_are_wanted_once_and_their_places_wait() {
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
     let draft = course::lower(file, &map, &Options::default(), &mut sink).unwrap();
-    let wanted: Vec<_> = draft.wanted.iter().map(|wanted| (wanted.asset, wanted.path.as_str())).collect();
-    let (image, mesh) = (|id| Asset::Image(ir::ImageId(id)), |id| Asset::Mesh(ir::MeshId(id)));
-    assert_eq!(wanted, [(image(0), "a.png"), (image(1), "b\\b.png"), (mesh(0), "a.png")]);
+    let wanted: Vec<_> = draft
+        .wanted
+        .iter()
+        .map(|wanted| (wanted.asset, wanted.path.as_str()))
+        .collect();
+    let (image, mesh) = (
+        |id| Asset::Image(ir::ImageId(id)),
+        |id| Asset::Mesh(ir::MeshId(id)),
+    );
+    assert_eq!(
+        wanted,
+        [
+            (image(0), "a.png"),
+            (image(1), "b\\b.png"),
+            (mesh(0), "a.png")
+        ]
+    );
     let scene = draft.finish().scene;
     assert_eq!(scene.images[1].name, "b/b.png");
     assert_eq!(
         scene.textures,
-        [ir::Texture::Image(ir::ImageId(0)), ir::Texture::Image(ir::ImageId(1)), ir::Texture::Uv]
+        [
+            ir::Texture::Image(ir::ImageId(0)),
+            ir::Texture::Image(ir::ImageId(1)),
+            ir::Texture::Uv
+        ]
     );
-    assert_eq!(scene.materials.len(), 3, "both meshes have the one grey material");
+    assert_eq!(
+        scene.materials.len(),
+        3,
+        "both meshes have the one grey material"
+    );
     comes_back(&scene);
 }
 
@@ -267,8 +397,15 @@ fn seen_from(eye: Vec3, center: Vec3, up: Vec3) -> Option<Scene> {
     let mut scene = scene(&format!("Eye: [200, 200, 1000]\n{OBJECTS}")).unwrap();
     let lens = scene.camera.lens;
     let [eye, center, right, up] = [eye, center, right, above].map(|vector| vector.to_array());
-    scene.camera =
-        ir::Camera { eye, center, right, up, size: [640, 480], lens, projection: ir::Projection::Perspective };
+    scene.camera = ir::Camera {
+        eye,
+        center,
+        right,
+        up,
+        size: [640, 480],
+        lens,
+        projection: ir::Projection::Perspective,
+    };
     Some(scene)
 }
 

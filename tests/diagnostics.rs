@@ -1,8 +1,10 @@
-//! Every file under `tests/diagnostics/<CODE>/` is a test: its comments say what `rtc` must find in it, and where.
+//! Every file under `tests/diagnostics/<CODE>/` is a test: its comments say what `rtc` must find in
+//! it, and where.
 //!
-//! `# expect: CODE severity LINE:COLUMN message`, one line a finding, in the order of the places, in a binary file `byte
-//! N`; `# options: strict lenient` sets options. A file that can't hold comments has them beside it, in
-//! `<case>.expect`. With `RTC_UPDATE=1` the expectations are rewritten.
+//! `# expect: CODE severity LINE:COLUMN message`, one line a finding, in the order of the places,
+//! in a binary file `byte N`; `# options: strict lenient` sets options. A file that can't hold
+//! comments has them beside it, in `<case>.expect`. With `RTC_UPDATE=1` the expectations are
+//! rewritten.
 
 #![expect(
     clippy::unwrap_used,
@@ -17,31 +19,49 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Codes that no scene text can raise: files, the container, renders, and faults only a hand-made IR can have. Texts
-/// for SY010 and SY011 are too large to keep; `tests/hostile` makes them.
-const ELSEWHERE: &[&str] =
-    &["IO", "IR", "RD", "SY010", "SY011", "GL048", "GL049", "VA014", "VA017", "VA018", "VA020", "VA021"];
+/// Codes that no scene text can raise: files, the container, renders, and faults only a hand-made
+/// IR can have. Texts for SY010 and SY011 are too large to keep; `tests/hostile` makes them.
+const ELSEWHERE: &[&str] = &[
+    "IO", "IR", "RD", "SY010", "SY011", "GL048", "GL049", "VA014", "VA017", "VA018", "VA020",
+    "VA021",
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics")
 }
 
 fn cases() -> Vec<PathBuf> {
-    let list = |folder: &Path| fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let list = |folder: &Path| {
+        fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .collect::<Vec<_>>()
+    };
     let folders = list(&root()).into_iter().filter(|path| path.is_dir());
     let mut cases: Vec<_> = folders.flat_map(|folder| list(&folder)).collect();
     cases.retain(|path| {
-        path.extension().is_some_and(|extension| ["yaml", "gltf", "glb"].iter().any(|known| extension == *known))
+        path.extension().is_some_and(|extension| {
+            ["yaml", "gltf", "glb"]
+                .iter()
+                .any(|known| extension == *known)
+        })
     });
     cases.sort();
     cases
 }
 
 fn options(text: &str) -> pipeline::Options {
-    let line = text.lines().find_map(|line| line.strip_prefix("# options:")).unwrap_or_default();
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("# options:"))
+        .unwrap_or_default();
     let has = |word| line.split_whitespace().any(|option| option == word);
     pipeline::Options {
-        front: front::Options { strict: has("strict"), lenient: has("lenient"), ..front::Options::default() },
+        front: front::Options {
+            strict: has("strict"),
+            lenient: has("lenient"),
+            ..front::Options::default()
+        },
         ..pipeline::Options::default()
     }
 }
@@ -55,11 +75,18 @@ fn findings(case: &Path) -> String {
     let mut map = SourceMap::default();
     let file = Loader.file(case, &mut map).unwrap();
     let mut sink = Sink::default();
-    let options = options(&String::from_utf8_lossy(&fs::read(expectations(case)).unwrap()));
+    let options = options(&String::from_utf8_lossy(
+        &fs::read(expectations(case)).unwrap(),
+    ));
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
     let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
-    let is_gltf = case.extension().is_some_and(|extension| extension != "yaml");
-    assert!(is_gltf || proof.is_some() != sink.has_errors(), "a scene is proven unless there is an error");
+    let is_gltf = case
+        .extension()
+        .is_some_and(|extension| extension != "yaml");
+    assert!(
+        is_gltf || proof.is_some() != sink.has_errors(),
+        "a scene is proven unless there is an error"
+    );
     sink.sort();
     let folder = case.parent().unwrap().display().to_string();
     let mut text = String::new();
@@ -69,14 +96,29 @@ fn findings(case: &Path) -> String {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        let place = finding.primary.as_ref().expect("every finding in a text has a place");
+        let place = finding
+            .primary
+            .as_ref()
+            .expect("every finding in a text has a place");
         let at = map.line_column(place.span.file, place.span.start);
         let is_binary = case.extension().is_some_and(|extension| extension == "glb");
-        let at = if is_binary { format!("byte {}", place.span.start) } else { format!("{}:{}", at.line, at.column) };
-        let name =
-            if place.span.file == file { String::new() } else { format!("{}:", base_name(map.name(place.span.file))) };
+        let at = if is_binary {
+            format!("byte {}", place.span.start)
+        } else {
+            format!("{}:{}", at.line, at.column)
+        };
+        let name = if place.span.file == file {
+            String::new()
+        } else {
+            format!("{}:", base_name(map.name(place.span.file)))
+        };
         let message = finding.message.replace(&*folder, ".");
-        writeln!(text, "# expect: {} {severity} {name}{at} {message}", finding.code).unwrap();
+        writeln!(
+            text,
+            "# expect: {} {severity} {name}{at} {message}",
+            finding.code
+        )
+        .unwrap();
     }
     text
 }
@@ -84,7 +126,11 @@ fn findings(case: &Path) -> String {
 /// Where the expectations of a case are: in the file, unless there is one beside it.
 fn expectations(case: &Path) -> PathBuf {
     let beside = case.with_extension("expect");
-    if beside.exists() { beside } else { case.to_owned() }
+    if beside.exists() {
+        beside
+    } else {
+        case.to_owned()
+    }
 }
 
 fn is_expectation(line: &&[u8]) -> bool {
@@ -93,13 +139,17 @@ fn is_expectation(line: &&[u8]) -> bool {
 
 fn expected(path: &Path) -> String {
     let bytes = fs::read(path).unwrap();
-    let lines = bytes.split_inclusive(|byte| *byte == b'\n').filter(is_expectation);
+    let lines = bytes
+        .split_inclusive(|byte| *byte == b'\n')
+        .filter(is_expectation);
     lines.map(String::from_utf8_lossy).collect()
 }
 
 fn update(path: &Path, found: &str) {
     let bytes = fs::read(path).unwrap();
-    let others = bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| !is_expectation(line));
+    let others = bytes
+        .split_inclusive(|byte| *byte == b'\n')
+        .filter(|line| !is_expectation(line));
     let mut kept: Vec<u8> = others.flatten().copied().collect();
     kept.extend(found.bytes());
     fs::write(path, kept).unwrap();
@@ -116,9 +166,18 @@ fn every_case_is_found_as_its_comments_say() {
         }
         let expected = expected(&path);
         if found != expected {
-            writeln!(faults, "{}\n expected\n{expected} found\n{found}", case.display()).unwrap();
+            writeln!(
+                faults,
+                "{}\n expected\n{expected} found\n{found}",
+                case.display()
+            )
+            .unwrap();
         }
-        let folder = case.parent().and_then(Path::file_name).unwrap().to_string_lossy();
+        let folder = case
+            .parent()
+            .and_then(Path::file_name)
+            .unwrap()
+            .to_string_lossy();
         if !found.contains(&format!("# expect: {folder} ")) {
             writeln!(faults, "{} raises no {folder}", case.display()).unwrap();
         }
@@ -128,12 +187,18 @@ fn every_case_is_found_as_its_comments_say() {
 
 #[test]
 fn every_code_has_a_case() {
-    let folders =
-        cases().into_iter().filter_map(|case| Some(case.parent()?.file_name()?.to_string_lossy().into_owned()));
+    let folders = cases()
+        .into_iter()
+        .filter_map(|case| Some(case.parent()?.file_name()?.to_string_lossy().into_owned()));
     let covered: BTreeSet<String> = folders.collect();
     let missing: Vec<_> = codes::all()
         .map(|code| code.id)
-        .filter(|id| !ELSEWHERE.iter().any(|prefix| id.starts_with(prefix)) && !covered.contains(*id))
+        .filter(|id| {
+            !ELSEWHERE.iter().any(|prefix| id.starts_with(prefix)) && !covered.contains(*id)
+        })
         .collect();
-    assert!(missing.is_empty(), "no case under tests/diagnostics for {missing:?}");
+    assert!(
+        missing.is_empty(),
+        "no case under tests/diagnostics for {missing:?}"
+    );
 }

@@ -1,7 +1,8 @@
 //! The course's printed figures, pixel by pixel.
 //!
-//! The scenes and figures are those of `../shared/course`; without them the test skips with a note. Where a figure was
-//! printed with other sampling than its scene says, the sampling of the figure is set here.
+//! The scenes and figures are those of `../shared/course`; without them the test skips with a note.
+//! Where a figure was printed with other sampling than its scene says, the sampling of the figure
+//! is set here.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -35,18 +36,31 @@ const FIGURES: &[Figure] = &[
     figure("scene01-shadows", None, Bar::Equal(0.999)),
     figure("scene01-lights-shadows", None, Bar::Equal(0.999)),
     figure("scene01-ss", Some(2), Bar::Equal(0.999)),
-    figure("scene01-camera-ss-reflect-lights-shadows", Some(2), Bar::Equal(0.996)),
+    figure(
+        "scene01-camera-ss-reflect-lights-shadows",
+        Some(2),
+        Bar::Equal(0.996),
+    ),
     Figure {
         name: "scene01-dof-ss-reflect-lights-shadows",
         supersampling: Some(2),
         aperture_samples: Some(128),
         bar: Bar::Psnr(46.0),
     },
-    figure("scene01-texture-ss-reflect-lights-shadows", None, Bar::Mean(4.0)),
+    figure(
+        "scene01-texture-ss-reflect-lights-shadows",
+        None,
+        Bar::Mean(4.0),
+    ),
 ];
 
 const fn figure(name: &'static str, supersampling: Option<u32>, bar: Bar) -> Figure {
-    Figure { name, supersampling, aperture_samples: None, bar }
+    Figure {
+        name,
+        supersampling,
+        aperture_samples: None,
+        bar,
+    }
 }
 
 #[test]
@@ -58,10 +72,25 @@ fn the_course_figures_are_met() {
     }
     let mut failed = Vec::new();
     for figure in FIGURES {
-        let ours = render(&course.join("scenes").join(figure.name).with_extension("yaml"), figure);
-        let theirs = read(&course.join("figures").join(figure.name).with_extension("png"));
+        let ours = render(
+            &course
+                .join("scenes")
+                .join(figure.name)
+                .with_extension("yaml"),
+            figure,
+        );
+        let theirs = read(
+            &course
+                .join("figures")
+                .join(figure.name)
+                .with_extension("png"),
+        );
         let (equal, psnr, mean) = compare(&ours, &theirs);
-        println!("{:45} {:7.3} % equal, {psnr:.1} dB, {mean:.2} bytes off", figure.name, equal * 100.0);
+        println!(
+            "{:45} {:7.3} % equal, {psnr:.1} dB, {mean:.2} bytes off",
+            figure.name,
+            equal * 100.0
+        );
         let met = match figure.bar {
             Bar::Equal(bar) => equal >= bar,
             Bar::Psnr(bar) => psnr >= bar,
@@ -80,26 +109,64 @@ fn render(path: &Path, figure: &Figure) -> Pixels {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    let Figure { name: _, supersampling, aperture_samples, bar: _ } = *figure;
-    Overrides { supersampling, aperture_samples, ..Overrides::default() }.apply(&mut lowered.scene);
-    let scene = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    let film =
-        pipeline::render(&scene, &Plan::new(&scene, Rules::ALL), &Job::default(), 0, &|_| true).unwrap().unwrap();
-    film.image.pixels.iter().map(|pixel| pixel.map(quantize8)).collect()
+    let Figure {
+        name: _,
+        supersampling,
+        aperture_samples,
+        bar: _,
+    } = *figure;
+    Overrides {
+        supersampling,
+        aperture_samples,
+        ..Overrides::default()
+    }
+    .apply(&mut lowered.scene);
+    let scene = pipeline::prove(&lowered, &options, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    let film = pipeline::render(
+        &scene,
+        &Plan::new(&scene, Rules::ALL),
+        &Job::default(),
+        0,
+        &|_| true,
+    )
+    .unwrap()
+    .unwrap();
+    film.image
+        .pixels
+        .iter()
+        .map(|pixel| pixel.map(quantize8))
+        .collect()
 }
 
 fn read(path: &PathBuf) -> Pixels {
-    image::open(path).unwrap().to_rgb8().pixels().map(|pixel| pixel.0).collect()
+    image::open(path)
+        .unwrap()
+        .to_rgb8()
+        .pixels()
+        .map(|pixel| pixel.0)
+        .collect()
 }
 
-/// The share of equal pixels, the peak signal-to-noise ratio in dB, and the mean absolute difference in bytes.
+/// The share of equal pixels, the peak signal-to-noise ratio in dB, and the mean absolute
+/// difference in bytes.
 fn compare(ours: &Pixels, theirs: &Pixels) -> (f64, f64, f64) {
     assert_eq!(ours.len(), theirs.len());
     let equal = ours.iter().zip(theirs).filter(|(a, b)| a == b).count();
     let square = |a: u8, b: u8| (f64::from(a) - f64::from(b)) * (f64::from(a) - f64::from(b));
-    let squares: f64 = ours.iter().flatten().zip(theirs.iter().flatten()).map(|(a, b)| square(*a, *b)).sum();
+    let squares: f64 = ours
+        .iter()
+        .flatten()
+        .zip(theirs.iter().flatten())
+        .map(|(a, b)| square(*a, *b))
+        .sum();
     let values = (3 * ours.len()) as f64;
-    let off: f64 = ours.iter().flatten().zip(theirs.iter().flatten()).map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
+    let off: f64 = ours
+        .iter()
+        .flatten()
+        .zip(theirs.iter().flatten())
+        .map(|(a, b)| f64::from(a.abs_diff(*b)))
+        .sum();
     let psnr = 10.0 * (255.0 * 255.0 * values / squares).log10();
     (equal as f64 / ours.len() as f64, psnr, off / values)
 }

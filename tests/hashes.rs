@@ -1,8 +1,10 @@
-//! The table of pictures: for each scene the hash of its values, the same for 1, 2 and 7 threads, in debug and release,
-//! and on every machine. `RTC_UPDATE=1 cargo test --test hashes` rewrites `tests/hashes.txt`.
+//! The table of pictures: for each scene the hash of its values, the same for 1, 2 and 7 threads,
+//! in debug and release, and on every machine. `RTC_UPDATE=1 cargo test --test hashes` rewrites
+//! `tests/hashes.txt`.
 //!
-//! On another architecture, under emulation: `rustup target add aarch64-unknown-linux-musl`, then `cargo test --test
-//! hashes --target aarch64-unknown-linux-musl` with `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld` and
+//! On another architecture, under emulation: `rustup target add aarch64-unknown-linux-musl`, then
+//! `cargo test --test hashes --target aarch64-unknown-linux-musl` with
+//! `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld` and
 //! `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_RUNNER=qemu-aarch64`.
 
 #![expect(
@@ -25,16 +27,46 @@ use xxhash_rust::xxh3::xxh3_64;
 const SHAPES: [(&str, &str); 12] = [
     ("sphere", "position: [0, 1, 0], radius: 1"),
     ("plane", "position: [0, 0.5, 0], normal: [0.1, 1, 0.2]"),
-    ("triangle", "v0: [-1, 0.1, 1], v1: [1.3, 0.2, 0.4], v2: [0.2, 2.1, -0.6]"),
-    ("quad", "v0: [-1, 0.1, 1], v1: [1.2, 0.1, 0.6], v2: [1.2, 2, 0.1], v3: [-1, 1.4, -1.3]"),
-    ("circle", "center: [0, 1, 0], normal: [0.3, 0.2, 1], radius: 1.1"),
-    ("cylinder", "p1: [-0.7, 0.4, 0.3], p2: [0.8, 1.6, -0.4], radius: 0.6"),
-    ("cone", "position: [0, 0.1, 0], up: [0.4, 2, 0.3], radius: 1"),
-    ("torus", "position: [0, 1, 0], radius: 0.9, alpha: 0.3, direction: [0.3, 1, 0.6]"),
-    ("box", "position: [0, 1, 0], dimension: [1.2, 1.4, 1.1], rotation: [0.3, 0.7, 0.1]"),
-    ("tetrahedron", "v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, 0.4]"),
-    ("prism", "v0: [-1, 0.1, 0.8], v1: [0.9, 0.1, 0.9], v2: [0.1, 1.7, 0.7], up: [0.2, 0.1, -1.4]"),
-    ("mesh", "file: icosahedron.obj, position: [0, 1, 0], radius: 1"),
+    (
+        "triangle",
+        "v0: [-1, 0.1, 1], v1: [1.3, 0.2, 0.4], v2: [0.2, 2.1, -0.6]",
+    ),
+    (
+        "quad",
+        "v0: [-1, 0.1, 1], v1: [1.2, 0.1, 0.6], v2: [1.2, 2, 0.1], v3: [-1, 1.4, -1.3]",
+    ),
+    (
+        "circle",
+        "center: [0, 1, 0], normal: [0.3, 0.2, 1], radius: 1.1",
+    ),
+    (
+        "cylinder",
+        "p1: [-0.7, 0.4, 0.3], p2: [0.8, 1.6, -0.4], radius: 0.6",
+    ),
+    (
+        "cone",
+        "position: [0, 0.1, 0], up: [0.4, 2, 0.3], radius: 1",
+    ),
+    (
+        "torus",
+        "position: [0, 1, 0], radius: 0.9, alpha: 0.3, direction: [0.3, 1, 0.6]",
+    ),
+    (
+        "box",
+        "position: [0, 1, 0], dimension: [1.2, 1.4, 1.1], rotation: [0.3, 0.7, 0.1]",
+    ),
+    (
+        "tetrahedron",
+        "v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, 0.4]",
+    ),
+    (
+        "prism",
+        "v0: [-1, 0.1, 0.8], v1: [0.9, 0.1, 0.9], v2: [0.1, 1.7, 0.7], up: [0.2, 0.1, -1.4]",
+    ),
+    (
+        "mesh",
+        "file: icosahedron.obj, position: [0, 1, 0], radius: 1",
+    ),
 ];
 
 /// One effect each: keys of the scene, and of the materials.
@@ -42,12 +74,32 @@ const EFFECTS: [(&str, &str, &str); 12] = [
     ("plain", "", "ks: 0.2, n: 20"),
     ("shadows", "Shadows: true", "ks: 0.2, n: 20"),
     ("mirrors", "MaxRecursionDepth: 4", "ks: 0.6, n: 200"),
-    ("glass", "MaxRecursionDepth: 6", "ks: 0.1, n: 50, kt: 0.8, eta: 1.5"),
-    ("glossy", "MaxRecursionDepth: 1", "ks: 0.5, n: 60, glossySamples: 5"),
-    ("soft light", "Shadows: true\nLightSamples: 5", "ks: 0.2, n: 20"),
+    (
+        "glass",
+        "MaxRecursionDepth: 6",
+        "ks: 0.1, n: 50, kt: 0.8, eta: 1.5",
+    ),
+    (
+        "glossy",
+        "MaxRecursionDepth: 1",
+        "ks: 0.5, n: 60, glossySamples: 5",
+    ),
+    (
+        "soft light",
+        "Shadows: true\nLightSamples: 5",
+        "ks: 0.2, n: 20",
+    ),
     ("lens", "", "ks: 0.2, n: 20"),
-    ("jitter", "SuperSampling: {factor: 2, pattern: jitter}", "ks: 0.2, n: 20"),
-    ("random", "SuperSampling: {factor: 2, pattern: random}", "ks: 0.2, n: 20"),
+    (
+        "jitter",
+        "SuperSampling: {factor: 2, pattern: jitter}",
+        "ks: 0.2, n: 20",
+    ),
+    (
+        "random",
+        "SuperSampling: {factor: 2, pattern: random}",
+        "ks: 0.2, n: 20",
+    ),
     ("normals", "RenderMode: normal", "ks: 0.2, n: 20"),
     ("zbuffer", "RenderMode: zbuffer", "ks: 0.2, n: 20"),
     ("gooch", "RenderMode: gooch", "ks: 0.2, n: 20"),
@@ -57,8 +109,16 @@ const EFFECTS: [(&str, &str, &str); 12] = [
 fn made(shape: (&str, &str), effect: (&str, &str, &str)) -> Scene {
     let (kind, numbers) = shape;
     let (name, keys, material) = effect;
-    let radius = if name == "soft light" { ", radius: 0.8" } else { "" };
-    let lens = if name == "lens" { "\n  apertureRadius: 0.2\n  apertureSamples: 4" } else { "" };
+    let radius = if name == "soft light" {
+        ", radius: 0.8"
+    } else {
+        ""
+    };
+    let lens = if name == "lens" {
+        "\n  apertureRadius: 0.2\n  apertureSamples: 4"
+    } else {
+        ""
+    };
     let material = format!("material: {{color: [0.8, 0.5, 0.3], ka: 0.2, kd: 0.6, {material}}}");
     let text = format!(
         "Camera:\n  eye: [0.5, 3, 7]\n  center: [0, 1, 0]\n  up: [0, 0.08, 0]\n  viewSize: [48, 40]{lens}\n{keys}\n\
@@ -73,12 +133,22 @@ fn made(shape: (&str, &str), effect: (&str, &str, &str)) -> Scene {
     reduced(file, &mut map, &options)
 }
 
-/// The name and scene of every row: the files of the repo, then each shape with some effect and each effect with some
-/// shape, so that all meet several of the others.
+/// The name and scene of every row: the files of the repo, then each shape with some effect and
+/// each effect with some shape, so that all meet several of the others.
 fn scenes() -> Vec<(String, Scene)> {
-    let files =
-        paths().into_iter().map(|path| (path.file_stem().unwrap().to_string_lossy().into_owned(), small(&path)));
-    let pairs = (0..SHAPES.len()).flat_map(|k| [(k, k), (k, (k + 1) % EFFECTS.len()), (k, (k + 5) % EFFECTS.len())]);
+    let files = paths().into_iter().map(|path| {
+        (
+            path.file_stem().unwrap().to_string_lossy().into_owned(),
+            small(&path),
+        )
+    });
+    let pairs = (0..SHAPES.len()).flat_map(|k| {
+        [
+            (k, k),
+            (k, (k + 1) % EFFECTS.len()),
+            (k, (k + 5) % EFFECTS.len()),
+        ]
+    });
     let made = pairs.map(|(shape, effect)| {
         let (shape, effect) = (SHAPES[shape], EFFECTS[effect]);
         (format!("{}, {}", shape.0, effect.0), made(shape, effect))
@@ -87,7 +157,10 @@ fn scenes() -> Vec<(String, Scene)> {
 }
 
 fn hash(scene: &Scene, threads: usize) -> u64 {
-    let bytes: Vec<u8> = bits(&film(scene, &WHOLE, threads)).iter().flat_map(|bits| bits.to_le_bytes()).collect();
+    let bytes: Vec<u8> = bits(&film(scene, &WHOLE, threads))
+        .iter()
+        .flat_map(|bits| bits.to_le_bytes())
+        .collect();
     xxh3_64(&bytes)
 }
 
@@ -106,8 +179,15 @@ fn pictures_have_the_hashes_of_the_table() {
         std::fs::write(&path, &table).unwrap();
     }
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
-    let changed: Vec<_> = table.lines().filter(|row| !kept.lines().any(|kept| kept == *row)).collect();
-    assert!(changed.is_empty() && table.lines().count() == kept.lines().count(), "now:\n{}", changed.join("\n"));
+    let changed: Vec<_> = table
+        .lines()
+        .filter(|row| !kept.lines().any(|kept| kept == *row))
+        .collect();
+    assert!(
+        changed.is_empty() && table.lines().count() == kept.lines().count(),
+        "now:\n{}",
+        changed.join("\n")
+    );
 }
 
 /// A picture that is all one value would have a hash as well.

@@ -1,8 +1,10 @@
-//! The schema of the IR text is current, and it agrees with the decoder on frozen files, scenes and mutants.
+//! The schema of the IR text is current, and it agrees with the decoder on frozen files, scenes and
+//! mutants.
 //!
-//! The decoder takes any number of the right type; the ranges the schema names are the proof's business. Only the
-//! decoder knows: keys written twice, numbers no float holds, and `1.0` where an integer stands. And it alone takes
-//! two spellings it never writes: a list of its fields for a map, and a map to null for a bare word.
+//! The decoder takes any number of the right type; the ranges the schema names are the proof's
+//! business. Only the decoder knows: keys written twice, numbers no float holds, and `1.0` where an
+//! integer stands. And it alone takes two spellings it never writes: a list of its fields for a
+//! map, and a map to null for a bare word.
 
 #![expect(
     clippy::unwrap_used,
@@ -41,9 +43,13 @@ fn decoded(document: &Value) -> Option<Value> {
 /// True if both trees have the same maps, lists and leaves, whatever the leaves are.
 fn same_form(a: &Value, b: &Value) -> bool {
     match (a, b) {
-        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_form(a, b)),
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_form(a, b))
+        }
         (Value::Object(a), Value::Object(b)) => {
-            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same_form(a, b)))
+            a.len() == b.len()
+                && a.iter()
+                    .all(|(key, a)| b.get(key).is_some_and(|b| same_form(a, b)))
         }
         (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b),
     }
@@ -57,7 +63,10 @@ fn the_file_in_the_schema_folder_is_current() {
         std::fs::write(&path, &schema).unwrap();
     }
     let file = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(file == schema, "schema/ir.schema.json is out of date; RTC_UPDATE=1 cargo test --test ir_schema writes it");
+    assert!(
+        file == schema,
+        "schema/ir.schema.json is out of date; RTC_UPDATE=1 cargo test --test ir_schema writes it"
+    );
 }
 
 /// A small generator (splitmix64): the same mutants every time.
@@ -85,19 +94,29 @@ fn mutate(tree: &mut Value, dice: &mut Dice) {
             mutate(&mut items[at], dice);
         }
         Value::Object(members) if dice.roll(2) == 0 && !members.is_empty() => {
-            let key = members.keys().nth(dice.roll(members.len())).unwrap().clone();
+            let key = members
+                .keys()
+                .nth(dice.roll(members.len()))
+                .unwrap()
+                .clone();
             let member = members.shift_remove(&key).unwrap();
             if dice.roll(2) == 0 {
-                members.insert(["radius", "sphere", "phong", "zoom"][dice.roll(4)].to_owned(), member);
+                members.insert(
+                    ["radius", "sphere", "phong", "zoom"][dice.roll(4)].to_owned(),
+                    member,
+                );
             }
         }
         Value::Array(items) if dice.roll(2) == 0 => match items.pop() {
             Some(item) if dice.roll(2) == 0 => items.extend([item.clone(), item]),
             _ => {}
         },
-        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => {
-            *tree = replacement(dice)
-        }
+        Value::Null
+        | Value::Bool(_)
+        | Value::Number(_)
+        | Value::String(_)
+        | Value::Array(_)
+        | Value::Object(_) => *tree = replacement(dice),
     }
 }
 
@@ -158,14 +177,24 @@ fn schema_and_decoder_agree_on_mutants() {
             mutate(&mut mutant, &mut dice);
         }
         // Older versions are read too; the schema is that of the current one.
-        if mutant["irVersion"].as_u64().is_some_and(|version| version < VERSION.into()) {
+        if mutant["irVersion"]
+            .as_u64()
+            .is_some_and(|version| version < VERSION.into())
+        {
             continue;
         }
         let decoded = decoded(&mutant).filter(|decoded| same_form(decoded, &mutant));
         accepted += u64::from(decoded.is_some());
-        assert_eq!(schema.is_valid(&mutant), decoded.is_some(), "schema against decoder: {mutant}");
+        assert_eq!(
+            schema.is_valid(&mutant),
+            decoded.is_some(),
+            "schema against decoder: {mutant}"
+        );
     }
-    assert!(accepted > MUTANTS / 20 && accepted < MUTANTS * 19 / 20, "{accepted} accepted: the mutants test nothing");
+    assert!(
+        accepted > MUTANTS / 20 && accepted < MUTANTS * 19 / 20,
+        "{accepted} accepted: the mutants test nothing"
+    );
 }
 
 /// The ranges the schema names, one value each just outside.

@@ -1,4 +1,5 @@
-//! Numbers that give way: directions of any length, shapes and scenes of extreme size, and what no file can hold.
+//! Numbers that give way: directions of any length, shapes and scenes of extreme size, and what no
+//! file can hold.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -12,7 +13,12 @@ use rtc::valid::ValidScene;
 
 /// The bits of every value.
 fn bits(film: &Film) -> Vec<u64> {
-    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+    film.image
+        .pixels
+        .iter()
+        .flatten()
+        .map(|value| value.to_bits())
+        .collect()
 }
 
 /// Three numbers as a list, times 2^k.
@@ -30,7 +36,10 @@ fn read(text: &str) -> (Option<ValidScene>, Sink) {
 }
 
 fn job() -> Job {
-    Job { values: Values::Linear, ..Job::default() }
+    Job {
+        values: Values::Linear,
+        ..Job::default()
+    }
 }
 
 fn proven(text: &str) -> ValidScene {
@@ -39,21 +48,27 @@ fn proven(text: &str) -> ValidScene {
 }
 
 fn film(scene: &ValidScene, rules: Rules) -> Film {
-    pipeline::render(scene, &Plan::new(scene, rules), &job(), 2, &|_| true).unwrap().unwrap()
+    pipeline::render(scene, &Plan::new(scene, rules), &job(), 2, &|_| true)
+        .unwrap()
+        .unwrap()
 }
 
 /// That the scene is drawn with and without the rules alike, and the bits of its picture.
 fn lawful(text: &str) -> Vec<u64> {
     let scene = proven(text);
     let pruned = film(&scene, Rules::ALL);
-    assert!(bits(&pruned) == bits(&film(&scene, Rules::NONE)), "a rule changes the picture of\n{text}");
+    assert!(
+        bits(&pruned) == bits(&film(&scene, Rules::NONE)),
+        "a rule changes the picture of\n{text}"
+    );
     let verified = pipeline::verify(&scene, &Plan::new(&scene, Rules::ALL), &job(), 2, &|_| true);
     let verified = verified.unwrap().unwrap();
     assert!(verified.is_ok(), "{:?}", verified.err());
     bits(&pruned)
 }
 
-const STAGE: &str = "Camera: {eye: [0.5, 3, 7], center: [0, 1, 0], up: [0, 0.12, 0], viewSize: [32, 28]}\n";
+const STAGE: &str =
+    "Camera: {eye: [0.5, 3, 7], center: [0, 1, 0], up: [0, 0.12, 0], viewSize: [32, 28]}\n";
 const MATERIAL: &str = "material: {color: [0.8, 0.5, 0.3], ka: 0.2, kd: 0.6, ks: 0.3, n: 20}";
 const CLOTHES: &str = "material: {texture: uv, ka: 0.2, kd: 0.6, ks: 0, n: 20}";
 
@@ -71,43 +86,77 @@ type Directed = fn(&str) -> String;
 /// Every key that is a direction alone, each in a scene with a direction in that key.
 const KEYS: [(&str, Directed); 12] = [
     ("cylinder", |v| {
-        object(&format!("type: cylinder, position: [0, 0.4, 0], direction: {v}, height: 1.4, radius: 0.6, {MATERIAL}"))
+        object(&format!(
+            "type: cylinder, position: [0, 0.4, 0], direction: {v}, height: 1.4, radius: 0.6, {MATERIAL}"
+        ))
     }),
     ("torus", |v| {
-        object(&format!("type: torus, position: [0, 1, 0], direction: {v}, radius: 0.9, alpha: 0.3, {MATERIAL}"))
+        object(&format!(
+            "type: torus, position: [0, 1, 0], direction: {v}, radius: 0.9, alpha: 0.3, {MATERIAL}"
+        ))
     }),
-    ("plane", |v| object(&format!("type: plane, position: [0, 0.5, 0], normal: {v}, {MATERIAL}"))),
-    ("plane at a distance", |v| object(&format!("type: plane, normal: {v}, distance: 0.5, {MATERIAL}"))),
+    ("plane", |v| {
+        object(&format!(
+            "type: plane, position: [0, 0.5, 0], normal: {v}, {MATERIAL}"
+        ))
+    }),
+    ("plane at a distance", |v| {
+        object(&format!(
+            "type: plane, normal: {v}, distance: 0.5, {MATERIAL}"
+        ))
+    }),
     ("plane of an edge", |v| {
-        object(&format!("type: plane, position: [0, 0.5, 0], up: {v}, side: [1, 0.1, 0.2], {MATERIAL}"))
+        object(&format!(
+            "type: plane, position: [0, 0.5, 0], up: {v}, side: [1, 0.1, 0.2], {MATERIAL}"
+        ))
     }),
     ("plane of another edge", |v| {
-        object(&format!("type: plane, position: [0, 0.5, 0], up: [1, 0.1, 0.2], side: {v}, {MATERIAL}"))
+        object(&format!(
+            "type: plane, position: [0, 0.5, 0], up: [1, 0.1, 0.2], side: {v}, {MATERIAL}"
+        ))
     }),
-    ("disc", |v| object(&format!("type: circle, center: [0, 1, 0], normal: {v}, radius: 1.1, {MATERIAL}"))),
+    ("disc", |v| {
+        object(&format!(
+            "type: circle, center: [0, 1, 0], normal: {v}, radius: 1.1, {MATERIAL}"
+        ))
+    }),
     ("bounded plane", |v| {
-        object(&format!("type: bplane, typ: circle, center: [0, 1, 0], normal: {v}, radius: 1.1, {MATERIAL}"))
+        object(&format!(
+            "type: bplane, typ: circle, center: [0, 1, 0], normal: {v}, radius: 1.1, {MATERIAL}"
+        ))
     }),
     ("axis of a sphere", |v| {
-        object(&format!("type: sphere, position: [0, 1, 0], radius: 1, axis: {v}, angle: 40, {CLOTHES}"))
+        object(&format!(
+            "type: sphere, position: [0, 1, 0], radius: 1, axis: {v}, angle: 40, {CLOTHES}"
+        ))
     }),
     ("axis beside a radius", |v| {
-        object(&format!("type: sphere, position: [0, 1, 0], radius: [1, {v}], angle: 40, {CLOTHES}"))
+        object(&format!(
+            "type: sphere, position: [0, 1, 0], radius: [1, {v}], angle: 40, {CLOTHES}"
+        ))
     }),
     ("sun", |v| {
-        object(&format!("type: torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, {MATERIAL}")).replace(
+        object(&format!(
+            "type: torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, {MATERIAL}"
+        ))
+        .replace(
             "position: [-4, 6, 5], color: [0.9, 0.8, 0.7]",
             &format!("type: sun, direction: {v}, irradiance: 3"),
         )
     }),
     ("up beside fov", |v| {
-        object(&format!("type: torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, {MATERIAL}"))
-            .replace("up: [0, 0.12, 0]", &format!("up: {v}, fov: 40"))
+        object(&format!(
+            "type: torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, {MATERIAL}"
+        ))
+        .replace("up: [0, 0.12, 0]", &format!("up: {v}, fov: 40"))
     }),
 ];
 
-/// Powers of two that leave directions of about 1 with normal components, those where squares leave the range among them.
-const POWERS: [i32; 14] = [-1010, -900, -600, -540, -530, -515, -340, -1, 1, 340, 511, 515, 600, 1015];
+/// Powers of two that leave directions of about 1 with normal components, those where squares leave
+/// the range among them.
+const POWERS: [i32; 14] = [
+    -1010, -900, -600, -540, -530, -515, -340, -1, 1, 340, 511, 515, 600, 1015,
+];
 
 #[test]
 fn a_direction_has_no_length() {
@@ -135,9 +184,13 @@ fn a_rule_for_convex_solids_holds_for_a_tiny_direction() {
     lawful(&text("[-8e+160, -1.7e+161, 1e+162]"));
 }
 
-/// A scene of one shape on a floor, all of it times 2^k, seen by the light of a point in the shade of the shape.
+/// A scene of one shape on a floor, all of it times 2^k, seen by the light of a point in the shade
+/// of the shape.
 fn scaled(shape: Shape, k: i32) -> String {
-    let (vector, length) = (|v: [f64; 3]| list(v, k), |x: f64| format!("{:e}", ldexp(x, k)));
+    let (vector, length) = (
+        |v: [f64; 3]| list(v, k),
+        |x: f64| format!("{:e}", ldexp(x, k)),
+    );
     let [eye, center, up] = [[0.5, 3.0, 7.0], [0.0, 1.0, 0.0], [0.0, 0.12, 0.0]].map(vector);
     let (light, floor) = (vector([-4.0, 6.0, 5.0]), vector([0.0, -40.0, 0.0]));
     format!(
@@ -155,8 +208,17 @@ type Shape = fn(&dyn Fn([f64; 3]) -> String, &dyn Fn(f64) -> String) -> String;
 /// Shapes, each by its numbers times a power of two.
 const SHAPES: [Shape; 8] = [
     |v, _| {
-        let corners = [[-1.0, 0.1, 1.0], [1.2, 0.1, 0.6], [1.2, 2.0, 0.1], [-1.0, 1.4, -1.3]].map(v);
-        format!("type: quad, v0: {}, v1: {}, v2: {}, v3: {}", corners[0], corners[1], corners[2], corners[3])
+        let corners = [
+            [-1.0, 0.1, 1.0],
+            [1.2, 0.1, 0.6],
+            [1.2, 2.0, 0.1],
+            [-1.0, 1.4, -1.3],
+        ]
+        .map(v);
+        format!(
+            "type: quad, v0: {}, v1: {}, v2: {}, v3: {}",
+            corners[0], corners[1], corners[2], corners[3]
+        )
     },
     |v, _| {
         format!(
@@ -166,9 +228,29 @@ const SHAPES: [Shape; 8] = [
             v([2.0, 0.1, 0.6])
         )
     },
-    |v, l| format!("type: sphere, position: {}, radius: {}", v([0.0, 1.0, 0.0]), l(1.1)),
-    |v, l| format!("type: cone, position: {}, up: {}, radius: {}", v([0.0, 0.1, 0.0]), v([0.4, 2.0, 0.3]), l(1.0)),
-    |v, l| format!("type: cone, position: {}, up: {}, radius: {}", v([0.0, 1.0, 0.0]), v([4e-6, 2e-5, 3e-6]), l(1.0)),
+    |v, l| {
+        format!(
+            "type: sphere, position: {}, radius: {}",
+            v([0.0, 1.0, 0.0]),
+            l(1.1)
+        )
+    },
+    |v, l| {
+        format!(
+            "type: cone, position: {}, up: {}, radius: {}",
+            v([0.0, 0.1, 0.0]),
+            v([0.4, 2.0, 0.3]),
+            l(1.0)
+        )
+    },
+    |v, l| {
+        format!(
+            "type: cone, position: {}, up: {}, radius: {}",
+            v([0.0, 1.0, 0.0]),
+            v([4e-6, 2e-5, 3e-6]),
+            l(1.0)
+        )
+    },
     |v, l| {
         format!(
             "type: torus, position: {}, radius: {}, alpha: {}, direction: [0.3, 1, 0.6]",
@@ -177,7 +259,14 @@ const SHAPES: [Shape; 8] = [
             l(0.3)
         )
     },
-    |v, l| format!("type: cylinder, p1: {}, p2: {}, radius: {}", v([-0.7, 0.4, 0.3]), v([0.8, 1.6, -0.4]), l(0.6)),
+    |v, l| {
+        format!(
+            "type: cylinder, p1: {}, p2: {}, radius: {}",
+            v([-0.7, 0.4, 0.3]),
+            v([0.8, 1.6, -0.4]),
+            l(0.6)
+        )
+    },
     |v, _| {
         format!(
             "type: prism, v0: {}, v1: {}, v2: {}, up: {}",
@@ -196,12 +285,17 @@ fn a_shape_times_a_power_of_two_makes_the_same_picture() {
         for k in [-180, -90, -1, 90, 180] {
             let other = lawful(&scaled(shape, k));
             let differing = picture.iter().zip(&other).filter(|(a, b)| a != b).count();
-            assert!(differing == 0, "{differing} values differ at 2^{k}:\n{}", scaled(shape, 0));
+            assert!(
+                differing == 0,
+                "{differing} values differ at 2^{k}:\n{}",
+                scaled(shape, 0)
+            );
         }
     }
 }
 
-/// A cone so flat that nothing is left of its height is the disc of its base, from above, from below and edge on.
+/// A cone so flat that nothing is left of its height is the disc of its base, from above, from
+/// below and edge on.
 #[test]
 fn a_flat_cone_is_no_wider_than_its_base() {
     let axis = [0.2, 1.0, 0.1];
@@ -212,14 +306,27 @@ fn a_flat_cone_is_no_wider_than_its_base() {
                  Lights: [{{position: [-4, 6, 5], color: [0.9, 0.8, 0.7]}}]\nObjects:\n\
                  - {{{keys}, radius: 1.25, {MATERIAL}}}\n- {{type: sphere, position: [0, -40, 0], radius: 40, {MATERIAL}}}\n"
             );
-            lawful(&text).into_iter().map(f64::from_bits).collect::<Vec<_>>()
+            lawful(&text)
+                .into_iter()
+                .map(f64::from_bits)
+                .collect::<Vec<_>>()
         };
-        let disc = seen(&format!("type: circle, center: [0.1, 1, 0.2], normal: {}", list(axis, 0)));
+        let disc = seen(&format!(
+            "type: circle, center: [0.1, 1, 0.2], normal: {}",
+            list(axis, 0)
+        ));
         for height in [1e-12, 1e-14, 1e-17, 1e-20, 1e-40, 1e-58] {
             let up = list(axis.map(|component| component * height), 0);
             let cone = seen(&format!("type: cone, position: [0.1, 1, 0.2], up: {up}"));
-            let differing = disc.iter().zip(&cone).filter(|(a, b)| (*a - *b).abs() > 1e-9).count();
-            assert!(differing <= 6, "{differing} values differ from {eye} at height {height:e}");
+            let differing = disc
+                .iter()
+                .zip(&cone)
+                .filter(|(a, b)| (*a - *b).abs() > 1e-9)
+                .count();
+            assert!(
+                differing <= 6,
+                "{differing} values differ from {eye} at height {height:e}"
+            );
         }
     }
 }
@@ -232,23 +339,37 @@ const LONG: [&str; 4] = [
     "type: quad, position: [0, 0.1, 0], up: VECTOR, side: [1, 0, 0.1]",
 ];
 
-/// Lengths far beyond those that a scene may have: a lawful picture of finite values, or a finding that says so at its
-/// place.
+/// Lengths far beyond those that a scene may have: a lawful picture of finite values, or a finding
+/// that says so at its place.
 #[test]
 fn lengths_beyond_the_range_are_told() {
-    let view = object(&format!("type: sphere, position: [0, 1, 0], radius: 1, {MATERIAL}"));
+    let view = object(&format!(
+        "type: sphere, position: [0, 1, 0], radius: 1, {MATERIAL}"
+    ));
     let view = view.replace("up: [0, 0.12, 0]", "up: VECTOR");
-    let texts = LONG.map(|keys| object(&format!("{keys}, {MATERIAL}"))).into_iter().chain([view]);
+    let texts = LONG
+        .map(|keys| object(&format!("{keys}, {MATERIAL}")))
+        .into_iter()
+        .chain([view]);
     for text in texts {
         for k in [-900, -500, -200, -190, 190, 200, 500, 900] {
             let text = text.replace("VECTOR", &list([0.1, 0.4, 0.3], k));
             let (scene, sink) = read(&text);
             if scene.is_some() {
-                assert!(lawful(&text).into_iter().all(|bits| f64::from_bits(bits).is_finite()), "{text}");
+                assert!(
+                    lawful(&text)
+                        .into_iter()
+                        .all(|bits| f64::from_bits(bits).is_finite()),
+                    "{text}"
+                );
                 continue;
             }
             for finding in sink.kept() {
-                assert!(finding.message.contains("to compute with"), "{text}\n{}", finding.message);
+                assert!(
+                    finding.message.contains("to compute with"),
+                    "{text}\n{}",
+                    finding.message
+                );
                 assert!(finding.primary.is_some(), "{text}\n{}", finding.message);
             }
         }

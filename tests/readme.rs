@@ -1,8 +1,10 @@
-//! The README shows what the program says: each command in it is run in a folder with copies of the files it names, and
-//! the lines shown are those of its output, `…` standing for any others. Times and counts of renders may differ.
+//! The README shows what the program says: each command in it is run in a folder with copies of the
+//! files it names, and the lines shown are those of its output, `…` standing for any others. Times
+//! and counts of renders may differ.
 //!
-//! `rtc cost` takes too long here: its arguments are parsed, and its lines are about what those of a study with less work
-//! are about. `benches/readme.sh` runs everything in release and writes the lines anew.
+//! `rtc cost` takes too long here: its arguments are parsed, and its lines are about what those of
+//! a study with less work are about. `benches/readme.sh` runs everything in release and writes the
+//! lines anew.
 
 #![expect(
     clippy::unwrap_used,
@@ -40,7 +42,11 @@ fn root() -> PathBuf {
 }
 
 fn readme() -> Vec<String> {
-    fs::read_to_string(root().join("README.md")).unwrap().lines().map(str::to_owned).collect()
+    fs::read_to_string(root().join("README.md"))
+        .unwrap()
+        .lines()
+        .map(str::to_owned)
+        .collect()
 }
 
 /// The commands in the blocks of kind `console`.
@@ -50,7 +56,10 @@ fn commands(readme: &[String]) -> Vec<Shown> {
     for (number, line) in readme.iter().enumerate() {
         if let Some(command) = line.strip_prefix("$ rtc ").filter(|_| inside) {
             let args = command.split_whitespace().map(str::to_owned).collect();
-            found.push(Shown { args, lines: number + 1..number + 1 });
+            found.push(Shown {
+                args,
+                lines: number + 1..number + 1,
+            });
         } else if line.starts_with("```") {
             inside = line == "```console";
         } else if let Some(last) = found.last_mut().filter(|_| inside) {
@@ -63,12 +72,23 @@ fn commands(readme: &[String]) -> Vec<Shown> {
 /// A folder with a copy of each folder of the repo in which a file stands that is named.
 fn folder(args: &[String]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for path in args.iter().map(Path::new).filter(|path| root().join(path).is_file()) {
+    for path in args
+        .iter()
+        .map(Path::new)
+        .filter(|path| root().join(path).is_file())
+    {
         let beside = path.parent().unwrap();
         fs::create_dir_all(folder.path().join(beside)).unwrap();
-        for entry in fs::read_dir(root().join(beside)).unwrap().map(Result::unwrap) {
+        for entry in fs::read_dir(root().join(beside))
+            .unwrap()
+            .map(Result::unwrap)
+        {
             if entry.path().is_file() {
-                fs::copy(entry.path(), folder.path().join(beside).join(entry.file_name())).unwrap();
+                fs::copy(
+                    entry.path(),
+                    folder.path().join(beside).join(entry.file_name()),
+                )
+                .unwrap();
             }
         }
     }
@@ -79,9 +99,19 @@ fn folder(args: &[String]) -> TempDir {
 fn run(args: &[String]) -> (Vec<String>, i32) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rtc"));
     let folder = folder(args);
-    let output = command.current_dir(folder.path()).args(args).stdin(Stdio::null()).output().unwrap();
-    let text = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    (text.lines().map(str::to_owned).collect(), output.status.code().unwrap())
+    let output = command
+        .current_dir(folder.path())
+        .args(args)
+        .stdin(Stdio::null())
+        .output()
+        .unwrap();
+    let text = [output.stdout, output.stderr]
+        .map(|bytes| String::from_utf8(bytes).unwrap())
+        .concat();
+    (
+        text.lines().map(str::to_owned).collect(),
+        output.status.code().unwrap(),
+    )
 }
 
 /// A line without its numbers, the units that depend on their size, and the mark of the front.
@@ -95,9 +125,16 @@ fn form(line: &str) -> String {
             form.push('#');
         }
     }
-    let is_unit =
-        |word: &&str| matches!(word.trim_end_matches([',', '.', ';']), "ms" | "s" | "min" | "k" | "M" | "G" | "*");
-    let words = form.split_whitespace().filter(|word| !is_unit(word)).collect::<Vec<_>>();
+    let is_unit = |word: &&str| {
+        matches!(
+            word.trim_end_matches([',', '.', ';']),
+            "ms" | "s" | "min" | "k" | "M" | "G" | "*"
+        )
+    };
+    let words = form
+        .split_whitespace()
+        .filter(|word| !is_unit(word))
+        .collect::<Vec<_>>();
     words.join(" ").replace("#e-#", "#")
 }
 
@@ -107,14 +144,28 @@ fn heading(form: &str) -> &str {
 }
 
 /// Where in an output the lines shown are; cuts are nowhere.
-fn places(shown: &[String], output: &[String], same: impl Fn(&str, &str) -> bool) -> Option<Vec<Option<usize>>> {
+fn places(
+    shown: &[String],
+    output: &[String],
+    same: impl Fn(&str, &str) -> bool,
+) -> Option<Vec<Option<usize>>> {
     let (mut places, mut from) = (Vec::new(), 0);
     let parts = shown.split(|line| line == CUT).collect::<Vec<_>>();
     for (index, part) in parts.iter().enumerate() {
         let fits = |at: &usize| part.iter().zip(&output[*at..]).all(|(a, b)| same(a, b));
-        let last = output.len().checked_sub(part.len()).filter(|last| *last >= from)?;
-        let (first, last) = (if index == parts.len() - 1 { last } else { from }, if index == 0 { from } else { last });
-        let at = if part.is_empty() { from } else { (first..=last).find(fits)? };
+        let last = output
+            .len()
+            .checked_sub(part.len())
+            .filter(|last| *last >= from)?;
+        let (first, last) = (
+            if index == parts.len() - 1 { last } else { from },
+            if index == 0 { from } else { last },
+        );
+        let at = if part.is_empty() {
+            from
+        } else {
+            (first..=last).find(fits)?
+        };
         from = at + part.len();
         places.extend((at..from).map(Some));
         places.push(None);
@@ -126,21 +177,35 @@ fn places(shown: &[String], output: &[String], same: impl Fn(&str, &str) -> bool
 /// Whether two lines say the same, but for what differs from machine to machine.
 fn is_same(args: &[String], a: &str, b: &str) -> bool {
     let is_measured = matches!(args[0].as_str(), "render" | "cost");
-    if is_measured { form(a) == form(b) } else { a == b }
+    if is_measured {
+        form(a) == form(b)
+    } else {
+        a == b
+    }
 }
 
 /// What `rtc cost` says of a scene for little work.
 fn cheap_study(path: &str) -> String {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(&root().join(path), &mut map).unwrap();
-    let scene = pipeline::load(file, &mut map, &options, &mut sink).unwrap().scene;
+    let scene = pipeline::load(file, &mut map, &options, &mut sink)
+        .unwrap()
+        .scene;
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Relaxed));
     let proceed = |step: Step| {
         traced.fetch_add(step.rays, Relaxed);
         true
     };
-    let bench = Bench::new(0, Clock { cpu: &clock, wall: &clock }, &proceed).unwrap();
+    let bench = Bench::new(
+        0,
+        Clock {
+            cpu: &clock,
+            wall: &clock,
+        },
+        &proceed,
+    )
+    .unwrap();
     study::table(&study::study(&scene, About::default(), EFFORT, 0, &bench).unwrap())
 }
 
@@ -150,20 +215,27 @@ fn fault(shown: &[String], args: &[String]) -> Option<String> {
         let (_, code) = run(&[args, &["--help".to_owned()]].concat());
         let output = cheap_study(&args[1]);
         let forms = output.lines().map(form).collect::<Vec<_>>().join(" ");
-        let missing = shown.iter().find(|line| *line != CUT && !forms.contains(heading(&form(line))));
-        return (code != 0 || missing.is_some()).then(|| format!("exit code {code}, {missing:?} is not in\n{output}"));
+        let missing = shown
+            .iter()
+            .find(|line| *line != CUT && !forms.contains(heading(&form(line))));
+        return (code != 0 || missing.is_some())
+            .then(|| format!("exit code {code}, {missing:?} is not in\n{output}"));
     }
     let (output, code) = run(args);
     let wanted = i32::from(shown.iter().any(|line| line.starts_with("error[")));
     let places = places(shown, &output, |a, b| is_same(args, a, b));
-    (code != wanted || places.is_none()).then(|| format!("exit code {code}, says\n{}", output.join("\n")))
+    (code != wanted || places.is_none())
+        .then(|| format!("exit code {code}, says\n{}", output.join("\n")))
 }
 
 /// The lines of an output that stand for those shown; all of them if they don't.
 fn anew(shown: &[String], args: &[String]) -> Vec<String> {
     let (output, _) = run(args);
     match places(shown, &output, |a, b| is_same(args, a, b)) {
-        Some(places) => places.iter().map(|at| at.map_or(CUT.to_owned(), |at| output[at].clone())).collect(),
+        Some(places) => places
+            .iter()
+            .map(|at| at.map_or(CUT.to_owned(), |at| output[at].clone()))
+            .collect(),
         None => {
             println!("rtc {}: cut what it says by hand", args.join(" "));
             output
@@ -189,16 +261,29 @@ fn the_readme_shows_what_the_program_says() {
         Some(format!("rtc {}: {fault}", shown.args.join(" ")))
     };
     let faults = commands.iter().filter_map(fault).collect::<Vec<_>>();
-    assert!(faults.is_empty(), "run benches/readme.sh\n{}", faults.join("\n"));
+    assert!(
+        faults.is_empty(),
+        "run benches/readme.sh\n{}",
+        faults.join("\n")
+    );
 }
 
 #[test]
 fn every_command_and_option_that_the_readme_names_is_there() {
     let text = readme().join("\n");
-    let spans = text.split('`').skip(1).step_by(2).filter(|span| !span.contains("cargo "));
+    let spans = text
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|span| !span.contains("cargo "));
     let words = spans.flat_map(str::split_whitespace).collect::<Vec<_>>();
-    let after_rtc = words.windows(2).filter(|pair| pair[0] == "rtc").map(|pair| pair[1]);
-    let mut commands = after_rtc.filter(|word| word.chars().all(|c| c.is_ascii_lowercase())).collect::<Vec<_>>();
+    let after_rtc = words
+        .windows(2)
+        .filter(|pair| pair[0] == "rtc")
+        .map(|pair| pair[1]);
+    let mut commands = after_rtc
+        .filter(|word| word.chars().all(|c| c.is_ascii_lowercase()))
+        .collect::<Vec<_>>();
     commands.sort_unstable();
     commands.dedup();
     assert!(commands.len() >= 7, "{commands:?}");
@@ -208,7 +293,10 @@ fn every_command_and_option_that_the_readme_names_is_there() {
         assert_eq!(code, 0, "rtc {command}");
         help += &lines.join("\n");
     }
-    let is_option = |word: &str| word.strip_prefix("--").is_some_and(|name| name.starts_with(char::is_alphabetic));
+    let is_option = |word: &str| {
+        word.strip_prefix("--")
+            .is_some_and(|name| name.starts_with(char::is_alphabetic))
+    };
     let mut options = words.iter().filter(|word| is_option(word));
     assert!(options.clone().count() >= 10);
     let missing = options.find(|option| !help.contains(option.split('=').next().unwrap()));
@@ -226,5 +314,8 @@ fn lines_are_found_between_cuts() {
     for wrong in ["a b", "b …", "… a", "a … c", "… d … c …", "a b c a d e"] {
         assert_eq!(found(wrong), None, "{wrong}");
     }
-    assert_eq!(form("* 2  543 k  94.1 ms, 1,234 rays/s 3e-5"), "# # # # rays/s #");
+    assert_eq!(
+        form("* 2  543 k  94.1 ms, 1,234 rays/s 3e-5"),
+        "# # # # rays/s #"
+    );
 }

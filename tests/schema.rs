@@ -1,7 +1,8 @@
-//! The schema of scenes: the committed file is current, and it takes exactly what the decoder takes under `--strict`.
+//! The schema of scenes: the committed file is current, and it takes exactly what the decoder takes
+//! under `--strict`.
 //!
-//! Agreement is tried on every fixture and scene and on seeded mutants of them. With `RTC_UPDATE=1` the file is
-//! rewritten.
+//! Agreement is tried on every fixture and scene and on seeded mutants of them. With `RTC_UPDATE=1`
+//! the file is rewritten.
 
 #![expect(
     clippy::unwrap_used,
@@ -16,11 +17,11 @@ use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Codes of errors that no schema can state: relations between values, and limits on the work. Beside them, those of the
-/// files a scene names.
+/// Codes of errors that no schema can state: relations between values, and limits on the work.
+/// Beside them, those of the files a scene names.
 const DECODER_ONLY: &[&str] = &[
-    "SC007", "VA001", "VA002", "VA003", "VA009", "VA010", "VA012", "VA013", "VA015", "VA016", "VA019", "VA104",
-    "VA105", "VA106", "VA107",
+    "SC007", "VA001", "VA002", "VA003", "VA009", "VA010", "VA012", "VA013", "VA015", "VA016",
+    "VA019", "VA104", "VA105", "VA106", "VA107",
 ];
 
 const MUTANTS: u32 = 20_000;
@@ -32,13 +33,21 @@ fn root() -> PathBuf {
 #[test]
 fn the_committed_schema_and_page_are_current() {
     let schema = format!("{:#}\n", course::schema());
-    let pages = [("scene.schema.json", schema), ("course-format.md", course::page()), ("limits.md", budget::page())];
+    let pages = [
+        ("scene.schema.json", schema),
+        ("course-format.md", course::page()),
+        ("limits.md", budget::page()),
+    ];
     for (name, current) in pages {
         let path = root().join("schema").join(name);
         if std::env::var_os("RTC_UPDATE").is_some() {
             fs::write(&path, &current).unwrap();
         }
-        assert_eq!(fs::read_to_string(&path).unwrap(), current, "run again with RTC_UPDATE=1");
+        assert_eq!(
+            fs::read_to_string(&path).unwrap(),
+            current,
+            "run again with RTC_UPDATE=1"
+        );
     }
 }
 
@@ -47,7 +56,8 @@ fn every_property_says_what_it_is() {
     let schema = course::schema();
     for (name, record) in schema["$defs"].as_object().unwrap() {
         for (key, property) in record["properties"].as_object().unwrap() {
-            let silent = property != &Value::Bool(false) && property["description"].as_str().is_none_or(str::is_empty);
+            let silent = property != &Value::Bool(false)
+                && property["description"].as_str().is_none_or(str::is_empty);
             assert!(!silent, "`{key}` of {name} has no description");
         }
     }
@@ -58,12 +68,23 @@ fn every_property_says_what_it_is() {
 
 /// The scenes of the repository and all fixtures that a YAML reader takes, as JSON.
 fn documents() -> Vec<(String, Value)> {
-    let mut open = vec![root().join("scenes"), root().join("tests/diagnostics"), root().join("tests/ir/shapes")];
+    let mut open = vec![
+        root().join("scenes"),
+        root().join("tests/diagnostics"),
+        root().join("tests/ir/shapes"),
+    ];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {
         if path.is_dir() {
-            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "yaml") {
+            open.extend(
+                fs::read_dir(path)
+                    .unwrap()
+                    .map(|entry| entry.unwrap().path()),
+            );
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "yaml")
+        {
             found.extend(as_json(&path).map(|value| (path.display().to_string(), value)));
         }
     }
@@ -71,7 +92,8 @@ fn documents() -> Vec<(String, Value)> {
     found
 }
 
-/// The document as JSON; nothing for texts JSON can't say (not UTF-8, `.nan`, duplicate keys, keys that are lists).
+/// The document as JSON; nothing for texts JSON can't say (not UTF-8, `.nan`, duplicate keys, keys
+/// that are lists).
 fn as_json(path: &Path) -> Option<Value> {
     let text = String::from_utf8(fs::read(path).unwrap()).ok()?;
     let mut yaml: serde_yaml::Value = serde_yaml::from_str(&text).ok()?;
@@ -86,23 +108,42 @@ fn errors(document: &Value) -> Vec<&'static str> {
     let mut map = SourceMap::default();
     let file = map.add("document", document.to_string().into_bytes());
     let mut sink = Sink::default();
-    let strict = front::Options { strict: true, ..front::Options::default() };
-    let options = pipeline::Options { front: strict, ..pipeline::Options::default() };
+    let strict = front::Options {
+        strict: true,
+        ..front::Options::default()
+    };
+    let options = pipeline::Options {
+        front: strict,
+        ..pipeline::Options::default()
+    };
     if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
         let _ = pipeline::prove(&lowered, &options, &mut sink);
     }
-    sink.kept().iter().filter(|d| d.severity == Severity::Error).map(|d| d.code.id).collect()
+    sink.kept()
+        .iter()
+        .filter(|d| d.severity == Severity::Error)
+        .map(|d| d.code.id)
+        .collect()
 }
 
 /// What is wrong with the agreement on a document, if anything.
 fn disagreement(validator: &jsonschema::Validator, document: &Value) -> Option<String> {
     let errors = errors(document);
-    let stated = errors.iter().any(|code| !code.starts_with("RE") && !DECODER_ONLY.contains(code));
+    let stated = errors
+        .iter()
+        .any(|code| !code.starts_with("RE") && !DECODER_ONLY.contains(code));
     let valid = validator.is_valid(document);
-    let first = || validator.iter_errors(document).next().map(|error| format!("{error} at {}", error.instance_path()));
+    let first = || {
+        validator
+            .iter_errors(document)
+            .next()
+            .map(|error| format!("{error} at {}", error.instance_path()))
+    };
     match (valid, stated) {
         // The schema may state what only the proof finds elsewhere, as a radius of 0.
-        (false, false) if errors.is_empty() => Some(format!("only the schema refuses: {:?}", first())),
+        (false, false) if errors.is_empty() => {
+            Some(format!("only the schema refuses: {:?}", first()))
+        }
         (true, true) => Some(format!("only the decoder refuses: {errors:?}")),
         (true, false) | (false, _) => None,
     }
@@ -151,16 +192,23 @@ fn material() -> (Vec<&'static str>, Vec<Value>) {
         "tetrahedron", "prism", "gltf", "sun", "point", "path", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
         [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }
     ]);
-    (keys.split_whitespace().collect(), values.as_array().unwrap().clone())
+    (
+        keys.split_whitespace().collect(),
+        values.as_array().unwrap().clone(),
+    )
 }
 
 /// All places of a document, as JSON pointers.
 fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     found.push(at.to_owned());
     match value {
-        Value::Object(map) => map.iter().for_each(|(key, value)| places(value, &format!("{at}/{key}"), found)),
+        Value::Object(map) => map
+            .iter()
+            .for_each(|(key, value)| places(value, &format!("{at}/{key}"), found)),
         Value::Array(list) => {
-            list.iter().enumerate().for_each(|(index, value)| places(value, &format!("{at}/{index}"), found));
+            list.iter()
+                .enumerate()
+                .for_each(|(index, value)| places(value, &format!("{at}/{index}"), found));
         }
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
     }
@@ -171,7 +219,9 @@ fn mutate(document: &mut Value, random: &mut Random) {
     let (keys, values) = material();
     let mut found = Vec::new();
     places(document, "", &mut found);
-    let Some(place) = document.pointer_mut(&random.pick(&found)) else { return };
+    let Some(place) = document.pointer_mut(&random.pick(&found)) else {
+        return;
+    };
     match (random.below(4), place) {
         (0, place) => *place = random.pick(&values),
         (1, Value::Object(map)) if !map.is_empty() => {
@@ -206,8 +256,15 @@ fn schema_and_decoder_agree_on_mutants() {
             mutate(&mut document, &mut random);
         }
         let fault = disagreement(&validator, &document);
-        assert!(fault.is_none(), "mutant {number} of {name}: {}\n{document:#}", fault.unwrap());
+        assert!(
+            fault.is_none(),
+            "mutant {number} of {name}: {}\n{document:#}",
+            fault.unwrap()
+        );
         sound += u32::from(validator.is_valid(&document));
     }
-    assert!(sound > MUTANTS / 100 && sound < MUTANTS / 2, "the mutants are of both kinds: {sound} sound ones");
+    assert!(
+        sound > MUTANTS / 100 && sound < MUTANTS / 2,
+        "the mutants are of both kinds: {sound} sound ones"
+    );
 }

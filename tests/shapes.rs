@@ -1,8 +1,11 @@
-//! Curved shapes against brute force: points along the ray, asked one by one whether they are inside.
+//! Curved shapes against brute force: points along the ray, asked one by one whether they are
+//! inside.
 
 use proptest::prelude::*;
 use rtc::math::Vec3;
-use rtc::render::{Cone, Cylinder, Disc, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle};
+use rtc::render::{
+    Cone, Cylinder, Disc, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle,
+};
 use rtc::valid::Mesh;
 use std::sync::Arc;
 
@@ -26,17 +29,29 @@ prop_compose! {
     }
 }
 
-/// Compares a root with the signed distance along the ray: no point before it may be inside, and it lies on the surface.
-fn agrees(ray: &Ray, found: Option<f64>, distance: impl Fn(Vec3) -> f64) -> Result<(), TestCaseError> {
+/// Compares a root with the signed distance along the ray: no point before it may be inside, and it
+/// lies on the surface.
+fn agrees(
+    ray: &Ray,
+    found: Option<f64>,
+    distance: impl Fn(Vec3) -> f64,
+) -> Result<(), TestCaseError> {
     let at = |t: f64| distance(ray.origin + ray.direction * t);
     let nearest = -ray.origin.dot(ray.direction);
     let (low, high) = (nearest - 8.0, nearest + 8.0);
     let end = found.unwrap_or(high);
     let step = (high - low) / f64::from(STEPS);
-    let inside = (0..STEPS).map(|k| low + step * f64::from(k)).find(|t| *t > 0.0 && *t < end && at(*t) < -1e-9);
+    let inside = (0..STEPS)
+        .map(|k| low + step * f64::from(k))
+        .find(|t| *t > 0.0 && *t < end && at(*t) < -1e-9);
     prop_assert_eq!(inside, None, "inside before the root {:?}", found);
     if let Some(t) = found {
-        prop_assert!(at(t).abs() < 1e-11, "the root {} is {:e} off the surface", t, at(t));
+        prop_assert!(
+            at(t).abs() < 1e-11,
+            "the root {} is {:e} off the surface",
+            t,
+            at(t)
+        );
     }
     Ok(())
 }

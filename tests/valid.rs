@@ -1,4 +1,5 @@
-//! Faults that only a hand-made IR can have: each is refused with its code and the pointer of the culprit.
+//! Faults that only a hand-made IR can have: each is refused with its code and the pointer of the
+//! culprit.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -35,10 +36,14 @@ fn sound() -> Value {
 fn errors(document: &Value) -> Vec<(&'static str, String)> {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("scene.json", document.to_string().into_bytes());
-    let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     let proof = pipeline::prove(&lowered, &options, &mut sink);
     assert_eq!(proof.is_none(), sink.has_errors());
-    sink.kept().iter().map(|finding| (finding.code.id, finding.pointer.clone().unwrap())).collect()
+    sink.kept()
+        .iter()
+        .map(|finding| (finding.code.id, finding.pointer.clone().unwrap()))
+        .collect()
 }
 
 #[test]
@@ -50,14 +55,54 @@ fn a_sound_scene_is_proven() {
 fn each_fault_is_named_at_its_place() {
     let cases = [
         ("/camera/up", json!([0.5, 1.0, 0.0]), "VA012", "/camera/up"),
-        ("/camera/right", json!([0.0, 0.0, 0.0]), "VA012", "/camera/right"),
-        ("/camera/eye", json!([3.0, 4.0, 0.0]), "VA013", "/camera/eye"),
-        ("/materials/1/standard/metallic", json!(1.5), "VA020", "/materials/1"),
-        ("/materials/1/standard/ior", json!(0.5), "VA020", "/materials/1"),
-        ("/materials/1/standard/baseColorMap/set", json!(2), "VA020", "/materials/1"),
-        ("/materials/1/standard/baseColorMap/texture", json!(1), "VA014", "/materials/1"),
-        ("/environment/radiance", json!([0.0, -1.0, 0.0]), "VA005", "/environment"),
-        ("/lights/0/punctual/emitter/sun/direction", json!([0.0, 0.0, 0.0]), "VA003", "/lights/0"),
+        (
+            "/camera/right",
+            json!([0.0, 0.0, 0.0]),
+            "VA012",
+            "/camera/right",
+        ),
+        (
+            "/camera/eye",
+            json!([3.0, 4.0, 0.0]),
+            "VA013",
+            "/camera/eye",
+        ),
+        (
+            "/materials/1/standard/metallic",
+            json!(1.5),
+            "VA020",
+            "/materials/1",
+        ),
+        (
+            "/materials/1/standard/ior",
+            json!(0.5),
+            "VA020",
+            "/materials/1",
+        ),
+        (
+            "/materials/1/standard/baseColorMap/set",
+            json!(2),
+            "VA020",
+            "/materials/1",
+        ),
+        (
+            "/materials/1/standard/baseColorMap/texture",
+            json!(1),
+            "VA014",
+            "/materials/1",
+        ),
+        (
+            "/environment/radiance",
+            json!([0.0, -1.0, 0.0]),
+            "VA005",
+            "/environment",
+        ),
+        (
+            "/lights/0/punctual/emitter/sun/direction",
+            json!([0.0, 0.0, 0.0]),
+            "VA003",
+            "/lights/0",
+        ),
         (
             "/lights/0/punctual/emitter",
             json!({"spot": {"position": [0.0, 0.0, 0.0], "direction": [0.0, 1.0, 0.0], "innerAngle": 1.0, "outerAngle": 0.5}}),
@@ -70,17 +115,52 @@ fn each_fault_is_named_at_its_place() {
             "VA021",
             "/lights/0",
         ),
-        ("/surfaces/0/material", json!(2), "VA014", "/surfaces/0/material"),
-        ("/surfaces/1/shape/instance/mesh", json!(7), "VA014", "/surfaces/1/shape/instance/mesh"),
+        (
+            "/surfaces/0/material",
+            json!(2),
+            "VA014",
+            "/surfaces/0/material",
+        ),
+        (
+            "/surfaces/1/shape/instance/mesh",
+            json!(7),
+            "VA014",
+            "/surfaces/1/shape/instance/mesh",
+        ),
         ("/textures/0/image", json!(1), "VA014", "/textures/0"),
-        ("/materials/0/phong/colorMap", json!(2), "VA014", "/materials/0/phong/colorMap"),
+        (
+            "/materials/0/phong/colorMap",
+            json!(2),
+            "VA014",
+            "/materials/0/phong/colorMap",
+        ),
         ("/images/0/pixels", json!("AAAAAAAA"), "VA017", "/images/0"),
         ("/images/0/width", json!(u32::MAX), "VA017", "/images/0"),
-        ("/meshes/0/triangles/0", json!([0, 1, 3]), "VA018", "/meshes/0"),
-        ("/meshes/0/positions/1", json!([1e61, 0.0, 0.0]), "VA018", "/meshes/0"),
+        (
+            "/meshes/0/triangles/0",
+            json!([0, 1, 3]),
+            "VA018",
+            "/meshes/0",
+        ),
+        (
+            "/meshes/0/positions/1",
+            json!([1e61, 0.0, 0.0]),
+            "VA018",
+            "/meshes/0",
+        ),
         ("/meshes/0/uvs", json!([[0.0, 0.0]]), "VA018", "/meshes/0"),
-        ("/meshes/0/normals", json!([[0.0, 0.0, 1.0]]), "VA018", "/meshes/0"),
-        ("/surfaces/0/shape/sphere/textureFromWorld/0", json!([0.0, 2.0, 0.0]), "VA019", "/surfaces/0"),
+        (
+            "/meshes/0/normals",
+            json!([[0.0, 0.0, 1.0]]),
+            "VA018",
+            "/meshes/0",
+        ),
+        (
+            "/surfaces/0/shape/sphere/textureFromWorld/0",
+            json!([0.0, 2.0, 0.0]),
+            "VA019",
+            "/surfaces/0",
+        ),
         (
             "/surfaces/1/shape/instance/worldFromObject/2",
             json!([1.0, 1.0, 0.0]),

@@ -1,5 +1,6 @@
-//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh` and `image` do with it, and
-//! their replay in `tests/corpora.rs`. The files lie in a temporary folder, and nothing is read or written outside.
+//! Scenes with the files that they name, from one input: what the targets `folder`, `mesh` and
+//! `image` do with it, and their replay in `tests/corpora.rs`. The files lie in a temporary folder,
+//! and nothing is read or written outside.
 
 use rtc::pipeline::trial;
 use std::fs;
@@ -42,17 +43,17 @@ Objects:
 == e.hdr
 ";
 
-/// A scene and what it names. A line `== NAME` begins the file NAME, which goes on to the next such line; what stands
-/// before the first one is `scene.yaml`. The first file is the scene. `../NAME` lies in the folder above; a name that
-/// leads anywhere else is left out.
+/// A scene and what it names. A line `== NAME` begins the file NAME, which goes on to the next such
+/// line; what stands before the first one is `scene.yaml`. The first file is the scene. `../NAME`
+/// lies in the folder above; a name that leads anywhere else is left out.
 pub fn folder(input: &[u8]) {
     let temporary = TempDir::new().expect("there is room for a folder");
     let mut scene = None;
     for (name, bytes) in files(input).into_iter().take(MAX_FILES) {
         if let Some(path) = place(temporary.path(), name) {
             // The system does not take every name.
-            let _ =
-                fs::create_dir_all(path.parent().expect("it lies in a folder")).and_then(|()| fs::write(&path, bytes));
+            let _ = fs::create_dir_all(path.parent().expect("it lies in a folder"))
+                .and_then(|()| fs::write(&path, bytes));
             scene.get_or_insert(path);
         }
     }
@@ -76,7 +77,10 @@ pub fn image(input: &[u8]) {
 fn files(input: &[u8]) -> Vec<(&[u8], &[u8])> {
     let (mut files, mut name, mut start, mut at) = (Vec::new(), &b"scene.yaml"[..], 0, 0);
     while at < input.len() {
-        let end = input[at..].iter().position(|byte| *byte == b'\n').map_or(input.len(), |length| at + length);
+        let end = input[at..]
+            .iter()
+            .position(|byte| *byte == b'\n')
+            .map_or(input.len(), |length| at + length);
         if let Some(next) = input[at..end].strip_prefix(MARK) {
             if at > 0 {
                 // The line end before a mark belongs to the mark.
@@ -99,5 +103,7 @@ fn place(temporary: &Path, name: &[u8]) -> Option<PathBuf> {
     };
     let mut parts = Path::new(below).components().peekable();
     parts.peek()?;
-    parts.all(|part| matches!(part, Component::Normal(_))).then(|| folder.join(below))
+    parts
+        .all(|part| matches!(part, Component::Normal(_)))
+        .then(|| folder.join(below))
 }

@@ -30,12 +30,19 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
     let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
     let proven = input::require(&mut input, talk, |_| ())?;
     if let Some(form) = args.explain {
-        let form = if args.talk.message_format == MessageFormat::Json { Explanation::Json } else { form };
+        let form = if args.talk.message_format == MessageFormat::Json {
+            Explanation::Json
+        } else {
+            form
+        };
         output::to_stdout(Report::new(&proven, &input)?.print(form).as_bytes())?;
     }
-    let Some(target) = target(args) else { return Ok(()) };
-    let write = writer(emit, &proven.lowered.scene)
-        .map_err(|reason| Failure::Input(format!("`{}` can't be written so: {reason}", input.name())))?;
+    let Some(target) = target(args) else {
+        return Ok(());
+    };
+    let write = writer(emit, &proven.lowered.scene).map_err(|reason| {
+        Failure::Input(format!("`{}` can't be written so: {reason}", input.name()))
+    })?;
     let interrupt = Interrupt::listen()?;
     Output::open(target, &input)?.commit_by(&write, &interrupt)
 }
@@ -63,7 +70,9 @@ fn by_extension(output: &Path) -> Result<Emit, Failure> {
 
 /// What writes the scene in this form.
 fn writer(emit: Emit, scene: &Scene) -> Result<impl Fn(&mut dyn Write) -> io::Result<()>, String> {
-    let ir = |form| codec::prepare(form, scene).map_err(|codec::NotFinite| "a number is not finite".to_owned());
+    let ir = |form| {
+        codec::prepare(form, scene).map_err(|codec::NotFinite| "a number is not finite".to_owned())
+    };
     let (encoded, text) = match emit {
         Emit::Ir => (Some(ir(Form::Text)?), String::new()),
         Emit::IrBin => (Some(ir(Form::Binary)?), String::new()),

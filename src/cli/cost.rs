@@ -16,18 +16,27 @@ use std::time::{Duration, Instant};
 /// Studies the scene and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(args, &mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
+    let outcome = carry_out(
+        args,
+        &mut Input::staged(&args.file, &args.reading, &args.stage)?,
+        &mut talk,
+    );
     talk.finish()?;
     outcome
 }
 
 fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-    // A study has its own measure of work, and reports on settings that take more than anyone renders.
+    // A study has its own measure of work, and reports on settings that take more than anyone
+    // renders.
     input.lift_rays();
     let proven = input::require(input, talk, |_| ())?;
     let interrupt = Interrupt::listen()?;
     let output = Output::open(&args.output, input)?;
-    let page = args.html.as_deref().map(|path| Output::open(path, input)).transpose()?;
+    let page = args
+        .html
+        .as_deref()
+        .map(|path| Output::open(path, input))
+        .transpose()?;
     let about = about(input.name(), &proven.lowered.scene);
     let study = measure(args, about, &proven.lowered.scene, &interrupt)?;
     let report = match args.format {
@@ -41,20 +50,39 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     output.commit(report.as_bytes(), &interrupt)
 }
 
-#[expect(clippy::disallowed_methods, reason = "the study is handed the clock from here")]
-fn measure(args: &args::Cost, about: About, scene: &Scene, interrupt: &Interrupt) -> Result<Study, Failure> {
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the study is handed the clock from here"
+)]
+fn measure(
+    args: &args::Cost,
+    about: About,
+    scene: &Scene,
+    interrupt: &Interrupt,
+) -> Result<Study, Failure> {
     let start = Instant::now();
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
     let wall = || start.elapsed();
     let proceed = |_| !interrupt.is_raised();
-    let bench = Bench::new(args.threads.map_or(0, usize::from), Clock { cpu: &cpu, wall: &wall }, &proceed);
+    let bench = Bench::new(
+        args.threads.map_or(0, usize::from),
+        Clock {
+            cpu: &cpu,
+            wall: &wall,
+        },
+        &proceed,
+    );
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-    study::study(scene, about, args.effort.into(), args.seed, &bench).map_err(|Stopped| Failure::Interrupted)
+    study::study(scene, about, args.effort.into(), args.seed, &bench)
+        .map_err(|Stopped| Failure::Interrupted)
 }
 
 fn about(name: &str, scene: &Scene) -> About {
     About {
-        scene: Path::new(name).file_name().map_or_else(|| name.to_owned(), |name| name.to_string_lossy().into_owned()),
+        scene: Path::new(name).file_name().map_or_else(
+            || name.to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        ),
         hash: input::hash(scene),
         software: concat!("rtc ", env!("CARGO_PKG_VERSION")).to_owned(),
         processor: processor().unwrap_or_else(|| std::env::consts::ARCH.to_owned()),

@@ -22,7 +22,10 @@ pub(super) fn run(args: &Explain) -> Result<(), Failure> {
 }
 
 fn unknown(id: &str) -> Failure {
-    Failure::Trouble(format!("there is no code `{}`; `rtc explain --all` lists them", clip(id)))
+    Failure::Trouble(format!(
+        "there is no code `{}`; `rtc explain --all` lists them",
+        clip(id)
+    ))
 }
 
 /// What stands before the codes.
@@ -51,11 +54,19 @@ much.
 
 /// `schema/diagnostics.md`.
 fn page() -> String {
-    codes::all().fold(HEAD.to_owned(), |page, code| format!("{page}\n{}", entry(code)))
+    codes::all().fold(HEAD.to_owned(), |page, code| {
+        format!("{page}\n{}", entry(code))
+    })
 }
 
 fn entry(code: &Code) -> String {
-    let Code { id, severity, summary, explanation, aliases } = code;
+    let Code {
+        id,
+        severity,
+        summary,
+        explanation,
+        aliases,
+    } = code;
     let severity = match severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -63,16 +74,27 @@ fn entry(code: &Code) -> String {
     };
     let known = match aliases {
         [] => String::new(),
-        names => format!("\n{}", fill(&format!("The glTF validator calls it {}.", names.join(", ")))),
+        names => format!(
+            "\n{}",
+            fill(&format!(
+                "The glTF validator calls it {}.",
+                names.join(", ")
+            ))
+        ),
     };
-    format!("## {id} ({severity}): {summary}\n\n{}{known}", fill(explanation))
+    format!(
+        "## {id} ({severity}): {summary}\n\n{}{known}",
+        fill(explanation)
+    )
 }
 
 /// The words in lines of at most [`WIDTH`] characters.
 fn fill(text: &str) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
-        let line = lines.last_mut().expect("there is a first line and none is taken away");
+        let line = lines
+            .last_mut()
+            .expect("there is a first line and none is taken away");
         if line.is_empty() {
             line.push_str(word);
         } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {

@@ -8,7 +8,10 @@ use crate::plan::{self, Symptom};
 
 /// Remarks that the picture is empty.
 pub(super) fn nothing_in_view(proven: &Proven) -> Diagnostic {
-    let camera = proven.lowered.origins.span(Place::new(Noun::Camera, 0, Field::Whole));
+    let camera = proven
+        .lowered
+        .origins
+        .span(Place::new(Noun::Camera, 0, Field::Whole));
     Diagnostic::new(&codes::NOTHING_IN_VIEW, "no ray of the camera hit anything")
         .at(camera, "this camera sees only the background")
         .hint("check where the camera stands and looks, and where the objects are")
@@ -20,31 +23,63 @@ pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option
     let option = arithmetic.name();
     let (fault, label) = match loss.symptom {
         Symptom::SelfHit => {
-            let off = format!("rays start about {:.0e} off this surface and meet it again", loss.error);
+            let off = format!(
+                "rays start about {:.0e} off this surface and meet it again",
+                loss.error
+            );
             ("surfaces shade or mirror themselves", off)
         }
-        Symptom::Shape => ("curved surfaces lose their shape", format!("points are about {:.0e} off", loss.error)),
-        Symptom::Skipped => ("rays pass by what is near", "hardly larger than the 1e-5 that rays skip".to_owned()),
+        Symptom::Shape => (
+            "curved surfaces lose their shape",
+            format!("points are about {:.0e} off", loss.error),
+        ),
+        Symptom::Skipped => (
+            "rays pass by what is near",
+            "hardly larger than the 1e-5 that rays skip".to_owned(),
+        ),
     };
     let surface = proven.scene.surfaces()[loss.surface].index;
-    let span = proven.lowered.origins.span(Place::new(Noun::Surface, surface, Field::Whole));
-    let finding = Diagnostic::new(&codes::IMPRECISE, format!("in {option} this picture will be wrong: {fault}"));
+    let span = proven
+        .lowered
+        .origins
+        .span(Place::new(Noun::Surface, surface, Field::Whole));
+    let finding = Diagnostic::new(
+        &codes::IMPRECISE,
+        format!("in {option} this picture will be wrong: {fault}"),
+    );
     let others = match loss.surfaces - 1 {
         0 => String::new(),
         others => format!("; {others} more such surfaces"),
     };
-    Some(finding.at(span, format!("{label}{others}")).hint(format!("leave out `--arithmetic {option}`")))
+    Some(
+        finding
+            .at(span, format!("{label}{others}"))
+            .hint(format!("leave out `--arithmetic {option}`")),
+    )
 }
 
 /// Warns of what the file can't hold.
-pub(super) fn unholdable(Lost { unnumbered, beyond }: &Lost, arithmetic: plan::Arithmetic) -> Vec<Diagnostic> {
-    let names = beyond.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+pub(super) fn unholdable(
+    Lost { unnumbered, beyond }: &Lost,
+    arithmetic: plan::Arithmetic,
+) -> Vec<Diagnostic> {
+    let names = beyond
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(", ");
     let beyond = (!beyond.is_empty()).then(|| {
-        let finding = Diagnostic::new(&codes::BEYOND_FLOAT, format!("values beyond a 32-bit float in {names}"));
+        let finding = Diagnostic::new(
+            &codes::BEYOND_FLOAT,
+            format!("values beyond a 32-bit float in {names}"),
+        );
         finding.hint("the file has 3.4e38 there; a smaller scene makes the same picture")
     });
     let unnumbered = (*unnumbered > 0).then(|| {
-        let finding = Diagnostic::new(&codes::UNNUMBERED, format!("pixels that are no number: {unnumbered}"));
+        let finding = Diagnostic::new(
+            &codes::UNNUMBERED,
+            format!("pixels that are no number: {unnumbered}"),
+        );
         let advice = match arithmetic {
             plan::Arithmetic::Robust => "colours or coefficients are too large".to_owned(),
             coarse @ (plan::Arithmetic::Plain | plan::Arithmetic::F32) => {

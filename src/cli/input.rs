@@ -13,7 +13,8 @@ use crate::{codec, front, valid};
 use std::io;
 use std::path::Path;
 
-/// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every pixel allowed.
+/// The largest picture of surroundings that is read, in bytes: one of 32-bit floats with every
+/// pixel allowed.
 const MAX_ENVIRONMENT: u64 = 1 << 29;
 
 /// A scene that was read, or could not be.
@@ -72,22 +73,54 @@ impl Input {
         } else {
             path.display().to_string()
         };
-        let read =
-            if from_stdin { Loader.reader(&name, io::stdin().lock(), &mut map) } else { Loader.file(path, &mut map) };
-        let file = read.map_err(|error| sink.push(unreadable(&name, &error))).ok();
-        Self { name, map, sink, file, options, stage: None }
+        let read = if from_stdin {
+            Loader.reader(&name, io::stdin().lock(), &mut map)
+        } else {
+            Loader.file(path, &mut map)
+        };
+        let file = read
+            .map_err(|error| sink.push(unreadable(&name, &error)))
+            .ok();
+        Self {
+            name,
+            map,
+            sink,
+            file,
+            options,
+            stage: None,
+        }
     }
 
-    /// Reads the file at `path`, or standard input if it is `-`, to be shown in the view and the light given.
-    pub(super) fn staged(path: &Path, reading: &Reading, stage: &args::Stage) -> Result<Self, Failure> {
-        let args::Stage { eye, center, up, yfov, env, env_color, sun, no_scene_lights, integrator } = stage;
+    /// Reads the file at `path`, or standard input if it is `-`, to be shown in the view and the
+    /// light given.
+    pub(super) fn staged(
+        path: &Path,
+        reading: &Reading,
+        stage: &args::Stage,
+    ) -> Result<Self, Failure> {
+        let args::Stage {
+            eye,
+            center,
+            up,
+            yfov,
+            env,
+            env_color,
+            sun,
+            no_scene_lights,
+            integrator,
+        } = stage;
         let mut input = Self::read(path, reading);
         let picture = match env {
             Some(path) => input.environment(path)?,
             None => env_color.map(Surroundings::Color),
         };
         input.stage = Some(Stage {
-            view: View { eye: *eye, center: *center, up: *up, yfov: *yfov },
+            view: View {
+                eye: *eye,
+                center: *center,
+                up: *up,
+                yfov: *yfov,
+            },
             integrator: integrator.map(Into::into),
             surroundings: picture,
             suns: sun.clone(),
@@ -100,11 +133,15 @@ impl Input {
     fn environment(&mut self, path: &Path) -> Result<Option<Surroundings>, Failure> {
         let name = path.display().to_string();
         let bytes = Loader.bytes(path, MAX_ENVIRONMENT, &self.map);
-        let bytes = bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
+        let bytes =
+            bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
         // Where the file lies is no part of the scene.
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let picture = assets::environment(&file, &bytes, self.map.budget());
-        Ok(picture.map_err(|fault| self.push(assets::refusal(&fault, &name))).map(Surroundings::Picture).ok())
+        Ok(picture
+            .map_err(|fault| self.push(assets::refusal(&fault, &name)))
+            .map(Surroundings::Picture)
+            .ok())
     }
 
     /// Lowers the scene, sets the stage, lets `change` change it, and proves it.
@@ -147,7 +184,10 @@ impl Input {
 
     /// The file and the line at which a span begins.
     pub(super) fn line(&self, span: Span) -> (&str, u32) {
-        (self.map.name(span.file), self.map.line_column(span.file, span.start).line)
+        (
+            self.map.name(span.file),
+            self.map.line_column(span.file, span.start).line,
+        )
     }
 
     /// Whether the file at a path was read: the scene, or what it names.
@@ -180,10 +220,15 @@ pub(super) fn hash(scene: &Scene) -> String {
 
 fn unreadable(name: &str, error: &LoadError) -> Diagnostic {
     match error {
-        LoadError::Io(error) => Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}")),
+        LoadError::Io(error) => {
+            Diagnostic::new(&codes::CANNOT_READ, format!("can't read `{name}`: {error}"))
+        }
         LoadError::TooLarge { limit } => {
             let limit = limit >> 20;
-            Diagnostic::new(&codes::TOO_LARGE, format!("`{name}` is larger than {limit} MiB"))
+            Diagnostic::new(
+                &codes::TOO_LARGE,
+                format!("`{name}` is larger than {limit} MiB"),
+            )
         }
     }
 }

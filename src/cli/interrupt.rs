@@ -1,6 +1,8 @@
-//! Ctrl-C, and being told to terminate: a flag for whoever works long, so that nothing half-written stays behind.
+//! Ctrl-C, and being told to terminate: a flag for whoever works long, so that nothing half-written
+//! stays behind.
 //!
-//! Whoever does not hear the first signal, a writer whose reader sleeps for instance, is ended by the second.
+//! Whoever does not hear the first signal, a writer whose reader sleeps for instance, is ended by
+//! the second.
 
 use super::Failure;
 use std::path::{Path, PathBuf};
@@ -19,7 +21,8 @@ struct State {
 }
 
 impl Interrupt {
-    /// From now on the first Ctrl-C only raises the flag. To be called after reading: a read would not see the flag.
+    /// From now on the first Ctrl-C only raises the flag. To be called after reading: a read would
+    /// not see the flag.
     pub(super) fn listen() -> Result<Self, Failure> {
         let state = Arc::new(State::default());
         let heard = Arc::clone(&state);
@@ -51,7 +54,10 @@ impl State {
         self.draft.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    #[expect(clippy::disallowed_methods, reason = "the thread that works is beyond reach")]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "the thread that works is beyond reach"
+    )]
     fn end(&self) {
         if let Some(draft) = self.draft().take() {
             // There is nobody left to tell.

@@ -31,7 +31,9 @@ impl Look {
         let kind = kind(output, args.bits)?;
         let tone = args.tonemap.map(Tone::from);
         if kind == Kind::Exr && tone.is_some_and(|tone| tone != Tone::None) {
-            return Err(Failure::Trouble("`--tonemap` is for PNG; an EXR holds linear values".to_owned()));
+            return Err(Failure::Trouble(
+                "`--tonemap` is for PNG; an EXR holds linear values".to_owned(),
+            ));
         }
         let mut aovs: Vec<Aov> = Vec::new();
         for aov in args.aov.iter().map(|layer| Aov::from(*layer)) {
@@ -40,21 +42,40 @@ impl Look {
             }
         }
         if kind != Kind::Exr && !aovs.is_empty() {
-            return Err(Failure::Trouble("`--aov` is for EXR; a PNG holds colours alone".to_owned()));
+            return Err(Failure::Trouble(
+                "`--aov` is for EXR; a PNG holds colours alone".to_owned(),
+            ));
         }
-        Ok(Self { kind, tone, stops: args.exposure, backdrop: args.background, aovs })
+        Ok(Self {
+            kind,
+            tone,
+            stops: args.exposure,
+            backdrop: args.background,
+            aovs,
+        })
     }
 
     /// Which values a film of this mode must hold.
     pub(super) fn values(&self, mode: &Mode) -> Values {
-        let is_plain = self.kind != Kind::Exr && self.stops == 0.0 && self.tone.unwrap_or(Tone::None) == Tone::None;
-        // Display values of the course are clamped sample by sample, as only its untouched pictures want it.
-        if is_plain && mode.tone() == Tone::None { Values::Display } else { Values::Linear }
+        let is_plain = self.kind != Kind::Exr
+            && self.stops == 0.0
+            && self.tone.unwrap_or(Tone::None) == Tone::None;
+        // Display values of the course are clamped sample by sample, as only its untouched pictures
+        // want it.
+        if is_plain && mode.tone() == Tone::None {
+            Values::Display
+        } else {
+            Values::Linear
+        }
     }
 
     /// What the film must show behind all surfaces.
     pub(super) fn behind(&self) -> Behind {
-        if self.backdrop == Backdrop::Film { Behind::Surroundings } else { Behind::Nothing }
+        if self.backdrop == Backdrop::Film {
+            Behind::Surroundings
+        } else {
+            Behind::Nothing
+        }
     }
 
     /// What the origin of a picture says of its look: what is not as always.
@@ -69,8 +90,8 @@ impl Look {
         }
     }
 
-    /// The most bytes that a pixel takes on its way into the file: as numbers, packed, and in the file, which grows by
-    /// doubling.
+    /// The most bytes that a pixel takes on its way into the file: as numbers, packed, and in the
+    /// file, which grows by doubling.
     pub(super) fn memory(&self) -> usize {
         let channel = match self.kind {
             Kind::Png8 => 1,
@@ -87,36 +108,61 @@ impl Look {
             Kind::Exr => (Tone::None, Association::Associated),
             Kind::Png8 | Kind::Png16 => (self.tone.unwrap_or(mode.tone()), Association::Straight),
         };
-        image::Look { stops: self.stops, tone, backdrop: self.backdrop }.develop(film, coverage, association)
+        image::Look {
+            stops: self.stops,
+            tone,
+            backdrop: self.backdrop,
+        }
+        .develop(film, coverage, association)
     }
 
     /// What the file can't hold; a PNG clamps all colours alike.
     pub(super) fn lost(&self, picture: &Picture) -> Lost {
         let lost = picture.lost();
-        if self.kind == Kind::Exr { lost } else { Lost { beyond: Vec::new(), ..lost } }
+        if self.kind == Kind::Exr {
+            lost
+        } else {
+            Lost {
+                beyond: Vec::new(),
+                ..lost
+            }
+        }
     }
 
     /// The bytes of the file.
-    pub(super) fn encode(&self, picture: &Picture, origin: impl FnOnce() -> Origin) -> Result<Vec<u8>, Failure> {
+    pub(super) fn encode(
+        &self,
+        picture: &Picture,
+        origin: impl FnOnce() -> Origin,
+    ) -> Result<Vec<u8>, Failure> {
         let form = match self.kind {
             Kind::Png8 => image::Form::Png8,
             Kind::Png16 => image::Form::Png16,
             Kind::Exr => image::Form::Exr(origin()),
         };
-        picture.encode(&form).map_err(|error| Failure::Trouble(error.to_string()))
+        picture
+            .encode(&form)
+            .map_err(|error| Failure::Trouble(error.to_string()))
     }
 }
 
 fn kind(output: &Path, bits: Option<Bits>) -> Result<Kind, Failure> {
-    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let extension = output
+        .extension()
+        .map(|extension| extension.to_string_lossy().to_lowercase());
     let is_stdout = output.as_os_str() == "-";
     match (extension.as_deref(), bits) {
         (Some("exr"), None) => Ok(Kind::Exr),
-        (Some("exr"), Some(_)) => Err(Failure::Trouble("`--bits` is for PNG; an EXR holds 32-bit floats".to_owned())),
+        (Some("exr"), Some(_)) => Err(Failure::Trouble(
+            "`--bits` is for PNG; an EXR holds 32-bit floats".to_owned(),
+        )),
         (Some("png"), Some(Bits::Sixteen)) => Ok(Kind::Png16),
         (Some("png"), Some(Bits::Eight) | None) => Ok(Kind::Png8),
         (None, Some(Bits::Sixteen)) if is_stdout => Ok(Kind::Png16),
         (None, Some(Bits::Eight) | None) if is_stdout => Ok(Kind::Png8),
-        _ => Err(Failure::Trouble(format!("can't tell what `{}` is to be; name it .png or .exr", output.display()))),
+        _ => Err(Failure::Trouble(format!(
+            "can't tell what `{}` is to be; name it .png or .exr",
+            output.display()
+        ))),
     }
 }

@@ -1,6 +1,7 @@
 //! The command line: arguments as typed, resolved, carried out; streams and exit codes.
 //!
-//! Standard output is for results, standard error for talk. A closed pipe is success; a panic is reported as ours.
+//! Standard output is for results, standard error for talk. A closed pipe is success; a panic is
+//! reported as ours.
 
 mod args;
 mod check;
@@ -108,9 +109,14 @@ fn dispatch(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 
 fn internal_error(info: &PanicHookInfo) -> String {
     let words = info.payload_as_str().unwrap_or("no words");
-    let place = info.location().map(|at| format!(" at {}:{}", at.file(), at.line())).unwrap_or_default();
+    let place = info
+        .location()
+        .map(|at| format!(" at {}:{}", at.file(), at.line()))
+        .unwrap_or_default();
     let version = env!("CARGO_PKG_VERSION");
-    format!("internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with the scene.")
+    format!(
+        "internal error: {words}{place}\nThis is a fault of rtc {version}, please report it with the scene."
+    )
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The one writer: a result appears whole or not at all.
 //!
-//! A file is made beside its target under another name when there is something to write, synced and renamed; what is not
-//! finished disappears.
+//! A file is made beside its target under another name when there is something to write, synced and
+//! renamed; what is not finished disappears.
 
 use super::Failure;
 use super::input::Input;
@@ -38,15 +38,20 @@ enum Place {
 type Writer<'w> = &'w dyn Fn(&mut dyn Write) -> io::Result<()>;
 
 impl Output {
-    /// Looks whether `path`, `-` being standard output, can be written, so that a long work is not done in vain: it may
-    /// be none of what was read.
+    /// Looks whether `path`, `-` being standard output, can be written, so that a long work is not
+    /// done in vain: it may be none of what was read.
     pub(super) fn open(path: &Path, input: &Input) -> Result<Self, Failure> {
         if path.as_os_str() == "-" {
-            return Ok(Self { name: "standard output".to_owned(), place: Place::Stdout });
+            return Ok(Self {
+                name: "standard output".to_owned(),
+                place: Place::Stdout,
+            });
         }
         let name = format!("`{}`", path.display());
         if input.has_read(path) {
-            return Err(Failure::Trouble(format!("can't write {name}: it is an input of this run")));
+            return Err(Failure::Trouble(format!(
+                "can't write {name}: it is an input of this run"
+            )));
         }
         let place = Place::new(path).map_err(|error| failure(&name, &error))?;
         Ok(Self { name, place })
@@ -60,10 +65,16 @@ impl Output {
     /// The same with a result that is written part by part.
     pub(super) fn commit_by(self, write: Writer<'_>, interrupt: &Interrupt) -> Result<(), Failure> {
         let written = match &self.place {
-            Place::Stdout if is_closed_stdout() => Err(io::Error::other("it is closed; give `-o FILE`")),
+            Place::Stdout if is_closed_stdout() => {
+                Err(io::Error::other("it is closed; give `-o FILE`"))
+            }
             Place::Stdout => through_stdout(write),
-            Place::Stream(target) => stream(target, interrupt).and_then(|mut stream| write(&mut stream)),
-            Place::File(target, permissions) => replace(target, permissions.clone(), write, interrupt),
+            Place::Stream(target) => {
+                stream(target, interrupt).and_then(|mut stream| write(&mut stream))
+            }
+            Place::File(target, permissions) => {
+                replace(target, permissions.clone(), write, interrupt)
+            }
         };
         written.map_err(|error| match interrupt.is_raised() {
             true => Failure::Interrupted,
@@ -78,14 +89,17 @@ impl Place {
         let permissions = match &present {
             Some(meta) if meta.is_dir() => return Err(ErrorKind::IsADirectory.into()),
             Some(meta) if !meta.is_file() => return Ok(Self::Stream(path.to_owned())),
-            Some(meta) if meta.permissions().readonly() => return Err(io::Error::other("the file is read-only")),
+            Some(meta) if meta.permissions().readonly() => {
+                return Err(io::Error::other("the file is read-only"));
+            }
             Some(meta) => Some(meta.permissions()),
             None => None,
         };
         // A link stays a link: what it points to is replaced, or made.
         let target = path.canonicalize().or_else(|_| followed(path))?;
         let folder = folder_of(&target);
-        // The errors of what follows name the draft, which means nothing to the user: the folder and the kind say it.
+        // The errors of what follows name the draft, which means nothing to the user: the folder
+        // and the kind say it.
         fs::metadata(folder)?;
         draft(folder).map_err(|error| io::Error::from(error.kind()))?;
         Ok(Self::File(target, permissions))
@@ -105,7 +119,10 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn folder_of(target: &Path) -> &Path {
-    target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+    target
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }
 
 /// An empty file with the permissions of any new one, gone when dropped.
@@ -177,7 +194,9 @@ impl Write for Stream<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         loop {
             match self.file.write(bytes) {
-                Err(error) if error.kind() == ErrorKind::WouldBlock && !self.interrupt.is_raised() => {
+                Err(error)
+                    if error.kind() == ErrorKind::WouldBlock && !self.interrupt.is_raised() =>
+                {
                     thread::sleep(WAIT);
                 }
                 written => return written,
@@ -209,8 +228,8 @@ fn through_stdout(write: Writer<'_>) -> io::Result<()> {
     stdout.flush()
 }
 
-/// Where standard output is closed, as by `>&-`, the runtime opens `/dev/null` for it, to be read and written; `>/dev/null`
-/// opens it to be written.
+/// Where standard output is closed, as by `>&-`, the runtime opens `/dev/null` for it, to be read
+/// and written; `>/dev/null` opens it to be written.
 #[cfg(unix)]
 fn is_closed_stdout() -> bool {
     use rustix::fs::{OFlags, fcntl_getfl, fstat};
@@ -230,7 +249,9 @@ fn is_closed_stdout() -> bool {
 /// Refuses to write bytes that are not text to a terminal.
 pub(super) fn refuse_terminal(path: &Path) -> Result<(), Failure> {
     if path.as_os_str() == "-" && io::stdout().is_terminal() {
-        return Err(Failure::Trouble("standard output is a terminal; give `-o FILE`, or `-o -` in a pipe".to_owned()));
+        return Err(Failure::Trouble(
+            "standard output is a terminal; give `-o FILE`, or `-o -` in a pipe".to_owned(),
+        ));
     }
     Ok(())
 }

@@ -10,8 +10,12 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 pub(super) fn size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
-    sides.filter(|sides| !sides.contains(&0)).ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
+    let sides = text
+        .split_once(['x', 'X', '×'])
+        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides
+        .filter(|sides| !sides.contains(&0))
+        .ok_or_else(|| "expected width and height above 0, as 640x480".to_owned())
 }
 
 pub(super) fn moment(text: &str) -> Result<f64, String> {
@@ -23,7 +27,10 @@ pub(super) fn moment(text: &str) -> Result<f64, String> {
 pub(super) fn limit(text: &str) -> Result<(Resource, u64), String> {
     let expected = || {
         let names: Vec<_> = Resource::all().map(Resource::name).collect();
-        format!("expected a limit and a number, as memory=2GiB or rays=5000000; there are {}", names.join(", "))
+        format!(
+            "expected a limit and a number, as memory=2GiB or rays=5000000; there are {}",
+            names.join(", ")
+        )
     };
     let number = |text: &str| {
         let digits = text.trim_end_matches(|c: char| !c.is_ascii_digit());
@@ -37,21 +44,37 @@ pub(super) fn limit(text: &str) -> Result<(Resource, u64), String> {
         digits.parse::<u64>().ok()?.checked_mul(unit)
     };
     let (name, value) = text.split_once('=').ok_or_else(expected)?;
-    let resource = Resource::all().find(|resource| resource.name() == name.trim()).ok_or_else(expected)?;
+    let resource = Resource::all()
+        .find(|resource| resource.name() == name.trim())
+        .ok_or_else(expected)?;
     Ok((resource, number(value.trim()).ok_or_else(expected)?))
 }
 
 /// Finite numbers with commas between them.
 fn numbers(text: &str) -> Option<Vec<f64>> {
-    let finite = |part: &str| part.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    let finite = |part: &str| {
+        part.trim()
+            .parse()
+            .ok()
+            .filter(|number: &f64| number.is_finite())
+    };
     text.split(',').map(finite).collect()
 }
 
 pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
     let vector: Option<[f64; 3]> = numbers(text).and_then(|numbers| numbers.try_into().ok());
     let vector = vector.ok_or_else(|| "expected three numbers, as 1,-0.5,2".to_owned())?;
-    let is_large = vector.iter().any(|component| component.abs() > valid::LARGEST);
-    if is_large { Err(format!("numbers of a scene are at most {:e} in size", valid::LARGEST)) } else { Ok(vector) }
+    let is_large = vector
+        .iter()
+        .any(|component| component.abs() > valid::LARGEST);
+    if is_large {
+        Err(format!(
+            "numbers of a scene are at most {:e} in size",
+            valid::LARGEST
+        ))
+    } else {
+        Ok(vector)
+    }
 }
 
 /// One number or three, none below 0.
@@ -61,26 +84,42 @@ fn light(numbers: &[f64]) -> Option<[f64; 3]> {
         [r, g, b] => [r, g, b],
         _ => return None,
     };
-    channels.iter().all(|channel| *channel >= 0.0).then_some(channels)
+    channels
+        .iter()
+        .all(|channel| *channel >= 0.0)
+        .then_some(channels)
 }
 
 pub(super) fn color(text: &str) -> Result<[f64; 3], String> {
     let color = numbers(text).and_then(|numbers| light(&numbers));
-    color.ok_or_else(|| "expected one number or three of at least 0, as 0.5 or 1,0.9,0.8".to_owned())
+    color
+        .ok_or_else(|| "expected one number or three of at least 0, as 0.5 or 1,0.9,0.8".to_owned())
 }
 
 pub(super) fn sun(text: &str) -> Result<Sun, String> {
     let numbers = numbers(text).unwrap_or_default();
     let (direction, irradiance) = numbers.split_first_chunk().unwrap_or((&[0.0; 3], &[]));
     let direction = Some(*direction).filter(|direction| *direction != [0.0; 3]);
-    let sun = direction.zip(light(irradiance)).map(|(direction, irradiance)| Sun { direction, irradiance });
-    sun.ok_or_else(|| "expected a direction and an irradiance of one number or three, as 0,1,0,3".to_owned())
+    let sun = direction
+        .zip(light(irradiance))
+        .map(|(direction, irradiance)| Sun {
+            direction,
+            irradiance,
+        });
+    sun.ok_or_else(|| {
+        "expected a direction and an irradiance of one number or three, as 0,1,0,3".to_owned()
+    })
 }
 
 /// An opening in radians.
 pub(super) fn degrees(text: &str) -> Result<f64, String> {
-    let degrees = text.parse().ok().filter(|degrees: &f64| 0.001 <= *degrees && *degrees < 180.0);
-    degrees.map(f64::to_radians).ok_or_else(|| "expected an angle above 0 and below 180 degrees".to_owned())
+    let degrees = text
+        .parse()
+        .ok()
+        .filter(|degrees: &f64| 0.001 <= *degrees && *degrees < 180.0);
+    degrees
+        .map(f64::to_radians)
+        .ok_or_else(|| "expected an angle above 0 and below 180 degrees".to_owned())
 }
 
 pub(super) fn rule(text: &str) -> Result<Rule, String> {
@@ -91,27 +130,47 @@ pub(super) fn rule(text: &str) -> Result<Rule, String> {
 }
 
 pub(super) fn levels(text: &str) -> Result<f64, String> {
-    let levels = text.parse().ok().filter(|levels| (0.01..=255.0).contains(levels));
+    let levels = text
+        .parse()
+        .ok()
+        .filter(|levels| (0.01..=255.0).contains(levels));
     levels.ok_or_else(|| "expected 0.01 to 255 grey levels".to_owned())
 }
 
 pub(super) fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    seconds.filter(|time| !time.is_zero()).ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
+    let seconds = text
+        .parse()
+        .ok()
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    seconds
+        .filter(|time| !time.is_zero())
+        .ok_or_else(|| "expected seconds above 0, as 2.5".to_owned())
 }
 
 pub(super) fn setting(text: &str) -> Result<(String, String), String> {
-    let pair = text.split_once('=').map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
+    let pair = text
+        .split_once('=')
+        .map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
     pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
 }
 
 pub(super) fn stops(text: &str) -> Result<f64, String> {
-    let stops = text.parse().ok().filter(|stops| (-64.0..=64.0).contains(stops));
+    let stops = text
+        .parse()
+        .ok()
+        .filter(|stops| (-64.0..=64.0).contains(stops));
     stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
 }
 
 pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
-    let numbers = || text.split(',').map(|part| part.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v >= 0.0));
+    let numbers = || {
+        text.split(',').map(|part| {
+            part.trim()
+                .parse()
+                .ok()
+                .filter(|v: &f64| v.is_finite() && *v >= 0.0)
+        })
+    };
     match text {
         "env" => Ok(Backdrop::Film),
         "transparent" => Ok(Backdrop::Transparent),
@@ -123,13 +182,23 @@ pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
 }
 
 pub(super) fn folder(text: &str) -> Result<PathBuf, String> {
-    Some(PathBuf::from(text)).filter(|path| path.is_dir()).ok_or_else(|| "there is no such folder".to_owned())
+    Some(PathBuf::from(text))
+        .filter(|path| path.is_dir())
+        .ok_or_else(|| "there is no such folder".to_owned())
 }
 
 pub(super) fn crop(text: &str) -> Result<Crop, String> {
-    let numbers: Option<Vec<u32>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let numbers: Option<Vec<u32>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .collect();
     match numbers.as_deref() {
-        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Crop { x, y, width, height }),
+        Some(&[x, y, width, height]) if width > 0 && height > 0 => Ok(Crop {
+            x,
+            y,
+            width,
+            height,
+        }),
         _ => Err("expected left, top, width and height in pixels, as 10,20,64,48".to_owned()),
     }
 }
@@ -141,22 +210,88 @@ mod tests {
     #[test]
     fn values_are_those_that_mean_something() {
         assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
-        assert!(["640", "0x4", "4x", "-1x2", "1x2x3"].into_iter().all(|text| size(text).is_err()));
-        assert!(["0", "-1", "nan", "inf", "256", "x"].into_iter().all(|text| levels(text).is_err()));
-        assert!(["0", "-1", "nan", "inf", "1e300", "x"].into_iter().all(|text| seconds(text).is_err()));
-        assert_eq!((levels("0.5"), seconds("2.5")), (Ok(0.5), Ok(Duration::from_millis(2500))));
-        assert!(["65", "-65", "nan", "x"].into_iter().all(|text| stops(text).is_err()));
+        assert!(
+            ["640", "0x4", "4x", "-1x2", "1x2x3"]
+                .into_iter()
+                .all(|text| size(text).is_err())
+        );
+        assert!(
+            ["0", "-1", "nan", "inf", "256", "x"]
+                .into_iter()
+                .all(|text| levels(text).is_err())
+        );
+        assert!(
+            ["0", "-1", "nan", "inf", "1e300", "x"]
+                .into_iter()
+                .all(|text| seconds(text).is_err())
+        );
+        assert_eq!(
+            (levels("0.5"), seconds("2.5")),
+            (Ok(0.5), Ok(Duration::from_millis(2500)))
+        );
+        assert!(
+            ["65", "-65", "nan", "x"]
+                .into_iter()
+                .all(|text| stops(text).is_err())
+        );
         assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
-        assert!(["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"].into_iter().all(|text| backdrop(text).is_err()));
-        assert_eq!((vector("1,-2, 3"), color("0.5")), (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3])));
-        assert_eq!(vector("0,1e300,0"), Err("numbers of a scene are at most 1e60 in size".to_owned()));
-        assert!(["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""].into_iter().all(|text| vector(text).is_err()));
-        assert!(["-1", "1,2", "1,2,nan"].into_iter().all(|text| color(text).is_err()));
-        assert_eq!(sun("0,-1,0,2"), Ok(Sun { direction: [0.0, -1.0, 0.0], irradiance: [2.0; 3] }));
-        assert_eq!(sun("0,1,0,3,2,1").map(|sun| sun.irradiance), Ok([3.0, 2.0, 1.0]));
-        assert!(["0,0,0,1", "0,1,0", "0,1,0,-1", "0,1,0,1,2", "x"].into_iter().all(|text| sun(text).is_err()));
-        assert!(["0", "180", "-5", "nan", "x"].into_iter().all(|text| degrees(text).is_err()));
-        assert_eq!(crop("1, 2,3,4"), Ok(Crop { x: 1, y: 2, width: 3, height: 4 }));
-        assert!(["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"].into_iter().all(|text| crop(text).is_err()));
+        assert!(
+            ["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
+                .into_iter()
+                .all(|text| backdrop(text).is_err())
+        );
+        assert_eq!(
+            (vector("1,-2, 3"), color("0.5")),
+            (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3]))
+        );
+        assert_eq!(
+            vector("0,1e300,0"),
+            Err("numbers of a scene are at most 1e60 in size".to_owned())
+        );
+        assert!(
+            ["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""]
+                .into_iter()
+                .all(|text| vector(text).is_err())
+        );
+        assert!(
+            ["-1", "1,2", "1,2,nan"]
+                .into_iter()
+                .all(|text| color(text).is_err())
+        );
+        assert_eq!(
+            sun("0,-1,0,2"),
+            Ok(Sun {
+                direction: [0.0, -1.0, 0.0],
+                irradiance: [2.0; 3]
+            })
+        );
+        assert_eq!(
+            sun("0,1,0,3,2,1").map(|sun| sun.irradiance),
+            Ok([3.0, 2.0, 1.0])
+        );
+        assert!(
+            ["0,0,0,1", "0,1,0", "0,1,0,-1", "0,1,0,1,2", "x"]
+                .into_iter()
+                .all(|text| sun(text).is_err())
+        );
+        assert!(
+            ["0", "180", "-5", "nan", "x"]
+                .into_iter()
+                .all(|text| degrees(text).is_err())
+        );
+        assert_eq!(
+            crop("1, 2,3,4"),
+            Ok(Crop {
+                x: 1,
+                y: 2,
+                width: 3,
+                height: 4
+            })
+        );
+        assert!(
+            ["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"]
+                .into_iter()
+                .all(|text| crop(text).is_err())
+        );
     }
 }

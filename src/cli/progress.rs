@@ -1,7 +1,9 @@
 //! How far a long render is: a bar on a terminal, nothing elsewhere; and how long it took.
 
 use crate::render::Step;
-use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{
+    HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle,
+};
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 use std::sync::Arc;
@@ -18,9 +20,14 @@ impl Progress {
     /// Starts to count `pixels`; `quiet` means no bar.
     pub(super) fn start(pixels: u64, quiet: bool) -> Self {
         let shown = !quiet && io::stderr().is_terminal();
-        let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let target = if shown {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        };
         let rays = Arc::new(AtomicU64::new(0));
-        let bar = ProgressBar::with_draw_target(Some(pixels), target).with_style(style(Arc::clone(&rays)));
+        let bar = ProgressBar::with_draw_target(Some(pixels), target)
+            .with_style(style(Arc::clone(&rays)));
         Self { bar, rays }
     }
 
@@ -66,14 +73,23 @@ fn style(rays: Arc<AtomicU64>) -> ProgressStyle {
 
 /// `1,234,567 rays/s`.
 pub(super) fn per_second(rays: u64, elapsed: Duration) -> String {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, and rounded for people")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive, and rounded for people"
+    )]
     let rate = (rays as f64 / elapsed.as_secs_f64().max(1e-9)) as u64;
     format!("{} rays/s", HumanCount(rate))
 }
 
 /// `1,234,567 rays, 0.52 s, 2,374,167 rays/s`.
 pub(super) fn summary(rays: u64, elapsed: Duration) -> String {
-    format!("{} rays, {:.2} s, {}", HumanCount(rays), elapsed.as_secs_f64(), per_second(rays, elapsed))
+    format!(
+        "{} rays, {:.2} s, {}",
+        HumanCount(rays),
+        elapsed.as_secs_f64(),
+        per_second(rays, elapsed)
+    )
 }
 
 #[cfg(test)]
@@ -82,7 +98,10 @@ mod tests {
 
     #[test]
     fn the_summary_counts_rays_and_seconds() {
-        assert_eq!(summary(3_000_000, Duration::from_millis(1500)), "3,000,000 rays, 1.50 s, 2,000,000 rays/s");
+        assert_eq!(
+            summary(3_000_000, Duration::from_millis(1500)),
+            "3,000,000 rays, 1.50 s, 2,000,000 rays/s"
+        );
         assert!(summary(1, Duration::ZERO).starts_with("1 rays, 0.00 s, "));
     }
 }

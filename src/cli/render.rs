@@ -58,7 +58,10 @@ struct Shot {
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.carry_out(&mut Input::staged(&args.file, &args.reading, &args.stage)?, &mut talk);
+    let outcome = plan.carry_out(
+        &mut Input::staged(&args.file, &args.reading, &args.stage)?,
+        &mut talk,
+    );
     talk.finish()?;
     outcome
 }
@@ -70,10 +73,15 @@ impl Plan {
             None => beside_here(&args.file, args.reading.stdin_name.as_deref())?,
         };
         if args.turntable.is_some() && output.as_os_str() == "-" {
-            return Err(Failure::Trouble("a turntable is many pictures; give `-o NAME-%04d.png`".to_owned()));
+            return Err(Failure::Trouble(
+                "a turntable is many pictures; give `-o NAME-%04d.png`".to_owned(),
+            ));
         }
         output::refuse_terminal(&output)?;
-        let goal = Goal { error: args.target_error, time: args.time_budget };
+        let goal = Goal {
+            error: args.target_error,
+            time: args.time_budget,
+        };
         Ok(Self {
             look: Look::new(&args.look, &output)?,
             output,
@@ -102,7 +110,10 @@ impl Plan {
         let mut set = Ok(());
         let proven = input::require(input, talk, |lowered| {
             self.overrides.apply(&mut lowered.scene);
-            set = self.set.iter().try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
+            set = self
+                .set
+                .iter()
+                .try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         self.window(&proven.lowered.scene)?;
@@ -111,18 +122,29 @@ impl Plan {
             input.tell(talk)?;
         }
         let interrupt = Interrupt::listen()?;
-        let mut subject = Subject { proven, renderer: None };
+        let mut subject = Subject {
+            proven,
+            renderer: None,
+        };
         let Some(count) = self.turntable else {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
         };
         let table = Turntable::new(&subject.proven.lowered.scene, self.up, count);
-        (0..count).try_for_each(|frame| Output::open(&turntable::name(&self.output, frame), input).map(drop))?;
+        (0..count).try_for_each(|frame| {
+            Output::open(&turntable::name(&self.output, frame), input).map(drop)
+        })?;
         for frame in 0..count {
             table.turn(&mut subject.proven, frame)?;
             if let Some(renderer) = &mut subject.renderer {
                 renderer.change(subject.proven.scene.clone());
             }
-            self.shoot(&mut subject, &turntable::name(&self.output, frame), input, talk, &interrupt)?;
+            self.shoot(
+                &mut subject,
+                &turntable::name(&self.output, frame),
+                input,
+                talk,
+                &interrupt,
+            )?;
         }
         Ok(())
     }
@@ -141,8 +163,13 @@ impl Plan {
         let output = Output::open(path, input)?;
         let quiet = talk.is_quiet();
         let shot = match self.goal {
-            Goal { error: None, time: None } => self.trace(subject, (window, input.rays()), interrupt, quiet)?,
-            Goal { error: _, time: _ } => self.approach(subject, (window, input.rays()), interrupt, quiet)?,
+            Goal {
+                error: None,
+                time: None,
+            } => self.trace(subject, (window, input.rays()), interrupt, quiet)?,
+            Goal { error: _, time: _ } => {
+                self.approach(subject, (window, input.rays()), interrupt, quiet)?
+            }
         };
         let shot = match shot {
             Ok(shot) => shot,
@@ -156,18 +183,30 @@ impl Plan {
             input.tell(talk)?;
         }
         let summary = self.summary(path, &shot);
-        // Where samples are clamped, and where a tone map follows, no more is seen of what is no number.
+        // Where samples are clamped, and where a tone map follows, no more is seen of what is no
+        // number.
         let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);
-        let mut picture = self.look.develop(shot.image, shot.coverage, &subject.proven.scene.settings().mode);
+        let mut picture = self.look.develop(
+            shot.image,
+            shot.coverage,
+            &subject.proven.scene.settings().mode,
+        );
         picture.layers = self.layers(subject, window, interrupt)?;
         let lost = self.look.lost(&picture);
-        let findings =
-            findings::unholdable(&Lost { unnumbered: lost.unnumbered.max(unnumbered), ..lost }, self.arithmetic);
+        let findings = findings::unholdable(
+            &Lost {
+                unnumbered: lost.unnumbered.max(unnumbered),
+                ..lost
+            },
+            self.arithmetic,
+        );
         if !findings.is_empty() {
             findings.into_iter().for_each(|finding| input.push(finding));
             input.tell(talk)?;
         }
-        let bytes = self.look.encode(&picture, || self.origin(&subject.proven.lowered.scene))?;
+        let bytes = self
+            .look
+            .encode(&picture, || self.origin(&subject.proven.lowered.scene))?;
         output.commit(&bytes, interrupt)?;
         if !quiet {
             talk::say(&summary);
@@ -178,9 +217,19 @@ impl Plan {
     /// The part of the picture that is rendered.
     fn window(&self, scene: &Scene) -> Result<Crop, Failure> {
         let [width, height] = scene.camera.size;
-        let window = self.crop.map_or(Crop { x: 0, y: 0, width, height }, |crop| crop.within(width, height));
+        let window = self.crop.map_or(
+            Crop {
+                x: 0,
+                y: 0,
+                width,
+                height,
+            },
+            |crop| crop.within(width, height),
+        );
         if window.width == 0 || window.height == 0 {
-            return Err(Failure::Trouble(format!("the crop lies outside the picture of {width}×{height} pixels")));
+            return Err(Failure::Trouble(format!(
+                "the crop lies outside the picture of {width}×{height} pixels"
+            )));
         }
         Ok(window)
     }
@@ -191,17 +240,22 @@ impl Plan {
         const FILM: [usize; 2] = [40, 320];
         let Crop { width, height, .. } = window;
         let pixel = FILM[usize::from(self.goal != Goal::default())] + self.look.memory();
-        let bytes = (width as usize).saturating_mul(height as usize).saturating_mul(pixel);
+        let bytes = (width as usize)
+            .saturating_mul(height as usize)
+            .saturating_mul(pixel);
         let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
         if renderer.has_room(bytes) {
             return Ok(());
         }
         let size = bytes.div_ceil(1 << 20);
-        let message = format!("there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB");
+        let message = format!(
+            "there is no memory for a picture of {width}×{height} pixels: it takes up to {size} MiB"
+        );
         Err(Failure::Trouble(message))
     }
 
-    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so many.
+    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
+    /// many.
     fn trace(
         &self,
         subject: &mut Subject,
@@ -211,7 +265,12 @@ impl Plan {
     ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
         let scene = &subject.proven.scene;
         let values = self.look.values(&scene.settings().mode);
-        let job = Job { crop: Some(window), values, behind: self.look.behind(), ..Job::default() };
+        let job = Job {
+            crop: Some(window),
+            values,
+            behind: self.look.behind(),
+            ..Job::default()
+        };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         // What verifies renders twice, by more rays than the picture takes.
         let meter = Meter::new(if self.verify { u64::MAX } else { rays }, window);
@@ -222,7 +281,8 @@ impl Plan {
         let film = if self.verify {
             pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
         } else {
-            self.renderer(subject).map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
+            self.renderer(subject)
+                .map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
         };
         let elapsed = progress.finish();
         let film = film.map_err(no_threads)?;
@@ -230,8 +290,18 @@ impl Plan {
             return Ok(Err(finding));
         }
         let film = film.ok_or(Failure::Interrupted)?;
-        let Film { image, coverage, counts } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
-        Ok(Ok(Shot { image, coverage, counts, elapsed, quality: None }))
+        let Film {
+            image,
+            coverage,
+            counts,
+        } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        Ok(Ok(Shot {
+            image,
+            coverage,
+            counts,
+            elapsed,
+            quality: None,
+        }))
     }
 
     /// The picture with the samples that its goal takes, or where its rays ran out.
@@ -252,7 +322,14 @@ impl Plan {
         };
         let progress = Progress::start(0, quiet);
         // Time that was given may be used.
-        let meter = Meter::new(if self.goal.time.is_some() { u64::MAX } else { rays }, window);
+        let meter = Meter::new(
+            if self.goal.time.is_some() {
+                u64::MAX
+            } else {
+                rays
+            },
+            window,
+        );
         let watch = Watch {
             proceed: &|step| {
                 progress.step(step);
@@ -265,26 +342,48 @@ impl Plan {
             },
         };
         let reached = self.renderer(subject);
-        let reached = reached.map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
+        let reached = reached
+            .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
         let elapsed = progress.finish();
         let reached = reached.map_err(no_threads)?;
         if let Some(finding) = ran_out(&meter, subject, interrupt) {
             return Ok(Err(finding));
         }
         let reached = reached.map_err(|Stopped| Failure::Interrupted)?;
-        let Reached { image, coverage, counts, samples: Samples { least, mean, most }, .. } = reached;
-        let quality =
-            format!("{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}", error(reached.error));
-        Ok(Ok(Shot { image, coverage, counts, elapsed, quality: Some(quality) }))
+        let Reached {
+            image,
+            coverage,
+            counts,
+            samples: Samples { least, mean, most },
+            ..
+        } = reached;
+        let quality = format!(
+            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}",
+            error(reached.error)
+        );
+        Ok(Ok(Shot {
+            image,
+            coverage,
+            counts,
+            elapsed,
+            quality: Some(quality),
+        }))
     }
 
     /// The layers beside the colours.
-    fn layers(&self, subject: &mut Subject, window: Crop, interrupt: &Interrupt) -> Result<Layers, Failure> {
+    fn layers(
+        &self,
+        subject: &mut Subject,
+        window: Crop,
+        interrupt: &Interrupt,
+    ) -> Result<Layers, Failure> {
         if self.look.aovs.is_empty() {
             return Ok(Layers::default());
         }
         let (_, renderer) = self.renderer(subject).map_err(no_threads)?;
-        renderer.layers(&self.look.aovs, window, &|| !interrupt.is_raised()).ok_or(Failure::Interrupted)
+        renderer
+            .layers(&self.look.aovs, window, &|| !interrupt.is_raised())
+            .ok_or(Failure::Interrupted)
     }
 
     /// What a scene needs for its picture.
@@ -306,9 +405,20 @@ impl Plan {
     }
 
     fn summary(&self, path: &Path, shot: &Shot) -> String {
-        let Shot { image, counts, elapsed, quality, coverage: _ } = shot;
+        let Shot {
+            image,
+            counts,
+            elapsed,
+            quality,
+            coverage: _,
+        } = shot;
         let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!("{}: {}×{}, {work}", path.display(), image.width, image.height);
+        let line = format!(
+            "{}: {}×{}, {work}",
+            path.display(),
+            image.width,
+            image.height
+        );
         match quality {
             Some(quality) => format!("{line}\n{quality}"),
             None => line,
@@ -342,7 +452,11 @@ impl Plan {
 fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     // The error that is promised counts no other one.
     let is_exact = !args.approx || goal != Goal::default();
-    let all = if is_exact { Rules::ALL } else { Rules::ALL.with(Rule::Cut) };
+    let all = if is_exact {
+        Rules::ALL
+    } else {
+        Rules::ALL.with(Rule::Cut)
+    };
     match args.no_prune.as_deref() {
         None => all,
         Some([]) => Rules::NONE,
@@ -358,7 +472,12 @@ fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Bo
 
 /// What to say of a rule that was wrong.
 fn left_out(fault: &Fault) -> String {
-    let Fault { pixel: [x, y], effect, rule, what } = fault;
+    let Fault {
+        pixel: [x, y],
+        effect,
+        rule,
+        what,
+    } = fault;
     let rule = rule.map_or("no rule", Rule::name);
     let version = env!("CARGO_PKG_VERSION");
     format!(
@@ -380,8 +499,13 @@ fn error(levels: f64) -> String {
 
 /// The name of the scene with `.png`, in the current folder.
 fn beside_here(file: &Path, stdin_name: Option<&str>) -> Result<PathBuf, Failure> {
-    let name = if file.as_os_str() == "-" { stdin_name.map(Path::new) } else { Some(file) };
+    let name = if file.as_os_str() == "-" {
+        stdin_name.map(Path::new)
+    } else {
+        Some(file)
+    };
     let stem = name.and_then(Path::file_stem);
-    let stem = stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
+    let stem =
+        stem.ok_or_else(|| Failure::Trouble("no name for the picture; give `-o FILE`".to_owned()))?;
     Ok(PathBuf::from(stem).with_added_extension("png"))
 }

@@ -1,7 +1,8 @@
-//! The report of `rtc compile --explain`: each effect with its verdict, rule, reason and place, and what it costs in rays.
+//! The report of `rtc compile --explain`: each effect with its verdict, rule, reason and place, and
+//! what it costs in rays.
 //!
-//! Rays are counted by tracing: the picture without the rule that left an effect out, less the picture as planned; on
-//! every k-th pixel where the whole would take long.
+//! Rays are counted by tracing: the picture without the rule that left an effect out, less the
+//! picture as planned; on every k-th pixel where the whole would take long.
 
 use super::Failure;
 use super::args::Explanation;
@@ -51,19 +52,48 @@ impl Report {
         let mut rows = Vec::new();
         for verdict in &plan.verdicts {
             let mut saves = 0;
-            if let Some(rule) = verdict.rule.filter(|_| verdict.of.is_none() && verdict.state == State::Pruned) {
-                saves = counter.count(Rules::ALL.without(rule))?.rays().saturating_sub(planned.rays());
+            if let Some(rule) = verdict
+                .rule
+                .filter(|_| verdict.of.is_none() && verdict.state == State::Pruned)
+            {
+                saves = counter
+                    .count(Rules::ALL.without(rule))?
+                    .rays()
+                    .saturating_sub(planned.rays());
             }
-            let spans = verdict.facts.iter().filter_map(|place| proven.lowered.origins.span(*place));
-            let mut places = spans.map(|span| input.line(span)).map(|(file, line)| at(file, line)).collect::<Vec<_>>();
+            let spans = verdict
+                .facts
+                .iter()
+                .filter_map(|place| proven.lowered.origins.span(*place));
+            let mut places = spans
+                .map(|span| input.line(span))
+                .map(|(file, line)| at(file, line))
+                .collect::<Vec<_>>();
             places.dedup();
-            let costs = if verdict.of.is_none() { cost(verdict.effect, &planned) } else { 0 };
+            let costs = if verdict.of.is_none() {
+                cost(verdict.effect, &planned)
+            } else {
+                0
+            };
             let of = verdict.of.map(|place| place.to_string());
-            rows.push(Row { verdict: verdict.clone(), places, of, costs, saves });
+            rows.push(Row {
+                verdict: verdict.clone(),
+                places,
+                of,
+                costs,
+                saves,
+            });
         }
         let (kernel, stride) = (KERNELS[choose(plan.features)].name, counter.stride);
         let samples = counter.samples();
-        Ok(Self { kernel, stride, planned: planned.rays(), unpruned, samples, rows })
+        Ok(Self {
+            kernel,
+            stride,
+            planned: planned.rays(),
+            unpruned,
+            samples,
+            rows,
+        })
     }
 
     /// The report in the form asked for.
@@ -75,20 +105,47 @@ impl Report {
     }
 
     fn table(&self) -> String {
-        let mut text =
-            format!("{:<15} {:<7} {:<15} {:>12} {:>12}\n", "effect", "verdict", "rule", "rays", "rays saved");
-        let about = if self.stride == Stride::EVERY { "" } else { "≈" };
-        let rays = |count: u64| if count == 0 { String::new() } else { format!("{about}{}", grouped(count)) };
-        for Row { verdict, places, of, costs, saves } in &self.rows {
+        let mut text = format!(
+            "{:<15} {:<7} {:<15} {:>12} {:>12}\n",
+            "effect", "verdict", "rule", "rays", "rays saved"
+        );
+        let about = if self.stride == Stride::EVERY {
+            ""
+        } else {
+            "≈"
+        };
+        let rays = |count: u64| {
+            if count == 0 {
+                String::new()
+            } else {
+                format!("{about}{}", grouped(count))
+            }
+        };
+        for Row {
+            verdict,
+            places,
+            of,
+            costs,
+            saves,
+        } in &self.rows
+        {
             let rule = verdict.rule.map_or("", Rule::name);
             let (name, state) = (verdict.effect.name(), verdict.state.name());
             if of.is_none() {
-                let line = format!("{name:<15} {state:<7} {rule:<15} {:>12} {:>12}", rays(*costs), rays(*saves));
+                let line = format!(
+                    "{name:<15} {state:<7} {rule:<15} {:>12} {:>12}",
+                    rays(*costs),
+                    rays(*saves)
+                );
                 text += line.trim_end();
                 text.push('\n');
             }
             let whose = of.as_ref().map(|of| format!("{of}: ")).unwrap_or_default();
-            let places = if places.is_empty() { String::new() } else { format!(" ({})", places.join(", ")) };
+            let places = if places.is_empty() {
+                String::new()
+            } else {
+                format!(" ({})", places.join(", "))
+            };
             text += &folded(&format!("{whose}{}{places}", verdict.because));
         }
         let per_sample = |rays: u64| rays as f64 / self.samples.max(1) as f64;
@@ -157,37 +214,74 @@ struct Counter<'scene> {
 
 impl<'scene> Counter<'scene> {
     fn new(scene: &'scene ValidScene) -> Self {
-        let counter = Self { scene, stride: Stride::EVERY };
+        let counter = Self {
+            scene,
+            stride: Stride::EVERY,
+        };
         let wanted = counter.samples().saturating_mul(4);
         let mut k = 1;
         while u64::from(k) * u64::from(k) * MAX_RAYS < wanted {
             k += 1;
         }
-        Self { stride: Stride::new(k), ..counter }
+        Self {
+            stride: Stride::new(k),
+            ..counter
+        }
     }
 
     /// All samples of the picture.
     fn samples(&self) -> u64 {
-        let (camera, factor) = (self.scene.camera(), u64::from(self.scene.settings().supersampling.get()));
-        let lens = if camera.lens.radius.get() > 0.0 { u64::from(camera.lens.samples.get()) } else { 1 };
+        let (camera, factor) = (
+            self.scene.camera(),
+            u64::from(self.scene.settings().supersampling.get()),
+        );
+        let lens = if camera.lens.radius.get() > 0.0 {
+            u64::from(camera.lens.samples.get())
+        } else {
+            1
+        };
         let pixels = u64::from(camera.width.get()) * u64::from(camera.height.get());
         pixels.saturating_mul(factor * factor).saturating_mul(lens)
     }
 
     /// The rays of the whole picture, scaled from those of a part.
     fn count(&mut self, rules: Rules) -> Result<Counts, Failure> {
-        let job = Job { stride: self.stride, ..Job::default() };
-        let film = pipeline::render(self.scene, &Plan::new(self.scene, rules), &job, 0, &|_| true);
-        let film = film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
+        let job = Job {
+            stride: self.stride,
+            ..Job::default()
+        };
+        let film = pipeline::render(self.scene, &Plan::new(self.scene, rules), &job, 0, &|_| {
+            true
+        });
+        let film =
+            film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
         let counts = film.ok_or(Failure::Interrupted)?.counts;
-        let (width, height) = (self.scene.camera().width.get(), self.scene.camera().height.get());
+        let (width, height) = (
+            self.scene.camera().width.get(),
+            self.scene.camera().height.get(),
+        );
         let whole = u128::from(width) * u128::from(height);
         let part = u128::from(self.stride.of(width)) * u128::from(self.stride.of(height));
-        let scaled = |count: u64| u64::try_from(u128::from(count) * whole / part.max(1)).unwrap_or(u64::MAX);
-        let Counts { camera, shadow, mirror, refracted, hits, unnumbered } = counts;
+        let scaled =
+            |count: u64| u64::try_from(u128::from(count) * whole / part.max(1)).unwrap_or(u64::MAX);
+        let Counts {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+            hits,
+            unnumbered,
+        } = counts;
         let [camera, shadow, mirror, refracted] = [camera, shadow, mirror, refracted].map(scaled);
         let [hits, unnumbered] = [hits, unnumbered].map(scaled);
-        Ok(Counts { camera, shadow, mirror, refracted, hits, unnumbered })
+        Ok(Counts {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+            hits,
+            unnumbered,
+        })
     }
 }
 
@@ -216,7 +310,9 @@ fn folded(words: &str) -> String {
     let mut text = String::new();
     let mut line = INDENT.to_owned();
     for word in words.split(' ') {
-        if line.trim_start().chars().count() > 0 && line.chars().count() + 1 + word.chars().count() > WIDTH {
+        if line.trim_start().chars().count() > 0
+            && line.chars().count() + 1 + word.chars().count() > WIDTH
+        {
             text += line.trim_end();
             text.push('\n');
             line = INDENT.to_owned();
@@ -236,9 +332,15 @@ mod tests {
     #[test]
     fn lines_fit_and_numbers_are_grouped() {
         let text = folded(&"word ".repeat(60));
-        assert!(text.lines().all(|line| line.chars().count() <= WIDTH && line.starts_with("    ")));
+        assert!(
+            text.lines()
+                .all(|line| line.chars().count() <= WIDTH && line.starts_with("    "))
+        );
         assert_eq!(text.split_whitespace().count(), 60);
-        assert_eq!([grouped(0), grouped(999), grouped(1_234_567)], ["0", "999", "1,234,567"]);
+        assert_eq!(
+            [grouped(0), grouped(999), grouped(1_234_567)],
+            ["0", "999", "1,234,567"]
+        );
         assert_eq!(at("/a/b.yaml", 7), "b.yaml:7");
     }
 }

@@ -1,4 +1,5 @@
-//! What is said, and on which stream: findings for people on standard error, those for programs on standard output.
+//! What is said, and on which stream: findings for people on standard error, those for programs on
+//! standard output.
 
 use super::{Failure, args, output};
 use crate::diag::{Format, Options, Printer, Severity, Sink};
@@ -20,20 +21,41 @@ impl Talk {
     /// For a command whose result is its findings: those for programs go to standard output.
     pub(super) fn as_result(args: &args::Talk) -> Self {
         let format = Format::from(args.message_format);
-        Self { to_stdout: !matches!(format, Format::Human | Format::Short), ..Self::beside_result(args) }
+        Self {
+            to_stdout: !matches!(format, Format::Human | Format::Short),
+            ..Self::beside_result(args)
+        }
     }
 
     /// For a command with another result: all findings go to standard error.
     pub(super) fn beside_result(args: &args::Talk) -> Self {
-        let args::Talk { message_format, color, max_errors, quiet, verbose } = *args;
+        let args::Talk {
+            message_format,
+            color,
+            max_errors,
+            quiet,
+            verbose,
+        } = *args;
         let least = match (quiet, verbose) {
             (true, _) => Severity::Error,
             (false, true) => Severity::Note,
             (false, false) => Severity::Warning,
         };
-        let width = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok()).unwrap_or(WIDTH);
-        let options = Options { color: is_colored(color), width, least, max: max_errors as usize };
-        Self { printer: Printer::new(message_format.into(), options), to_stdout: false, quiet }
+        let width = std::env::var("COLUMNS")
+            .ok()
+            .and_then(|columns| columns.parse().ok())
+            .unwrap_or(WIDTH);
+        let options = Options {
+            color: is_colored(color),
+            width,
+            least,
+            max: max_errors as usize,
+        };
+        Self {
+            printer: Printer::new(message_format.into(), options),
+            to_stdout: false,
+            quiet,
+        }
     }
 
     /// Tells the findings about the file `name`.
@@ -53,7 +75,8 @@ impl Talk {
     }
 }
 
-/// Says something on standard error, without what would command a terminal. If nobody listens there is nobody to tell.
+/// Says something on standard error, without what would command a terminal. If nobody listens there
+/// is nobody to tell.
 pub(super) fn say(words: &str) {
     let harmless = words.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}");
     let _ = writeln!(io::stderr(), "{harmless}");

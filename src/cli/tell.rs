@@ -33,11 +33,14 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
         Some(name) => rtc.find_subcommand(name).cloned(),
         None => Some(rtc),
     };
-    let command =
-        command.ok_or_else(|| Failure::Trouble("there is no such command; `rtc help` lists them".to_owned()))?;
+    let command = command.ok_or_else(|| {
+        Failure::Trouble("there is no such command; `rtc help` lists them".to_owned())
+    })?;
     // The head of a page is one line.
     let command = command.version(env!("CARGO_PKG_VERSION"));
     let mut page = Vec::new();
-    clap_mangen::Man::new(command).render(&mut page).map_err(|error| Failure::Trouble(error.to_string()))?;
+    clap_mangen::Man::new(command)
+        .render(&mut page)
+        .map_err(|error| Failure::Trouble(error.to_string()))?;
     output::to_stdout(&page)
 }

@@ -16,42 +16,71 @@ pub(super) struct Turntable {
 }
 
 impl Turntable {
-    /// So many views around `up`, or without it the axis of the world that is nearest to that of the camera.
+    /// So many views around `up`, or without it the axis of the world that is nearest to that of
+    /// the camera.
     pub(super) fn new(scene: &Scene, up: Option<[f64; 3]>, count: u32) -> Self {
         let camera = scene.camera.clone();
-        let axis = up.map_or_else(|| camera.upright(), |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::Y));
-        let middle = scene.ball().map_or(Vec3::from_array(camera.center), |ball| ball.center);
-        Self { camera, axis, middle, count }
+        let axis = up.map_or_else(
+            || camera.upright(),
+            |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::Y),
+        );
+        let middle = scene
+            .ball()
+            .map_or(Vec3::from_array(camera.center), |ball| ball.center);
+        Self {
+            camera,
+            axis,
+            middle,
+            count,
+        }
     }
 
-    /// Shows the scene as it is in one frame, from 0; the camera goes round anticlockwise, seen from above.
+    /// Shows the scene as it is in one frame, from 0; the camera goes round anticlockwise, seen
+    /// from above.
     pub(super) fn turn(&self, proven: &mut Proven, frame: u32) -> Result<(), Failure> {
         if frame == 0 {
             return Ok(());
         }
-        let camera = self.camera.turned(TAU * f64::from(frame) / f64::from(self.count), self.axis, self.middle);
-        let unsound = || Failure::Trouble(format!("frame {} can't be seen: its camera is too far away", frame + 1));
+        let camera = self.camera.turned(
+            TAU * f64::from(frame) / f64::from(self.count),
+            self.axis,
+            self.middle,
+        );
+        let unsound = || {
+            Failure::Trouble(format!(
+                "frame {} can't be seen: its camera is too far away",
+                frame + 1
+            ))
+        };
         proven.scene = proven.scene.seen_by(&camera).ok_or_else(unsound)?;
         proven.lowered.scene.camera = camera;
         Ok(())
     }
 }
 
-/// The name of a frame's file: its number, from 1, in place of `%04d` (any width will do), or before the extension.
+/// The name of a frame's file: its number, from 1, in place of `%04d` (any width will do), or
+/// before the extension.
 pub(super) fn name(pattern: &Path, frame: u32) -> PathBuf {
     let number = frame + 1;
     let file = pattern.file_name().unwrap_or_default().to_string_lossy();
     let placed = file.match_indices('%').find_map(|(at, sign)| {
         let (before, after) = file.split_at(at);
         let (width, rest) = after.strip_prefix(sign)?.split_once('d')?;
-        let width: usize = if width.is_empty() { 1 } else { width.parse().ok().filter(|width| *width < 10)? };
+        let width: usize = if width.is_empty() {
+            1
+        } else {
+            width.parse().ok().filter(|width| *width < 10)?
+        };
         Some(format!("{before}{number:0width$}{rest}"))
     });
     placed.map_or_else(
         || {
             let stem = pattern.file_stem().unwrap_or_default().to_string_lossy();
             let named = pattern.with_file_name(format!("{stem}-{number:04}"));
-            pattern.extension().map_or_else(|| named.clone(), |extension| named.with_added_extension(extension))
+            pattern.extension().map_or_else(
+                || named.clone(),
+                |extension| named.with_added_extension(extension),
+            )
         },
         |placed| pattern.with_file_name(placed),
     )
@@ -65,7 +94,13 @@ mod tests {
     fn frames_are_numbered_where_the_name_says_so() {
         let name = |pattern: &str, frame| name(Path::new(pattern), frame).display().to_string();
         assert_eq!(name("a/b-%04d.png", 0), "a/b-0001.png");
-        assert_eq!((name("%d.exr", 11), name("x%02dy.png", 0)), ("12.exr".to_owned(), "x01y.png".to_owned()));
-        assert_eq!((name("a.b.png", 2), name("100%.png", 0)), ("a.b-0003.png".to_owned(), "100%-0001.png".to_owned()));
+        assert_eq!(
+            (name("%d.exr", 11), name("x%02dy.png", 0)),
+            ("12.exr".to_owned(), "x01y.png".to_owned())
+        );
+        assert_eq!(
+            (name("a.b.png", 2), name("100%.png", 0)),
+            ("a.b-0003.png".to_owned(), "100%-0001.png".to_owned())
+        );
     }
 }

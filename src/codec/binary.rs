@@ -1,14 +1,16 @@
-//! The binary form, `.rtir`: 8 bytes magic, container version and header length (u32 each), a CRC-32 of all that and
-//! of the header, the header in JSON, then sections.
+//! The binary form, `.rtir`: 8 bytes magic, container version and header length (u32 each), a
+//! CRC-32 of all that and of the header, the header in JSON, then sections.
 //!
-//! The header holds the scene's small parts, the tables its lists are made of, and which sections are the columns of
-//! a mesh or the pixels of an image. A change of any bit is found, and nothing is allocated that the length of the
-//! file does not warrant. Files are read whole, not mapped: that takes 40 ms for a million triangles, and a mapped
-//! file may shrink under its reader.
+//! The header holds the scene's small parts, the tables its lists are made of, and which sections
+//! are the columns of a mesh or the pixels of an image. A change of any bit is found, and nothing
+//! is allocated that the length of the file does not warrant. Files are read whole, not mapped:
+//! that takes 40 ms for a million triangles, and a mapped file may shrink under its reader.
 
 use super::columns::{self, Stock, Table};
 use super::section::{self, ALIGNMENT, Body, Entry};
-use super::{CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape};
+use super::{
+    CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
+};
 use crate::diag::{Code, Diagnostic, codes};
 use crate::ir::{Column, Mesh, Scene, Surface, VERSION};
 use crate::source::{FileId, Span};
@@ -16,8 +18,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::io::{self, Write};
 
-/// A byte with the eighth bit set, a name, CR LF, the old end-of-file character, LF: whatever takes the file for text
-/// changes one of them.
+/// A byte with the eighth bit set, a name, CR LF, the old end-of-file character, LF: whatever takes
+/// the file for text changes one of them.
 const MAGIC: [u8; 8] = *b"\x89RTI\r\n\x1a\n";
 
 /// The beginnings of a magic that was taken for Latin-1 or for broken UTF-8 and written again.
@@ -58,7 +60,11 @@ struct Head {
 /// True if the bytes begin with the magic, or with what a mishap leaves of it.
 pub(super) fn looks_like(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(MAGIC.len())];
-    let same = start.iter().zip(&MAGIC).filter(|(byte, magic)| byte == magic).count();
+    let same = start
+        .iter()
+        .zip(&MAGIC)
+        .filter(|(byte, magic)| byte == magic)
+        .count();
     let begun = !start.is_empty() && same == start.len();
     begun || same >= MAGIC.len() / 2 || RECODED.iter().any(|recoded| bytes.starts_with(recoded))
 }
@@ -79,7 +85,18 @@ impl Draft<'_> {
 
 /// Encodes a scene.
 pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
-    let Scene { camera, settings, lights, images, textures, meshes, materials, surfaces, names, environment } = scene;
+    let Scene {
+        camera,
+        settings,
+        lights,
+        images,
+        textures,
+        meshes,
+        materials,
+        surfaces,
+        names,
+        environment,
+    } = scene;
     if !meshes.iter().all(is_finite) {
         return Err(NotFinite);
     }
@@ -90,8 +107,14 @@ pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
         columns::pack("materials", materials, &mut body)?,
         columns::pack(SURFACES, surfaces, &mut body)?,
     ];
-    let images = images.iter().map(|image| image::store(image, &mut body)).collect();
-    let meshes = meshes.iter().map(|mesh| mesh::store(mesh, &mut body)).collect();
+    let images = images
+        .iter()
+        .map(|image| image::store(image, &mut body))
+        .collect();
+    let meshes = meshes
+        .iter()
+        .map(|mesh| mesh::store(mesh, &mut body))
+        .collect();
     let mut scene = Map::new();
     scene.insert("camera".to_owned(), tree(camera)?);
     scene.insert("settings".to_owned(), tree(settings)?);
@@ -101,22 +124,46 @@ pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
     if let Some(environment) = environment {
         scene.insert("environment".to_owned(), tree(environment)?);
     }
-    let header =
-        Header { ir_version: VERSION, scene, tables, images, meshes, sections: std::mem::take(&mut body.entries) };
-    Ok(Draft { head: head(&header), body })
+    let header = Header {
+        ir_version: VERSION,
+        scene,
+        tables,
+        images,
+        meshes,
+        sections: std::mem::take(&mut body.entries),
+    };
+    Ok(Draft {
+        head: head(&header),
+        body,
+    })
 }
 
 fn is_finite(mesh: &Mesh) -> bool {
     fn column<const N: usize>(column: &Column<N>) -> bool {
         column.iter().flatten().all(f64::is_finite)
     }
-    let Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles: _ } = mesh;
-    column(positions) && column(normals) && column(uvs) && column(second_uvs) && column(tangents) && column(colors)
+    let Mesh {
+        name: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles: _,
+    } = mesh;
+    column(positions)
+        && column(normals)
+        && column(uvs)
+        && column(second_uvs)
+        && column(tangents)
+        && column(colors)
 }
 
 /// All that stands before the first section.
 fn head(header: &Header) -> Vec<u8> {
-    let header = serde_json::to_vec(header).expect("the header is made of maps with string keys, lists and numbers");
+    let header = serde_json::to_vec(header)
+        .expect("the header is made of maps with string keys, lists and numbers");
     let length = u32::try_from(header.len()).expect("no file that is read has so many parts");
     let mut head = Vec::with_capacity(PREAMBLE + header.len() + ALIGNMENT);
     head.extend(MAGIC);
@@ -143,11 +190,21 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
     let header = container.header(end)?;
     let sections = section::open(&container, end, &header.sections)?;
     let mut stock = Stock::new(&sections, &container);
-    let images = header.images.iter().map(|stored| stored.load(&mut stock)).collect::<Option<Vec<_>>>();
-    let meshes = header.meshes.iter().map(|stored| stored.load(&mut stock)).collect::<Option<Vec<_>>>();
+    let images = header
+        .images
+        .iter()
+        .map(|stored| stored.load(&mut stock))
+        .collect::<Option<Vec<_>>>();
+    let meshes = header
+        .meshes
+        .iter()
+        .map(|stored| stored.load(&mut stock))
+        .collect::<Option<Vec<_>>>();
     let malformed = |message| container.fault(&codes::MALFORMED, message, PREAMBLE, end);
     let (Some(images), Some(meshes)) = (images, meshes) else {
-        return Err(malformed("an image or a mesh has no sections of the kind it says".to_owned()));
+        return Err(malformed(
+            "an image or a mesh has no sections of the kind it says".to_owned(),
+        ));
     };
     let place = span(file, PREAMBLE, end);
     let (mut tree, mut surfaces) = (header.scene, Vec::new());
@@ -164,8 +221,14 @@ pub(super) fn decode(file: FileId, bytes: &[u8]) -> Decoded<Scene> {
                 Ok(())
             })?;
         }
-        if tree.insert(table.key.clone(), Value::Array(entities)).is_some() {
-            return Err(malformed(format!("the scene has two `{}`", table.key.escape_debug())));
+        if tree
+            .insert(table.key.clone(), Value::Array(entities))
+            .is_some()
+        {
+            return Err(malformed(format!(
+                "the scene has two `{}`",
+                table.key.escape_debug()
+            )));
         }
     }
     let mut scene = typed(header.ir_version, Value::Object(tree), place)?;
@@ -186,25 +249,44 @@ pub(super) struct Container<'a> {
 }
 
 impl Container<'_> {
-    /// Checks magic, length, checksum and version, in this order, and returns where the header ends.
+    /// Checks magic, length, checksum and version, in this order, and returns where the header
+    /// ends.
     fn check_preamble(&self) -> Decoded<usize> {
-        let differs = self.bytes.iter().zip(&MAGIC).position(|(byte, magic)| byte != magic);
+        let differs = self
+            .bytes
+            .iter()
+            .zip(&MAGIC)
+            .position(|(byte, magic)| byte != magic);
         if let Some(at) = differs {
             return Err(self.wrong_magic(at));
         }
         let Some(preamble) = self.bytes.first_chunk::<PREAMBLE>() else {
             return Err(self.truncated(PREAMBLE, "the preamble"));
         };
-        let word = |at: usize| u32::from_le_bytes([preamble[at], preamble[at + 1], preamble[at + 2], preamble[at + 3]]);
+        let word = |at: usize| {
+            u32::from_le_bytes([
+                preamble[at],
+                preamble[at + 1],
+                preamble[at + 2],
+                preamble[at + 3],
+            ])
+        };
         let (version, length, expected) = (word(8), word(12), word(16));
         let end = PREAMBLE.saturating_add(length as usize);
-        let Some(header) = self.bytes.get(PREAMBLE..end) else { return Err(self.truncated(end, "the header")) };
+        let Some(header) = self.bytes.get(PREAMBLE..end) else {
+            return Err(self.truncated(end, "the header"));
+        };
         if CHECKSUMS_COUNT && checksum(&preamble[..16], header) != expected {
             let message = format!("the checksum of the header, bytes 0 to {end}, is wrong");
             return Err(self.fault(&codes::DAMAGED, message, 0, end));
         }
         if version > CONTAINER_VERSION {
-            return Err(newer(version, "container", CONTAINER_VERSION, span(self.file, 8, 12)));
+            return Err(newer(
+                version,
+                "container",
+                CONTAINER_VERSION,
+                span(self.file, 8, 12),
+            ));
         }
         Ok(end)
     }
@@ -212,11 +294,21 @@ impl Container<'_> {
     fn header(&self, end: usize) -> Decoded<Header> {
         let text = &self.bytes[PREAMBLE..end];
         let malformed = |error: serde_json::Error| {
-            self.fault(&codes::MALFORMED, format!("the header, bytes {PREAMBLE} to {end}: {error}"), PREAMBLE, end)
+            self.fault(
+                &codes::MALFORMED,
+                format!("the header, bytes {PREAMBLE} to {end}: {error}"),
+                PREAMBLE,
+                end,
+            )
         };
         let Head { ir_version } = serde_json::from_slice(text).map_err(malformed)?;
         if ir_version > VERSION {
-            return Err(newer(ir_version, "IR", VERSION, span(self.file, PREAMBLE, end)));
+            return Err(newer(
+                ir_version,
+                "IR",
+                VERSION,
+                span(self.file, PREAMBLE, end),
+            ));
         }
         serde_json::from_slice(text).map_err(malformed)
     }
@@ -224,9 +316,13 @@ impl Container<'_> {
     fn wrong_magic(&self, at: usize) -> Box<Diagnostic> {
         let message = format!("the byte at offset {at} is not that of a binary IR file");
         let fault = self.fault(&codes::WRONG_MAGIC, message, at, at + 1);
-        let recoded = RECODED.iter().any(|recoded| self.bytes.starts_with(recoded));
+        let recoded = RECODED
+            .iter()
+            .any(|recoded| self.bytes.starts_with(recoded));
         let hint = match self.bytes {
-            _ if recoded => "the file was taken for text and written again as UTF-8; copy it as binary",
+            _ if recoded => {
+                "the file was taken for text and written again as UTF-8; copy it as binary"
+            }
             [0x89, b'R', b'T', b'I', b'\n', ..] | [0x89, b'R', b'T', b'I', b'\r', b'\r', ..] => {
                 "the line ends of the file were changed, as for a text; copy it as binary"
             }
@@ -244,7 +340,13 @@ impl Container<'_> {
     }
 
     /// A fault at bytes `start..end`.
-    pub(super) fn fault(&self, code: &'static Code, message: String, start: usize, end: usize) -> Box<Diagnostic> {
+    pub(super) fn fault(
+        &self,
+        code: &'static Code,
+        message: String,
+        start: usize,
+        end: usize,
+    ) -> Box<Diagnostic> {
         let length = self.bytes.len();
         let place = span(self.file, start.min(length), end.min(length));
         Box::new(Diagnostic::new(code, message).at(place, format!("at byte {start}")))

@@ -1,8 +1,9 @@
-//! Lists of entities as tables of numbers: entities that differ only in their numbers share a kind, and a kind is its
-//! tree with a null for each number, each long list of numbers and each long text.
+//! Lists of entities as tables of numbers: entities that differ only in their numbers share a kind,
+//! and a kind is its tree with a null for each number, each long list of numbers and each long
+//! text.
 //!
-//! No entity of the IR is named here: the tables describe themselves, so a file of an older version yields the tree of
-//! that version. Integers stay integers and floats keep every bit.
+//! No entity of the IR is named here: the tables describe themselves, so a file of an older version
+//! yields the tree of that version. Integers stay integers and floats keep every bit.
 
 use super::binary::Container;
 use super::run::{self, Run};
@@ -61,7 +62,11 @@ struct Taken {
 }
 
 /// Moves the numbers of `entities` into sections of `body`; only one entity at a time is a tree.
-pub(super) fn pack<T: Serialize>(key: &str, entities: &[T], body: &mut Body<'_>) -> Result<Table, NotFinite> {
+pub(super) fn pack<T: Serialize>(
+    key: &str,
+    entities: &[T],
+    body: &mut Body<'_>,
+) -> Result<Table, NotFinite> {
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
     let mut kinds: Vec<(Value, Taken)> = Vec::new();
     let mut order = Vec::new();
@@ -70,7 +75,8 @@ pub(super) fn pack<T: Serialize>(key: &str, entities: &[T], body: &mut Body<'_>)
         let mut taken = Taken::default();
         take(&mut entity, &mut taken, body);
         let name = format!("{entity}{:?}", taken.slots);
-        let next = u32::try_from(found.len()).expect("kinds are fewer than entities, whose indices are u32");
+        let next = u32::try_from(found.len())
+            .expect("kinds are fewer than entities, whose indices are u32");
         let index = *found.entry(name).or_insert(next);
         order.extend(index.to_le_bytes());
         match kinds.get_mut(index as usize) {
@@ -83,22 +89,49 @@ pub(super) fn pack<T: Serialize>(key: &str, entities: &[T], body: &mut Body<'_>)
         }
     }
     let order = body.push(Element::U32, 1, Content::Bytes(order.into()));
-    let kinds = kinds.into_iter().map(|(entity, taken)| store(entity, taken, body)).collect();
-    Ok(Table { key: key.to_owned(), order, kinds })
+    let kinds = kinds
+        .into_iter()
+        .map(|(entity, taken)| store(entity, taken, body))
+        .collect();
+    Ok(Table {
+        key: key.to_owned(),
+        order,
+        kinds,
+    })
 }
 
 fn store(entity: Value, taken: Taken, body: &mut Body<'_>) -> Kind {
-    let Taken { slots: numbers, floats, integers, runs } = taken;
-    let floats = body.push(Element::F64, count(&numbers, Slot::F64), Content::Bytes(floats.into()));
-    let integers = body.push(Element::U32, count(&numbers, Slot::U32), Content::Bytes(integers.into()));
-    Kind { entity, numbers, floats, integers, runs }
+    let Taken {
+        slots: numbers,
+        floats,
+        integers,
+        runs,
+    } = taken;
+    let floats = body.push(
+        Element::F64,
+        count(&numbers, Slot::F64),
+        Content::Bytes(floats.into()),
+    );
+    let integers = body.push(
+        Element::U32,
+        count(&numbers, Slot::U32),
+        Content::Bytes(integers.into()),
+    );
+    Kind {
+        entity,
+        numbers,
+        floats,
+        integers,
+        runs,
+    }
 }
 
 fn count(numbers: &[Slot], slot: Slot) -> usize {
     numbers.iter().filter(|kind| **kind == slot).count()
 }
 
-/// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay: the IR has none.
+/// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay:
+/// the IR has none.
 fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body<'_>) {
     if let Some(run) = run::store(tree, body) {
         taken.runs.push(run);
@@ -109,7 +142,9 @@ fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body<'_>) {
     match tree {
         Value::Null | Value::Bool(_) | Value::String(_) => {}
         Value::Array(items) => items.iter_mut().for_each(|item| take(item, taken, body)),
-        Value::Object(members) => members.values_mut().for_each(|member| take(member, taken, body)),
+        Value::Object(members) => members
+            .values_mut()
+            .for_each(|member| take(member, taken, body)),
         Value::Number(number) => {
             if let Some(integer) = run::as_u32(number) {
                 taken.integers.extend(integer.to_le_bytes());
@@ -125,7 +160,8 @@ fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body<'_>) {
     }
 }
 
-/// The sections of a file, and how much more may be made of them: memory stays within a constant times its length.
+/// The sections of a file, and how much more may be made of them: memory stays within a constant
+/// times its length.
 pub(super) struct Stock<'a> {
     sections: &'a [Section<'a>],
     /// Which sections a run, a column or an image was made of: no two may be made of one.
@@ -136,7 +172,11 @@ pub(super) struct Stock<'a> {
 
 impl<'a> Stock<'a> {
     pub(super) fn new(sections: &'a [Section<'a>], file: &Container<'_>) -> Self {
-        Self { sections, spent: vec![false; sections.len()], text: file.bytes.len().saturating_mul(8) }
+        Self {
+            sections,
+            spent: vec![false; sections.len()],
+            text: file.bytes.len().saturating_mul(8),
+        }
     }
 
     /// The section, unless something else was made of it before.
@@ -147,7 +187,10 @@ impl<'a> Stock<'a> {
 
     /// True for runs that are sound and of sections that nothing else is made of.
     fn spend(&mut self, runs: &[Run]) -> bool {
-        runs.iter().all(|run| self.take(run.section).is_some_and(|section| run.is_sound(section)))
+        runs.iter().all(|run| {
+            self.take(run.section)
+                .is_some_and(|section| run.is_sound(section))
+        })
     }
 }
 
@@ -159,22 +202,38 @@ pub(super) fn unpack(
     mut take: impl FnMut(Value) -> Decoded<()>,
 ) -> Decoded<()> {
     let malformed = |what: &str| {
-        file.fault(&codes::MALFORMED, format!("table `{}` {what}", table.key.escape_debug()), 0, file.bytes.len())
+        file.fault(
+            &codes::MALFORMED,
+            format!("table `{}` {what}", table.key.escape_debug()),
+            0,
+            file.bytes.len(),
+        )
     };
-    let order = stock.sections.get(table.order).filter(|order| order.holds(Element::U32, 1, order.len()));
+    let order = stock
+        .sections
+        .get(table.order)
+        .filter(|order| order.holds(Element::U32, 1, order.len()));
     let order = order.ok_or_else(|| malformed("has no section for the order of its entities"))?;
     let order: Vec<u32> = (0..order.len()).map(|at| order.u32(at)).collect();
     let mut records = vec![0_usize; table.kinds.len()];
     for kind in &order {
-        *records.get_mut(*kind as usize).ok_or_else(|| malformed("names a kind that is not there"))? += 1;
+        *records
+            .get_mut(*kind as usize)
+            .ok_or_else(|| malformed("names a kind that is not there"))? += 1;
     }
     let mut sources = Vec::new();
     for (kind, records) in table.kinds.iter().zip(records) {
         let size = records.saturating_mul(kind.entity.to_string().len());
         let left = stock.text.checked_sub(size);
-        stock.text = left.ok_or_else(|| malformed("repeats more text than the file can have been made from"))?;
-        let source = kind.source(stock.sections, records).filter(|_| stock.spend(&kind.runs));
-        sources.push(source.ok_or_else(|| malformed("has sections of another length or kind than it says"))?);
+        stock.text = left
+            .ok_or_else(|| malformed("repeats more text than the file can have been made from"))?;
+        let source = kind
+            .source(stock.sections, records)
+            .filter(|_| stock.spend(&kind.runs));
+        sources.push(
+            source
+                .ok_or_else(|| malformed("has sections of another length or kind than it says"))?,
+        );
     }
     order.iter().try_for_each(|kind| {
         let mut entity = table.kinds[*kind as usize].entity.clone();
@@ -197,15 +256,32 @@ struct Source<'a> {
 impl Kind {
     /// The source of this kind's numbers, if the sections hold `records` records of them.
     fn source<'a>(&'a self, sections: &'a [Section<'a>], records: usize) -> Option<Source<'a>> {
-        let Self { entity, numbers, floats, integers, runs } = self;
+        let Self {
+            entity,
+            numbers,
+            floats,
+            integers,
+            runs,
+        } = self;
         let section = |index: &usize, element, slot| {
-            sections.get(*index).filter(|section| section.holds(element, count(numbers, slot), records))
+            sections
+                .get(*index)
+                .filter(|section| section.holds(element, count(numbers, slot), records))
         };
         let floats = section(floats, Element::F64, Slot::F64)?;
         let integers = section(integers, Element::U32, Slot::U32)?;
-        let fits = nulls(entity) == numbers.len() && count(numbers, Slot::Run).checked_mul(records) == Some(runs.len());
+        let fits = nulls(entity) == numbers.len()
+            && count(numbers, Slot::Run).checked_mul(records) == Some(runs.len());
         let (slots, runs) = (numbers.iter().cycle(), runs.iter());
-        fits.then_some(Source { slots, floats, integers, next_float: 0, next_integer: 0, runs, sections })
+        fits.then_some(Source {
+            slots,
+            floats,
+            integers,
+            next_float: 0,
+            next_integer: 0,
+            runs,
+            sections,
+        })
     }
 }
 
@@ -230,7 +306,11 @@ fn put(tree: &mut Value, source: &mut Source) {
 
 impl Source<'_> {
     fn next(&mut self) -> Value {
-        match self.slots.next().expect("there are as many slots as nulls: checked in `Kind::source`") {
+        match self
+            .slots
+            .next()
+            .expect("there are as many slots as nulls: checked in `Kind::source`")
+        {
             Slot::F64 => {
                 self.next_float += 1;
                 run::number(self.floats, self.next_float - 1)
@@ -240,7 +320,10 @@ impl Source<'_> {
                 run::number(self.integers, self.next_integer - 1)
             }
             Slot::Run => {
-                let run = self.runs.next().expect("there are as many runs as slots: checked in `Kind::source`");
+                let run = self
+                    .runs
+                    .next()
+                    .expect("there are as many runs as slots: checked in `Kind::source`");
                 run.value(&self.sections[run.section])
             }
         }

@@ -1,4 +1,5 @@
-//! The images of a container: their pixels are a section, written from the scene and read into it without a detour.
+//! The images of a container: their pixels are a section, written from the scene and read into it
+//! without a detour.
 
 use super::columns::Stock;
 use super::section::{Body, Content, Element};
@@ -20,16 +21,40 @@ pub(super) struct Stored {
 
 /// Puts the pixels of an image into a section.
 pub(super) fn store<'s>(image: &'s Image, body: &mut Body<'s>) -> Stored {
-    let Image { name, width, height, kind, pixels } = image;
+    let Image {
+        name,
+        width,
+        height,
+        kind,
+        pixels,
+    } = image;
     let pixels = body.push(Element::U8, 1, Content::Bytes(Cow::Borrowed(pixels)));
-    Stored { name: name.clone(), width: *width, height: *height, kind: *kind, pixels }
+    Stored {
+        name: name.clone(),
+        width: *width,
+        height: *height,
+        kind: *kind,
+        pixels,
+    }
 }
 
 impl Stored {
     /// The image; none if its section is not there, is of another kind, or was taken before.
     pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Image> {
-        let Self { name, width, height, kind, pixels } = self;
+        let Self {
+            name,
+            width,
+            height,
+            kind,
+            pixels,
+        } = self;
         let pixels = stock.take(*pixels)?.octets()?.to_vec().into();
-        Some(Image { name: name.clone(), width: *width, height: *height, kind: *kind, pixels })
+        Some(Image {
+            name: name.clone(),
+            width: *width,
+            height: *height,
+            kind: *kind,
+            pixels,
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! Where a decoder stopped in a JSON text: the span of the culprit and its JSON pointer.
 //!
-//! Runs only when something is wrong. Up to where the decoder stopped the text is sound JSON, so a rough scan is enough.
+//! Runs only when something is wrong. Up to where the decoder stopped the text is sound JSON, so a
+//! rough scan is enough.
 
 /// The culprit: its bytes and its JSON pointer, empty for the whole document.
 #[derive(Debug, PartialEq, Eq)]
@@ -14,7 +15,10 @@ pub(super) struct Culprit {
 pub(super) fn offset(text: &str, line: usize, column: usize) -> usize {
     let start = match line {
         0 | 1 => 0,
-        _ => text.match_indices('\n').nth(line - 2).map_or(text.len(), |(at, _)| at + 1),
+        _ => text
+            .match_indices('\n')
+            .nth(line - 2)
+            .map_or(text.len(), |(at, _)| at + 1),
     };
     (start + column).min(text.len())
 }
@@ -32,13 +36,22 @@ enum Step {
 
 /// The value or key that ends at `read`, or else the value that starts there.
 pub(super) fn culprit(text: &str, read: usize) -> Culprit {
-    let mut scan = Scan { text: text.as_bytes(), frames: Vec::new(), last: None, key_next: false };
+    let mut scan = Scan {
+        text: text.as_bytes(),
+        frames: Vec::new(),
+        last: None,
+        key_next: false,
+    };
     let mut at = 0;
     while at < read.min(text.len()) {
         at = scan.token(at);
     }
     let (start, end) = scan.last.unwrap_or_else(|| next_token(text, at));
-    Culprit { start, end, pointer: scan.pointer() }
+    Culprit {
+        start,
+        end,
+        pointer: scan.pointer(),
+    }
 }
 
 /// A member of the document, or an item of a list that is one.
@@ -53,17 +66,39 @@ pub(super) struct Part {
 
 /// The members of the document, and the items of those that are lists, in the order of their ends.
 pub(super) fn parts(text: &str) -> Vec<Part> {
-    let mut scan = Scan { text: text.as_bytes(), frames: Vec::new(), last: None, key_next: false };
+    let mut scan = Scan {
+        text: text.as_bytes(),
+        frames: Vec::new(),
+        last: None,
+        key_next: false,
+    };
     let (mut at, mut parts) = (0, Vec::new());
     while at < text.len() {
         let before = scan.last;
         at = scan.token(at);
-        let Some((start, end)) = scan.last.filter(|_| scan.last != before && !scan.key_next) else { continue };
-        let steps: Vec<_> = scan.frames.iter().take(3).map(|frame| &frame.step).collect();
+        let Some((start, end)) = scan.last.filter(|_| scan.last != before && !scan.key_next) else {
+            continue;
+        };
+        let steps: Vec<_> = scan
+            .frames
+            .iter()
+            .take(3)
+            .map(|frame| &frame.step)
+            .collect();
         match steps.as_slice() {
-            [Step::Key(key)] => parts.push(Part { key: key.clone(), index: None, start, end }),
+            [Step::Key(key)] => parts.push(Part {
+                key: key.clone(),
+                index: None,
+                start,
+                end,
+            }),
             [Step::Key(key), Step::Index(index)] => {
-                parts.push(Part { key: key.clone(), index: Some(*index), start, end });
+                parts.push(Part {
+                    key: key.clone(),
+                    index: Some(*index),
+                    start,
+                    end,
+                });
             }
             _ => {}
         }
@@ -75,7 +110,10 @@ pub(super) fn parts(text: &str) -> Vec<Part> {
 fn next_token(text: &str, at: usize) -> (usize, usize) {
     let rest = text.get(at..).unwrap_or("");
     let start = text.len() - rest.trim_start().len();
-    let width = text.get(start..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+    let width = text
+        .get(start..)
+        .and_then(|rest| rest.chars().next())
+        .map_or(0, char::len_utf8);
     (start, start + width)
 }
 
@@ -96,7 +134,8 @@ impl Scan<'_> {
             b'{' => self.open(at, Step::Key(String::new())),
             b'[' => self.open(at, Step::Index(0)),
             b'}' | b']' => {
-                (self.last, self.key_next) = (self.frames.pop().map(|frame| (frame.start, at + 1)), false);
+                (self.last, self.key_next) =
+                    (self.frames.pop().map(|frame| (frame.start, at + 1)), false);
             }
             b',' => self.comma(),
             b':' => (self.last, self.key_next) = (None, false),
@@ -128,15 +167,24 @@ impl Scan<'_> {
         }
         let end = (end + 1).min(self.text.len());
         self.last = Some((start, end));
-        if let (true, Some(Step::Key(key))) = (self.key_next, self.frames.last_mut().map(|frame| &mut frame.step)) {
-            *key = String::from_utf8_lossy(&self.text[start + 1..end.saturating_sub(1).max(start + 1)]).into_owned();
+        if let (true, Some(Step::Key(key))) = (
+            self.key_next,
+            self.frames.last_mut().map(|frame| &mut frame.step),
+        ) {
+            *key = String::from_utf8_lossy(
+                &self.text[start + 1..end.saturating_sub(1).max(start + 1)],
+            )
+            .into_owned();
         }
         end
     }
 
     fn scalar(&mut self, start: usize) -> usize {
         let ends = |byte: &u8| byte.is_ascii_whitespace() || b",:[]{}\"".contains(byte);
-        let end = self.text[start..].iter().position(ends).map_or(self.text.len(), |length| start + length);
+        let end = self.text[start..]
+            .iter()
+            .position(ends)
+            .map_or(self.text.len(), |length| start + length);
         self.last = Some((start, end));
         end
     }
@@ -157,10 +205,20 @@ mod tests {
     #[test]
     fn parts_are_members_and_items_of_lists() {
         let text = r#"{"a": [1, {"b": "x"}], "c": {}}"#;
-        let found: Vec<_> =
-            parts(text).iter().map(|part| (part.index, text.get(part.start..part.end).unwrap())).collect();
+        let found: Vec<_> = parts(text)
+            .iter()
+            .map(|part| (part.index, text.get(part.start..part.end).unwrap()))
+            .collect();
         let list = (None, r#"[1, {"b": "x"}]"#);
-        assert_eq!(found, [(Some(0), "1"), (Some(1), r#"{"b": "x"}"#), list, (None, "{}")]);
+        assert_eq!(
+            found,
+            [
+                (Some(0), "1"),
+                (Some(1), r#"{"b": "x"}"#),
+                list,
+                (None, "{}")
+            ]
+        );
     }
 
     #[test]
@@ -168,7 +226,10 @@ mod tests {
         let text = r#"{"a": [1, {"b": "x"}, 22], "c": {}}"#;
         let found = |read: &str| {
             let culprit = culprit(text, text.find(read).unwrap() + read.len());
-            (text.get(culprit.start..culprit.end).unwrap().to_owned(), culprit.pointer)
+            (
+                text.get(culprit.start..culprit.end).unwrap().to_owned(),
+                culprit.pointer,
+            )
         };
         let pair = |text: &str, pointer: &str| (text.to_owned(), pointer.to_owned());
         assert_eq!(found(r#""x""#), pair(r#""x""#, "/a/1/b"));

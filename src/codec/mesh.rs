@@ -1,4 +1,5 @@
-//! The meshes of a container: each column is a section, written from the scene and read into it without a detour.
+//! The meshes of a container: each column is a section, written from the scene and read into it
+//! without a detour.
 
 use super::columns::Stock;
 use super::section::{Body, Content, Element, Section};
@@ -27,7 +28,16 @@ pub(super) struct Stored {
 
 /// Puts the columns of a mesh into sections.
 pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
-    let Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh;
+    let Mesh {
+        name,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    } = mesh;
     Stored {
         name: name.clone(),
         positions: put(positions, body),
@@ -43,8 +53,12 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
 fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut Body<'s>) -> Option<usize> {
     match column {
         _ if column.is_empty() => None,
-        Column::Single(vectors) => Some(body.push(Element::F32, N, Content::Single(vectors.as_flattened()))),
-        Column::Double(vectors) => Some(body.push(Element::F64, N, Content::Double(vectors.as_flattened()))),
+        Column::Single(vectors) => {
+            Some(body.push(Element::F32, N, Content::Single(vectors.as_flattened())))
+        }
+        Column::Double(vectors) => {
+            Some(body.push(Element::F64, N, Content::Double(vectors.as_flattened())))
+        }
     }
 }
 
@@ -66,8 +80,18 @@ impl Stored {
 }
 
 fn column<const N: usize>(section: Option<usize>, stock: &mut Stock<'_>) -> Option<Column<N>> {
-    let Some(section) = section else { return Some(Column::default()) };
+    let Some(section) = section else {
+        return Some(Column::default());
+    };
     let section: &Section<'_> = stock.take(section)?;
-    let single = || section.vectors(Element::F32, f32::from_le_bytes).map(Column::from);
-    single().or_else(|| section.vectors(Element::F64, f64::from_le_bytes).map(Column::from))
+    let single = || {
+        section
+            .vectors(Element::F32, f32::from_le_bytes)
+            .map(Column::from)
+    };
+    single().or_else(|| {
+        section
+            .vectors(Element::F64, f64::from_le_bytes)
+            .map(Column::from)
+    })
 }

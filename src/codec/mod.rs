@@ -1,8 +1,9 @@
 //! The IR as bytes: a compact JSON text and a binary container with checksums, both with a version.
 //!
-//! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both forms hold the same
-//! tree of JSON values, so a step of `upgrade.rs` is written once and serves both; only the columns of meshes and the
-//! pixels of images go from the scene to a container and back as they are.
+//! Every older version decodes; newer or corrupt bytes are one clear error with its place. Both
+//! forms hold the same tree of JSON values, so a step of `upgrade.rs` is written once and serves
+//! both; only the columns of meshes and the pixels of images go from the scene to a container and
+//! back as they are.
 
 mod binary;
 mod columns;
@@ -34,7 +35,8 @@ pub enum Form {
     Binary,
 }
 
-/// The form of the bytes, if they look like the IR at all; a container with a damaged beginning still does.
+/// The form of the bytes, if they look like the IR at all; a container with a damaged beginning
+/// still does.
 #[must_use]
 pub fn recognise(bytes: &[u8]) -> Option<Form> {
     if binary::looks_like(bytes) {
@@ -52,7 +54,9 @@ pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Opt
         Form::Text => text::decode(file, map.bytes(file)),
         Form::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
     };
-    scene.map_err(|faults| faults.into_iter().for_each(|fault| sink.push(fault))).ok()
+    scene
+        .map_err(|faults| faults.into_iter().for_each(|fault| sink.push(fault)))
+        .ok()
 }
 
 /// A scene that can't be stored: it holds a number that is not finite.
@@ -101,7 +105,9 @@ pub fn prepare(form: Form, scene: &Scene) -> Result<Encoded<'_>, NotFinite> {
 /// As [`prepare`].
 pub fn encode(form: Form, scene: &Scene) -> Result<Vec<u8>, NotFinite> {
     let mut bytes = Vec::new();
-    prepare(form, scene)?.write(&mut bytes).expect("memory takes all there is to write");
+    prepare(form, scene)?
+        .write(&mut bytes)
+        .expect("memory takes all there is to write");
     Ok(bytes)
 }
 
@@ -117,8 +123,13 @@ pub fn hash(scene: &Scene) -> Result<u128, NotFinite> {
 
 /// A part of a scene as a tree.
 fn tree(part: &impl Serialize) -> Result<Value, NotFinite> {
-    let tree = serde_json::to_value(part).expect("a scene is structs, lists and numbers, which JSON holds");
-    if has_null(&tree) { Err(NotFinite) } else { Ok(tree) }
+    let tree = serde_json::to_value(part)
+        .expect("a scene is structs, lists and numbers, which JSON holds");
+    if has_null(&tree) {
+        Err(NotFinite)
+    } else {
+        Ok(tree)
+    }
 }
 
 /// `serde_json` makes a null of a number that is not finite, and the IR has no other nulls.
@@ -131,17 +142,23 @@ fn has_null(tree: &Value) -> bool {
     }
 }
 
-/// Checksums are looked at, except by a fuzzer: it can't guess one, and would never see what stands behind.
+/// Checksums are looked at, except by a fuzzer: it can't guess one, and would never see what stands
+/// behind.
 const CHECKSUMS_COUNT: bool = !cfg!(fuzzing);
 
 /// What decoding ends with: the first fault ends it, since nothing after it can be trusted.
 type Decoded<T> = Result<T, Box<Diagnostic>>;
 
 fn newer(version: u32, what: &str, newest: u32, span: Span) -> Box<Diagnostic> {
-    let message = format!("{what} version {version} is newer than {newest}, the newest this rtc reads");
+    let message =
+        format!("{what} version {version} is newer than {newest}, the newest this rtc reads");
     let label = format!("version {version}");
     let hint = "use a newer rtc, or compile the scene again with this one";
-    Box::new(Diagnostic::new(&codes::NEWER_VERSION, message).at(span, label).hint(hint))
+    Box::new(
+        Diagnostic::new(&codes::NEWER_VERSION, message)
+            .at(span, label)
+            .hint(hint),
+    )
 }
 
 /// A span of a file below 4 GiB; larger offsets are cut off.
@@ -153,7 +170,8 @@ fn span(file: FileId, start: usize, end: usize) -> Span {
 /// The scene a tree of version `version` stands for.
 fn typed(version: u32, tree: Value, place: Span) -> Decoded<Scene> {
     debug_assert!(version <= VERSION, "newer versions are refused before");
-    serde_json::from_value(upgrade::to_current(version, tree)).map_err(|error| wrong_shape(&error.to_string(), place))
+    serde_json::from_value(upgrade::to_current(version, tree))
+        .map_err(|error| wrong_shape(&error.to_string(), place))
 }
 
 fn wrong_shape(what: &str, place: Span) -> Box<Diagnostic> {

@@ -21,12 +21,20 @@ struct Document<'s> {
     scene: &'s Scene,
 }
 
-/// Writes the text of a scene, with `irVersion` first and a line end at the end, to what takes all there is to write.
+/// Writes the text of a scene, with `irVersion` first and a line end at the end, to what takes all
+/// there is to write.
 pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
     let mut serializer = Serializer::with_formatter(&mut *out, Layout::default());
     // What fails is the layout, and that at numbers that are none.
-    Document { ir_version: VERSION, scene }.serialize(&mut serializer).map_err(|_| NotFinite)?;
-    out.write_all(b"\n").and_then(|()| out.flush()).map_err(|_| NotFinite)
+    Document {
+        ir_version: VERSION,
+        scene,
+    }
+    .serialize(&mut serializer)
+    .map_err(|_| NotFinite)?;
+    out.write_all(b"\n")
+        .and_then(|()| out.flush())
+        .map_err(|_| NotFinite)
 }
 
 #[derive(Default)]

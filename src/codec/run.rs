@@ -1,5 +1,5 @@
-//! Long lists of numbers and long texts, each in a section of its own; in older files the pixels of images, and the
-//! corners of meshes.
+//! Long lists of numbers and long texts, each in a section of its own; in older files the pixels of
+//! images, and the corners of meshes.
 //!
 //! Which they are is seen from the values alone; no entity of the IR is named here.
 
@@ -13,7 +13,8 @@ const LONG_LIST: usize = 32;
 /// Texts of more bytes than this have a section of their own.
 const LONG_TEXT: usize = 256;
 
-/// A section that is one value: a text, a list of numbers, or a list of lists of as many numbers as a record has.
+/// A section that is one value: a text, a list of numbers, or a list of lists of as many numbers as
+/// a record has.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Run {
@@ -27,7 +28,10 @@ pub(super) fn store(value: &Value, body: &mut Body<'_>) -> Option<Run> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
             let bytes = Content::Bytes(text.as_bytes().to_vec().into());
-            Some(Run { section: body.push(Element::U8, 1, bytes), nested: false })
+            Some(Run {
+                section: body.push(Element::U8, 1, bytes),
+                nested: false,
+            })
         }
         Value::Array(items) if items.len() > LONG_LIST => {
             let stride = items[0].as_array().map(Vec::len);
@@ -37,11 +41,17 @@ pub(super) fn store(value: &Value, body: &mut Body<'_>) -> Option<Run> {
                 nested: stride.is_some(),
             })
         }
-        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => None,
+        Value::Null
+        | Value::Bool(_)
+        | Value::Number(_)
+        | Value::String(_)
+        | Value::Array(_)
+        | Value::Object(_) => None,
     }
 }
 
-/// The bytes of all numbers, if each item is one, or a list of `stride` of them, and all are of one element.
+/// The bytes of all numbers, if each item is one, or a list of `stride` of them, and all are of one
+/// element.
 fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)> {
     let mut flat = Vec::with_capacity(items.len());
     for item in items {
@@ -57,22 +67,43 @@ fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)>
     }
     let integers: Option<Vec<u32>> = flat.iter().map(|number| as_u32(number)).collect();
     if let Some(integers) = integers {
-        return Some((Element::U32, integers.iter().flat_map(|number| number.to_le_bytes()).collect()));
+        return Some((
+            Element::U32,
+            integers
+                .iter()
+                .flat_map(|number| number.to_le_bytes())
+                .collect(),
+        ));
     }
-    let floats: Option<Vec<f64>> = flat.iter().map(|number| number.as_f64().filter(|_| number.is_f64())).collect();
-    floats.map(|floats| (Element::F64, floats.iter().flat_map(|number| number.to_le_bytes()).collect()))
+    let floats: Option<Vec<f64>> = flat
+        .iter()
+        .map(|number| number.as_f64().filter(|_| number.is_f64()))
+        .collect();
+    floats.map(|floats| {
+        (
+            Element::F64,
+            floats
+                .iter()
+                .flat_map(|number| number.to_le_bytes())
+                .collect(),
+        )
+    })
 }
 
 fn as_number(value: &Value) -> Option<&Number> {
     match value {
         Value::Number(number) => Some(number),
-        Value::Null | Value::Bool(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => None,
+        Value::Null | Value::Bool(_) | Value::String(_) | Value::Array(_) | Value::Object(_) => {
+            None
+        }
     }
 }
 
 /// The number, if it is an integer of 32 bits and not a float.
 pub(super) fn as_u32(number: &Number) -> Option<u32> {
-    number.as_u64().and_then(|integer| u32::try_from(integer).ok())
+    number
+        .as_u64()
+        .and_then(|integer| u32::try_from(integer).ok())
 }
 
 /// Element `at` of a section of numbers.
@@ -83,7 +114,9 @@ pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
             .expect("sections hold finite numbers: checked on opening"),
         Element::U32 => Value::from(section.u32(at)),
         Element::F32 | Element::U8 => {
-            unreachable!("tables hold no such numbers: refused in `Run::is_sound` and `Section::holds`")
+            unreachable!(
+                "tables hold no such numbers: refused in `Run::is_sound` and `Section::holds`"
+            )
         }
     }
 }
@@ -94,7 +127,9 @@ impl Run {
         match section.element {
             Element::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
             Element::F32 => false,
-            Element::F64 | Element::U32 => section.stride > 0 && (self.nested || section.stride == 1),
+            Element::F64 | Element::U32 => {
+                section.stride > 0 && (self.nested || section.stride == 1)
+            }
         }
     }
 
@@ -103,11 +138,14 @@ impl Run {
         if let Some(text) = section.text() {
             return Value::from(text);
         }
-        let numbers = |range: std::ops::Range<usize>| range.map(|at| number(section, at)).collect::<Value>();
+        let numbers =
+            |range: std::ops::Range<usize>| range.map(|at| number(section, at)).collect::<Value>();
         if !self.nested {
             return numbers(0..section.len());
         }
         let stride = section.stride;
-        (0..section.len() / stride).map(|record| numbers(record * stride..(record + 1) * stride)).collect()
+        (0..section.len() / stride)
+            .map(|record| numbers(record * stride..(record + 1) * stride))
+            .collect()
     }
 }

@@ -9,7 +9,10 @@ pub fn schema() -> Value {
     let mut schema = schemars::schema_for!(Scene).to_value();
     tidy(&mut schema);
     if let Some(root) = schema.as_object_mut() {
-        root.insert("title".to_owned(), format!("rtc scene IR, version {VERSION}").into());
+        root.insert(
+            "title".to_owned(),
+            format!("rtc scene IR, version {VERSION}").into(),
+        );
         put_first(root, "properties", version_property());
         if let Some(required) = root.get_mut("required").and_then(Value::as_array_mut) {
             required.insert(0, "irVersion".into());
@@ -20,7 +23,10 @@ pub fn schema() -> Value {
 
 fn version_property() -> (String, Value) {
     let description = "The version of the representation; the first key of the document.";
-    ("irVersion".to_owned(), json!({ "description": description, "const": VERSION }))
+    (
+        "irVersion".to_owned(),
+        json!({ "description": description, "const": VERSION }),
+    )
 }
 
 fn put_first(root: &mut Map<String, Value>, key: &str, (name, value): (String, Value)) {
@@ -37,7 +43,10 @@ fn tidy(schema: &mut Value) {
         Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) => {}
         Value::Array(items) => items.iter_mut().for_each(tidy),
         Value::Object(members) => {
-            let format = members.get("format").and_then(Value::as_str).map(str::to_owned);
+            let format = members
+                .get("format")
+                .and_then(Value::as_str)
+                .map(str::to_owned);
             match format.as_deref() {
                 Some("uint32") => drop(members.insert("maximum".to_owned(), u32::MAX.into())),
                 Some("double") => {}

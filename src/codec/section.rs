@@ -1,7 +1,9 @@
-//! Sections: runs of little-endian numbers or of text, each aligned to 64 bytes and guarded by a hash, with a table of them all.
+//! Sections: runs of little-endian numbers or of text, each aligned to 64 bytes and guarded by a
+//! hash, with a table of them all.
 //!
-//! There is one layout: in the order of the table, each at the next aligned byte, zeros between, nothing behind the
-//! last. So every bit of the file is in the header, in a section or a known zero, and a change of any is found.
+//! There is one layout: in the order of the table, each at the next aligned byte, zeros between,
+//! nothing behind the last. So every bit of the file is in the header, in a section or a known
+//! zero, and a change of any is found.
 
 use super::binary::Container;
 use super::{CHECKSUMS_COUNT, Decoded};
@@ -88,7 +90,10 @@ fn write_numbers<T: Copy, const B: usize>(
     const PIECE: usize = 4096;
     let mut piece = [[0; B]; PIECE];
     numbers.chunks(PIECE).try_for_each(|numbers| {
-        piece.iter_mut().zip(numbers).for_each(|(bytes, number)| *bytes = to_bytes(*number));
+        piece
+            .iter_mut()
+            .zip(numbers)
+            .for_each(|(bytes, number)| *bytes = to_bytes(*number));
         out.write_all(piece[..numbers.len()].as_flattened())
     })
 }
@@ -111,11 +116,18 @@ impl<'s> Body<'s> {
         self.length = offset + length;
         self.contents.push(content);
         let (offset, length, xxh3) = (offset as u64, length as u64, spelt(hash.0.digest()));
-        self.entries.push(Entry { offset, length, element, stride, xxh3 });
+        self.entries.push(Entry {
+            offset,
+            length,
+            element,
+            stride,
+            xxh3,
+        });
         self.entries.len() - 1
     }
 
-    /// Writes the sections in turn, each at the next aligned byte; the first one's place is aligned.
+    /// Writes the sections in turn, each at the next aligned byte; the first one's place is
+    /// aligned.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut end = 0_usize;
         for content in &self.contents {
@@ -159,13 +171,17 @@ pub(super) struct Section<'a> {
 impl Section<'_> {
     /// Number `index` of a section of [`Element::F64`].
     pub(super) fn f64(&self, index: usize) -> f64 {
-        let bytes = self.bytes[8 * index..].first_chunk().expect("the index is below the length of the section");
+        let bytes = self.bytes[8 * index..]
+            .first_chunk()
+            .expect("the index is below the length of the section");
         f64::from_le_bytes(*bytes)
     }
 
     /// Number `index` of a section of [`Element::U32`].
     pub(super) fn u32(&self, index: usize) -> u32 {
-        let bytes = self.bytes[4 * index..].first_chunk().expect("the index is below the length of the section");
+        let bytes = self.bytes[4 * index..]
+            .first_chunk()
+            .expect("the index is below the length of the section");
         u32::from_le_bytes(*bytes)
     }
 
@@ -176,10 +192,12 @@ impl Section<'_> {
 
     /// The text of a section of [`Element::U8`], if it is UTF-8.
     pub(super) fn text(&self) -> Option<&str> {
-        self.octets().and_then(|bytes| std::str::from_utf8(bytes).ok())
+        self.octets()
+            .and_then(|bytes| std::str::from_utf8(bytes).ok())
     }
 
-    /// All of a section of records of `N` numbers of the element given, whose bytes `number` reads; none of another.
+    /// All of a section of records of `N` numbers of the element given, whose bytes `number` reads;
+    /// none of another.
     pub(super) fn vectors<T: Copy + Default, const N: usize, const B: usize>(
         &self,
         element: Element,
@@ -189,7 +207,10 @@ impl Section<'_> {
             return None;
         }
         let mut vectors = vec![[T::default(); N]; self.len() / N];
-        let numbers = vectors.as_flattened_mut().iter_mut().zip(self.bytes.as_chunks().0);
+        let numbers = vectors
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(self.bytes.as_chunks().0);
         numbers.for_each(|(to, bytes)| *to = number(*bytes));
         Some(vectors)
     }
@@ -206,7 +227,9 @@ impl Section<'_> {
 
     /// True if it is `records` records of `stride` elements.
     pub(super) fn holds(&self, element: Element, stride: usize, records: usize) -> bool {
-        self.element == element && self.stride == stride && Some(self.len()) == stride.checked_mul(records)
+        self.element == element
+            && self.stride == stride
+            && Some(self.len()) == stride.checked_mul(records)
     }
 
     /// The count of elements.
@@ -216,7 +239,11 @@ impl Section<'_> {
 }
 
 /// Checks all there is behind the header, which ends at `end`.
-pub(super) fn open<'a>(file: &Container<'a>, mut end: usize, entries: &[Entry]) -> Decoded<Vec<Section<'a>>> {
+pub(super) fn open<'a>(
+    file: &Container<'a>,
+    mut end: usize,
+    entries: &[Entry],
+) -> Decoded<Vec<Section<'a>>> {
     let body = end.next_multiple_of(ALIGNMENT);
     padding(file, end, body)?;
     end = body;
@@ -226,19 +253,28 @@ pub(super) fn open<'a>(file: &Container<'a>, mut end: usize, entries: &[Entry]) 
         padding(file, end, start)?;
         let bytes = bytes_of(file, index, entry, start, body)?;
         end = start + bytes.len();
-        let section = Section { bytes, element: entry.element, stride: entry.stride };
+        let section = Section {
+            bytes,
+            element: entry.element,
+            stride: entry.stride,
+        };
         numbers(file, index, &section, start)?;
         sections.push(section);
     }
     if end < file.bytes.len() {
-        let message = format!("{} bytes follow the last section, which ends at byte {end}", file.bytes.len() - end);
+        let message = format!(
+            "{} bytes follow the last section, which ends at byte {end}",
+            file.bytes.len() - end
+        );
         return Err(file.fault(&codes::MALFORMED, message, end, file.bytes.len()));
     }
     Ok(sections)
 }
 
 fn padding(file: &Container, start: usize, end: usize) -> Decoded<()> {
-    let Some(padding) = file.bytes.get(start..end) else { return Err(file.truncated(end, "padding")) };
+    let Some(padding) = file.bytes.get(start..end) else {
+        return Err(file.truncated(end, "padding"));
+    };
     match padding.iter().position(|byte| *byte != 0) {
         None => Ok(()),
         Some(skip) => {
@@ -249,12 +285,30 @@ fn padding(file: &Container, start: usize, end: usize) -> Decoded<()> {
     }
 }
 
-fn bytes_of<'a>(file: &Container<'a>, index: usize, entry: &Entry, start: usize, body: usize) -> Decoded<&'a [u8]> {
-    let Entry { offset, length, element, stride, xxh3 } = entry;
+fn bytes_of<'a>(
+    file: &Container<'a>,
+    index: usize,
+    entry: &Entry,
+    start: usize,
+    body: usize,
+) -> Decoded<&'a [u8]> {
+    let Entry {
+        offset,
+        length,
+        element,
+        stride,
+        xxh3,
+    } = entry;
     let record = stride.checked_mul(element.bytes()).unwrap_or(usize::MAX) as u64;
-    let whole = if record == 0 { *length == 0 } else { length.is_multiple_of(record) };
+    let whole = if record == 0 {
+        *length == 0
+    } else {
+        length.is_multiple_of(record)
+    };
     if *offset != (start - body) as u64 || !whole {
-        let message = format!("section {index} should start at byte {start} and hold whole records of {record} bytes");
+        let message = format!(
+            "section {index} should start at byte {start} and hold whole records of {record} bytes"
+        );
         return Err(file.fault(&codes::MALFORMED, message, start, start));
     }
     let end = usize::try_from(*length).map_or(usize::MAX, |length| start.saturating_add(length));
@@ -274,12 +328,21 @@ fn numbers(file: &Container, index: usize, section: &Section, start: usize) -> D
         Some(at) => {
             let byte = start + at;
             let message = format!("the number at byte {byte}, in section {index}, is not finite");
-            Err(file.fault(&codes::MALFORMED, message, byte, byte + section.element.bytes()))
+            Err(file.fault(
+                &codes::MALFORMED,
+                message,
+                byte,
+                byte + section.element.bytes(),
+            ))
         }
     }
 }
 
 /// The index of the first number, of `B` bytes, that is not sound.
 fn first<const B: usize>(bytes: &[u8], sound: impl Fn([u8; B]) -> bool) -> Option<usize> {
-    bytes.as_chunks().0.iter().position(|number| !sound(*number))
+    bytes
+        .as_chunks()
+        .0
+        .iter()
+        .position(|number| !sound(*number))
 }

@@ -1,5 +1,5 @@
-//! Colour: display values, how linear ones become such, and how they become integers. A display value of 1 is the full
-//! integer; there is no gamma.
+//! Colour: display values, how linear ones become such, and how they become integers. A display
+//! value of 1 is the full integer; there is no gamma.
 
 mod tone;
 
@@ -7,14 +7,22 @@ pub use tone::Tone;
 
 /// ⌊255·v⌋ with `v` clamped to [0, 1]; NaN is 0.
 #[must_use]
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped; the cast takes NaN to 0")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped; the cast takes NaN to 0"
+)]
 pub fn quantize8(v: f64) -> u8 {
     (v.clamp(0.0, 1.0) * f64::from(u8::MAX)) as u8
 }
 
 /// ⌊65535·v⌋ with `v` clamped to [0, 1]; NaN is 0.
 #[must_use]
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped; the cast takes NaN to 0")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped; the cast takes NaN to 0"
+)]
 pub fn quantize16(v: f64) -> u16 {
     (v.clamp(0.0, 1.0) * f64::from(u16::MAX)) as u16
 }
@@ -22,7 +30,11 @@ pub fn quantize16(v: f64) -> u16 {
 /// The linear value of a coded value of sRGB in [0, 1] (IEC 61966-2-1).
 #[must_use]
 pub fn srgb_decoded(v: f64) -> f64 {
-    if v <= 0.040_45 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) }
+    if v <= 0.040_45 {
+        v / 12.92
+    } else {
+        libm::pow((v + 0.055) / 1.055, 2.4)
+    }
 }
 
 /// The coded value of sRGB of a linear value, clamped to [0, 1].
@@ -56,7 +68,10 @@ mod tests {
     fn srgb_goes_there_and_back() {
         for byte in 0..=255 {
             let coded = f64::from(byte) / 255.0;
-            assert!((srgb_encoded(srgb_decoded(coded)) - coded).abs() < 1e-7, "{byte}");
+            assert!(
+                (srgb_encoded(srgb_decoded(coded)) - coded).abs() < 1e-7,
+                "{byte}"
+            );
         }
         assert!((srgb_decoded(0.5) - 0.214_041_1).abs() < 1e-7);
         assert_eq!([f64::NAN, -1.0, 2.0].map(srgb_encoded), [0.0, 0.0, 1.0]);

@@ -1,5 +1,5 @@
-//! Tone maps: linear values of Rec. 709 to values that a display shows. All are defined for every number and give numbers
-//! in [0, 1], but for [`Tone::None`].
+//! Tone maps: linear values of Rec. 709 to values that a display shows. All are defined for every
+//! number and give numbers in [0, 1], but for [`Tone::None`].
 
 use super::srgb_encoded;
 
@@ -10,9 +10,11 @@ pub enum Tone {
     None,
     /// Cut off at 1 and coded by sRGB.
     Srgb,
-    /// Troy Sobotka's AgX, the base look: highlights roll off over 16.5 stops and lose their colour on the way.
+    /// Troy Sobotka's AgX, the base look: highlights roll off over 16.5 stops and lose their colour
+    /// on the way.
     Agx,
-    /// The PBR Neutral tone map of Khronos, coded by sRGB: colours below the highlights stay what they are.
+    /// The PBR Neutral tone map of Khronos, coded by sRGB: colours below the highlights stay what
+    /// they are.
     PbrNeutral,
 }
 
@@ -29,7 +31,8 @@ impl Tone {
     }
 }
 
-/// PBR Neutral (Khronos, "PBR Neutral Specification", 2024, in its own symbols); linear in, linear out.
+/// PBR Neutral (Khronos, "PBR Neutral Specification", 2024, in its own symbols); linear in, linear
+/// out.
 fn pbr_neutral(linear: [f64; 3]) -> [f64; 3] {
     const F90: f64 = 0.04;
     const KS: f64 = 0.8 - F90;
@@ -37,7 +40,11 @@ fn pbr_neutral(linear: [f64; 3]) -> [f64; 3] {
     let linear = linear.map(|v| if v > 0.0 { v.min(f64::MAX) } else { 0.0 });
     // The reflection of a dielectric in white light is taken off, less of it in the dark.
     let x = least(linear);
-    let f = if x <= 2.0 * F90 { x - x * x / (4.0 * F90) } else { F90 };
+    let f = if x <= 2.0 * F90 {
+        x - x * x / (4.0 * F90)
+    } else {
+        F90
+    };
     let base = linear.map(|v| v - f);
     let p = greatest(base);
     if p <= KS {
@@ -49,7 +56,8 @@ fn pbr_neutral(linear: [f64; 3]) -> [f64; 3] {
     base.map(|v| v / p * pn * g + pn * (1.0 - g))
 }
 
-/// AgX as in Sobotka's configuration of 2022: inset, logarithm, sigmoid, and the inverse of the inset.
+/// AgX as in Sobotka's configuration of 2022: inset, logarithm, sigmoid, and the inverse of the
+/// inset.
 fn agx(linear: [f64; 3]) -> [f64; 3] {
     /// Stops of middle grey below and above, 0.18·2⁻¹⁰ … 0.18·2^6.5.
     const BELOW: f64 = 10.0;
@@ -60,24 +68,31 @@ fn agx(linear: [f64; 3]) -> [f64; 3] {
     let inset = linear.map(|v| 0.8 * v + 0.2 * grey);
     let shown = inset.map(|v| {
         let stops = libm::log2(v.max(0.0) / GREY);
-        sigmoid(((stops + BELOW) / (BELOW + ABOVE)).clamp(0.0, 1.0), BELOW / (BELOW + ABOVE))
+        sigmoid(
+            ((stops + BELOW) / (BELOW + ABOVE)).clamp(0.0, 1.0),
+            BELOW / (BELOW + ABOVE),
+        )
     });
     let grey = agx_grey(shown);
     shown.map(|v| (1.25 * v - 0.25 * grey).clamp(0.0, 1.0))
 }
 
-/// The mean by the weights that the compressed primaries of AgX give: they sum to 1, so the inset is 0.8·1 + 0.2·(this), and
-/// its inverse 1.25·1 − 0.25·(this).
+/// The mean by the weights that the compressed primaries of AgX give: they sum to 1, so the inset
+/// is 0.8·1 + 0.2·(this), and its inverse 1.25·1 − 0.25·(this).
 fn agx_grey([r, g, b]: [f64; 3]) -> f64 {
     0.212_005_354_752_34 * r + 0.392_182_507_809_01 * g + 0.395_812_137_438_65 * b
 }
 
-/// The curve of AgX on [0, 1]: through (0, 0), (pivot, ½) with slope 2, and (1, 1), bent with power 3 in the toe and 3.25 in
-/// the shoulder.
+/// The curve of AgX on [0, 1]: through (0, 0), (pivot, ½) with slope 2, and (1, 1), bent with power
+/// 3 in the toe and 3.25 in the shoulder.
 fn sigmoid(v: f64, pivot: f64) -> f64 {
     const SLOPE: f64 = 2.0;
     let d = v - pivot;
-    let (power, reach) = if d < 0.0 { (3.0, pivot) } else { (3.25, 1.0 - pivot) };
+    let (power, reach) = if d < 0.0 {
+        (3.0, pivot)
+    } else {
+        (3.25, 1.0 - pivot)
+    };
     let scale = libm::pow(2.0 * SLOPE, power) - libm::pow(reach, -power);
     let bend = libm::pow(1.0 + scale * libm::pow(d.abs(), power), 1.0 / power);
     0.5 + SLOPE * d / bend
@@ -104,11 +119,24 @@ mod tests {
 
     #[test]
     fn every_number_is_shown() {
-        let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, -0.0, 5e-324, 1e308, f64::MAX];
+        let odd = [
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            -1.0,
+            0.0,
+            -0.0,
+            5e-324,
+            1e308,
+            f64::MAX,
+        ];
         for tone in ALL {
             for (r, g) in odd.iter().flat_map(|r| odd.iter().map(move |g| (*r, *g))) {
                 let shown = tone.display([r, g, 0.5]);
-                assert!(shown.iter().all(|v| (0.0..=1.0).contains(v)), "{tone:?} {r} {g}: {shown:?}");
+                assert!(
+                    shown.iter().all(|v| (0.0..=1.0).contains(v)),
+                    "{tone:?} {r} {g}: {shown:?}"
+                );
             }
         }
     }
@@ -120,7 +148,10 @@ mod tests {
             let mut before = -1.0;
             for step in 0..200 {
                 let grey = shown(libm::exp2(f64::from(step) / 10.0 - 14.0));
-                assert!(near(grey, [grey[0]; 3], 1e-12) && grey[0] >= before, "{tone:?} {step}: {grey:?}");
+                assert!(
+                    near(grey, [grey[0]; 3], 1e-12) && grey[0] >= before,
+                    "{tone:?} {step}: {grey:?}"
+                );
                 before = grey[0];
             }
         }
@@ -131,8 +162,14 @@ mod tests {
         let shown = |v: f64| Tone::Agx.display([v; 3])[0];
         assert!((shown(0.18) - 0.5).abs() < 1e-12);
         // 2^−12.47393 and 2^4.026069, the ends of the range.
-        assert!(shown(libm::exp2(-12.473_931_188)) < 1e-9 && shown(libm::exp2(4.026_068_812)) > 1.0 - 1e-9);
-        assert!(near(Tone::Agx.display([1e9, 0.0, 0.0]), [1.0; 3], 1e-9), "a blinding red is white");
+        assert!(
+            shown(libm::exp2(-12.473_931_188)) < 1e-9
+                && shown(libm::exp2(4.026_068_812)) > 1.0 - 1e-9
+        );
+        assert!(
+            near(Tone::Agx.display([1e9, 0.0, 0.0]), [1.0; 3], 1e-9),
+            "a blinding red is white"
+        );
     }
 
     #[test]
@@ -150,8 +187,16 @@ mod tests {
     #[test]
     fn the_inset_of_agx_has_the_matrix_published() {
         let [r, g, b] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(agx_grey);
-        let diagonal = [0.842_401_070_950_5, 0.878_436_501_561_8, 0.879_162_427_487_7];
-        let inverse = [1.196_998_661_311_9, 1.151_954_373_047_7, 1.151_046_965_640_3];
+        let diagonal = [
+            0.842_401_070_950_5,
+            0.878_436_501_561_8,
+            0.879_162_427_487_7,
+        ];
+        let inverse = [
+            1.196_998_661_311_9,
+            1.151_954_373_047_7,
+            1.151_046_965_640_3,
+        ];
         assert!(near([r, g, b].map(|w| 0.8 + 0.2 * w), diagonal, 1e-12));
         assert!(near([r, g, b].map(|w| 1.25 - 0.25 * w), inverse, 1e-12));
     }
@@ -167,7 +212,14 @@ mod tests {
         // By hand: x = 0, p = 2, pn = 1 − 0.0576/1.48, g = 1/(0.15·(2 − pn) + 1).
         let pn = 1.0 - 0.0576 / 1.48;
         let g = 1.0 / (0.15 * (2.0 - pn) + 1.0);
-        assert!(near(shown([2.0, 1.0, 0.0]), [pn, pn * g / 2.0 + pn * (1.0 - g), pn * (1.0 - g)], 1e-6));
-        assert!(near(shown([0.04; 3]), [0.01; 3], 1e-6), "0.04 − (0.04 − 0.04²/0.16)");
+        assert!(near(
+            shown([2.0, 1.0, 0.0]),
+            [pn, pn * g / 2.0 + pn * (1.0 - g), pn * (1.0 - g)],
+            1e-6
+        ));
+        assert!(
+            near(shown([0.04; 3]), [0.01; 3], 1e-6),
+            "0.04 − (0.04 − 0.04²/0.16)"
+        );
     }
 }

@@ -1,7 +1,8 @@
 //! Diagnostics: one struct, one table of codes, one sink, and the printers.
 //!
-//! A diagnostic is made where the fault is seen and pushed into the sink; a user's mistake is never an `Err`.
-//! Messages are lower case without a full stop and say what is wrong; hints say what to do; labels say what is here.
+//! A diagnostic is made where the fault is seen and pushed into the sink; a user's mistake is never
+//! an `Err`. Messages are lower case without a full stop and say what is wrong; hints say what to
+//! do; labels say what is here.
 
 mod clip;
 pub mod codes;
@@ -88,41 +89,70 @@ impl Diagnostic {
     /// Sets the culprit; without a span nothing happens.
     #[must_use]
     pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
-        let primary = span.into().map(|span| Label { span, text: text.into() });
-        Self { primary: primary.or(self.primary), ..self }
+        let primary = span.into().map(|span| Label {
+            span,
+            text: text.into(),
+        });
+        Self {
+            primary: primary.or(self.primary),
+            ..self
+        }
     }
 
     /// Adds another place that matters; without a span nothing happens.
     #[must_use]
     pub fn also(mut self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
-        self.secondary.extend(span.into().map(|span| Label { span, text: text.into() }));
+        self.secondary.extend(span.into().map(|span| Label {
+            span,
+            text: text.into(),
+        }));
         self
     }
 
     /// Adds advice.
     #[must_use]
     pub fn hint(mut self, text: impl Into<String>) -> Self {
-        self.hints.push(Hint { text: text.into(), replacement: None });
+        self.hints.push(Hint {
+            text: text.into(),
+            replacement: None,
+        });
         self
     }
 
     /// Adds advice with the text that follows it; without a span it is plain advice.
     #[must_use]
-    pub fn replace(mut self, hint: impl Into<String>, span: impl Into<Option<Span>>, by: impl Into<String>) -> Self {
-        let replacement = span.into().map(|span| Replacement { span, text: by.into() });
-        self.hints.push(Hint { text: hint.into(), replacement });
+    pub fn replace(
+        mut self,
+        hint: impl Into<String>,
+        span: impl Into<Option<Span>>,
+        by: impl Into<String>,
+    ) -> Self {
+        let replacement = span.into().map(|span| Replacement {
+            span,
+            text: by.into(),
+        });
+        self.hints.push(Hint {
+            text: hint.into(),
+            replacement,
+        });
         self
     }
 
     /// Sets the JSON pointer.
     #[must_use]
     pub fn pointer(self, pointer: impl Into<String>) -> Self {
-        Self { pointer: Some(pointer.into()), ..self }
+        Self {
+            pointer: Some(pointer.into()),
+            ..self
+        }
     }
 
     /// Sets the name that the glTF validator of Khronos has for it.
     #[must_use]
     pub fn alias(self, alias: impl Into<Option<&'static str>>) -> Self {
-        Self { alias: alias.into(), ..self }
+        Self {
+            alias: alias.into(),
+            ..self
+        }
     }
 }

@@ -1,4 +1,5 @@
-//! The sink: collects findings, counts errors, and keeps no more than a hostile file can be allowed to make.
+//! The sink: collects findings, counts errors, and keeps no more than a hostile file can be allowed
+//! to make.
 
 use super::{Diagnostic, Severity};
 use crate::source::{Limits, Resource};
@@ -24,15 +25,22 @@ impl Sink {
     #[must_use]
     pub fn within(limits: &Limits) -> Self {
         let capacity = usize::try_from(limits.of(Resource::Findings, 0)).unwrap_or(usize::MAX);
-        Self { capacity, kept: Vec::new(), errors: 0, dropped: 0 }
+        Self {
+            capacity,
+            kept: Vec::new(),
+            errors: 0,
+            dropped: 0,
+        }
     }
 
-    /// Takes one finding. An error always finds a place among the first of its kind, however many notes came before.
+    /// Takes one finding. An error always finds a place among the first of its kind, however many
+    /// notes came before.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.push_with(diagnostic.severity, || diagnostic);
     }
 
-    /// Takes one finding of this severity, which is made only if it is kept: a flood of them costs little.
+    /// Takes one finding of this severity, which is made only if it is kept: a flood of them costs
+    /// little.
     pub fn push_with(&mut self, severity: Severity, make: impl FnOnce() -> Diagnostic) {
         let first_error = severity == Severity::Error && self.errors == 0;
         self.errors += usize::from(severity == Severity::Error);
@@ -63,7 +71,12 @@ impl Sink {
 
     /// Sorts the findings by place; those without one come last, in the order they were made.
     pub fn sort(&mut self) {
-        self.kept.sort_by_key(|d| (d.primary.is_none(), d.primary.as_ref().map(|label| label.span)));
+        self.kept.sort_by_key(|d| {
+            (
+                d.primary.is_none(),
+                d.primary.as_ref().map(|label| label.span),
+            )
+        });
     }
 }
 

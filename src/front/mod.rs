@@ -1,5 +1,5 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language, one for the files they name, and
-//! what decodes pictures within the budget for all of them.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language, one for the
+//! files they name, and what decodes pictures within the budget for all of them.
 
 pub mod assets;
 pub mod course;
@@ -27,7 +27,8 @@ pub struct Options {
     pub animation: Option<String>,
     /// Of a glTF asset: the variant of its materials.
     pub variant: Option<String>,
-    /// Of a glTF asset: the camera, by its name, that of its node, or its index; the first one that shows anything without.
+    /// Of a glTF asset: the camera, by its name, that of its node, or its index; the first one
+    /// that shows anything without.
     pub camera: Option<String>,
 }
 

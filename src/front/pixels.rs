@@ -1,4 +1,5 @@
-//! Pixel files decoded within the budget of the run: what a file takes is charged before it is decoded.
+//! Pixel files decoded within the budget of the run: what a file takes is charged before it is
+//! decoded.
 
 use crate::image::{Cost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
 use crate::source::{Budget, Exceeded, Resource};
@@ -39,9 +40,19 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, Refuse
 }
 
 fn charge(cost: Cost, budget: &Budget) -> Result<(), Refused> {
-    let Cost { pixels, memory, passing } = cost;
-    budget.charge(Resource::Pixels, pixels).map_err(Refused::Limit)?;
+    let Cost {
+        pixels,
+        memory,
+        passing,
+    } = cost;
+    budget
+        .charge(Resource::Pixels, pixels)
+        .map_err(Refused::Limit)?;
     // What is given back at once only has to be there.
-    budget.has(Resource::Memory, memory.saturating_add(passing)).map_err(Refused::Limit)?;
-    budget.charge(Resource::Memory, memory).map_err(Refused::Limit)
+    budget
+        .has(Resource::Memory, memory.saturating_add(passing))
+        .map_err(Refused::Limit)?;
+    budget
+        .charge(Resource::Memory, memory)
+        .map_err(Refused::Limit)
 }

@@ -1,5 +1,5 @@
-//! The look: what becomes of a film of linear values on its way to a file: exposure, tone map, and what is behind all
-//! surfaces.
+//! The look: what becomes of a film of linear values on its way to a file: exposure, tone map, and
+//! what is behind all surfaces.
 
 use super::{Image, Layers, Picture};
 use crate::color::Tone;
@@ -32,29 +32,45 @@ pub struct Look {
     pub stops: f64,
     /// The tone map.
     pub tone: Tone,
-    /// What is behind; but for [`Backdrop::Film`], the film must have been made with nothing behind its surfaces.
+    /// What is behind; but for [`Backdrop::Film`], the film must have been made with nothing
+    /// behind its surfaces.
     pub backdrop: Backdrop,
 }
 
 impl Look {
     /// The picture of a film, with the coverage of its pixels.
     #[must_use]
-    pub fn develop(&self, mut film: Image, coverage: Vec<f32>, association: Association) -> Picture {
+    pub fn develop(
+        &self,
+        mut film: Image,
+        coverage: Vec<f32>,
+        association: Association,
+    ) -> Picture {
         let exposure = libm::exp2(self.stops.clamp(-64.0, 64.0));
         for (pixel, share) in film.pixels.iter_mut().zip(&coverage) {
             let share = f64::from(*share);
-            let weight = if self.backdrop == Backdrop::Film { 1.0 } else { share };
+            let weight = if self.backdrop == Backdrop::Film {
+                1.0
+            } else {
+                share
+            };
             // What covers the pixel in part is toned as if it covered it whole.
             let scale = if weight > 0.0 { exposure / weight } else { 0.0 };
             let shown = self.tone.display(pixel.map(|v| v * scale));
             *pixel = match (self.backdrop, association) {
                 (Backdrop::Film, _) | (Backdrop::Transparent, Association::Straight) => shown,
                 (Backdrop::Transparent, Association::Associated) => shown.map(|v| v * share),
-                (Backdrop::Color(color), _) => [0, 1, 2].map(|k| shown[k] * share + color[k] * (1.0 - share)),
+                (Backdrop::Color(color), _) => {
+                    [0, 1, 2].map(|k| shown[k] * share + color[k] * (1.0 - share))
+                }
             };
         }
         let alpha = (self.backdrop == Backdrop::Transparent).then_some(coverage);
-        Picture { image: film, alpha, layers: Layers::default() }
+        Picture {
+            image: film,
+            alpha,
+            layers: Layers::default(),
+        }
     }
 }
 
@@ -65,13 +81,28 @@ mod tests {
     /// Pixels covered not at all, to a quarter, and wholly, by radiance 0.5 of red and 2 of blue.
     fn film() -> (Image, Vec<f32>) {
         let coverage = vec![0.0, 0.25, 1.0];
-        let pixels = coverage.iter().map(|share| [0.5, 0.0, 2.0].map(|v| v * f64::from(*share))).collect();
-        (Image { width: 3, height: 1, pixels }, coverage)
+        let pixels = coverage
+            .iter()
+            .map(|share| [0.5, 0.0, 2.0].map(|v| v * f64::from(*share)))
+            .collect();
+        (
+            Image {
+                width: 3,
+                height: 1,
+                pixels,
+            },
+            coverage,
+        )
     }
 
     fn develop(stops: f64, tone: Tone, backdrop: Backdrop, association: Association) -> Picture {
         let (image, coverage) = film();
-        Look { stops, tone, backdrop }.develop(image, coverage, association)
+        Look {
+            stops,
+            tone,
+            backdrop,
+        }
+        .develop(image, coverage, association)
     }
 
     #[test]
@@ -83,7 +114,10 @@ mod tests {
     #[test]
     fn a_stop_is_a_factor_of_two_before_the_tone_map() {
         let picture = develop(-1.0, Tone::Srgb, Backdrop::Film, Association::Straight);
-        assert_eq!(picture.image.pixels[2], Tone::Srgb.display([0.25, 0.0, 1.0]));
+        assert_eq!(
+            picture.image.pixels[2],
+            Tone::Srgb.display([0.25, 0.0, 1.0])
+        );
     }
 
     #[test]
@@ -92,16 +126,32 @@ mod tests {
         let whole = Tone::Agx.display([1.0, 0.0, 4.0]);
         assert_eq!(straight.image.pixels[1..], [whole; 2]);
         assert_eq!(straight.alpha, Some(film().1));
-        let linear = develop(1.0, Tone::None, Backdrop::Transparent, Association::Associated);
-        assert_eq!(linear.image.pixels, [[0.0; 3], [0.25, 0.0, 1.0], [1.0, 0.0, 4.0]]);
+        let linear = develop(
+            1.0,
+            Tone::None,
+            Backdrop::Transparent,
+            Association::Associated,
+        );
+        assert_eq!(
+            linear.image.pixels,
+            [[0.0; 3], [0.25, 0.0, 1.0], [1.0, 0.0, 4.0]]
+        );
     }
 
     #[test]
     fn a_colour_behind_is_what_a_page_of_that_colour_shows_through() {
         let color = [0.25, 0.5, 1.0];
-        let picture = develop(0.0, Tone::Srgb, Backdrop::Color(color), Association::Straight);
+        let picture = develop(
+            0.0,
+            Tone::Srgb,
+            Backdrop::Color(color),
+            Association::Straight,
+        );
         let whole = Tone::Srgb.display([0.5, 0.0, 2.0]);
         let mixed = [0, 1, 2].map(|k| 0.25 * whole[k] + 0.75 * color[k]);
-        assert_eq!((picture.image.pixels, picture.alpha), (vec![color, mixed, whole], None));
+        assert_eq!(
+            (picture.image.pixels, picture.alpha),
+            (vec![color, mixed, whole], None)
+        );
     }
 }

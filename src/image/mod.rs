@@ -1,5 +1,6 @@
-//! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8 or 16 bit) or EXR, the
-//! same bytes every time; PNG, JPEG and WebP read, and pictures of light from HDR and EXR.
+//! Pixels and pixel files, in memory: a film developed into a picture; a picture written as PNG (8
+//! or 16 bit) or EXR, the same bytes every time; PNG, JPEG and WebP read, and pictures of light
+//! from HDR and EXR.
 
 mod decode;
 mod exr;
@@ -40,7 +41,8 @@ pub struct Picture {
 /// Further numbers of each pixel of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Layers {
-    /// The name of each channel, layer and channel apart by a dot, as `normal.X`; none of them twice.
+    /// The name of each channel, layer and channel apart by a dot, as `normal.X`; none of them
+    /// twice.
     pub names: Vec<&'static str>,
     /// The values of all channels, pixel after pixel.
     pub values: Vec<f32>,
@@ -68,7 +70,8 @@ pub struct Origin {
     pub settings: String,
 }
 
-/// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a reason.
+/// Why a picture has no pixel file, in the encoder's words; a width or height of 0 is such a
+/// reason.
 #[derive(Debug)]
 pub struct EncodeError(String);
 
@@ -82,7 +85,11 @@ impl Picture {
     /// A picture of colours alone.
     #[must_use]
     pub fn opaque(image: Image) -> Self {
-        Self { image, alpha: None, layers: Layers::default() }
+        Self {
+            image,
+            alpha: None,
+            layers: Layers::default(),
+        }
     }
 
     /// The bytes of the pixel file.
@@ -92,7 +99,9 @@ impl Picture {
     pub fn encode(&self, form: &Form) -> Result<Vec<u8>, EncodeError> {
         let Image { width, height, .. } = self.image;
         if width == 0 || height == 0 {
-            return Err(EncodeError(format!("a picture of {width}×{height} pixels has no file")));
+            return Err(EncodeError(format!(
+                "a picture of {width}×{height} pixels has no file"
+            )));
         }
         match form {
             Form::Png8 => png::eight_bit(self),
@@ -108,7 +117,11 @@ mod tests {
 
     #[test]
     fn an_empty_picture_is_refused() {
-        let empty = Picture::opaque(Image { width: 0, height: 3, pixels: Vec::new() });
+        let empty = Picture::opaque(Image {
+            width: 0,
+            height: 3,
+            pixels: Vec::new(),
+        });
         for form in [Form::Png8, Form::Png16, Form::Exr(Origin::default())] {
             assert!(empty.encode(&form).is_err());
         }

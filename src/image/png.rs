@@ -1,5 +1,5 @@
-//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries no colour profile, no
-//! gamma and no time.
+//! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries
+//! no colour profile, no gamma and no time.
 
 use super::{EncodeError, Picture};
 use crate::color;
@@ -10,7 +10,11 @@ use ::image::{ExtendedColorType, ImageEncoder};
 pub(super) fn eight_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::with_capacity(channels(picture));
     bytes.extend(samples(picture).map(color::quantize8));
-    encode(picture, &bytes, [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8])
+    encode(
+        picture,
+        &bytes,
+        [ExtendedColorType::Rgb8, ExtendedColorType::Rgba8],
+    )
 }
 
 /// The picture in 16 bits per channel.
@@ -18,7 +22,11 @@ pub(super) fn sixteen_bit(picture: &Picture) -> Result<Vec<u8>, EncodeError> {
     // The encoder takes 16-bit samples in the order of the machine and turns them round itself.
     let mut bytes = Vec::with_capacity(2 * channels(picture));
     bytes.extend(samples(picture).flat_map(|v| color::quantize16(v).to_ne_bytes()));
-    encode(picture, &bytes, [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16])
+    encode(
+        picture,
+        &bytes,
+        [ExtendedColorType::Rgb16, ExtendedColorType::Rgba16],
+    )
 }
 
 /// How many channels all pixels have.
@@ -29,10 +37,19 @@ fn channels(picture: &Picture) -> usize {
 /// The channels of all pixels.
 fn samples(picture: &Picture) -> impl Iterator<Item = f64> {
     let alpha = |index: usize| picture.alpha.as_ref().map(|alpha| f64::from(alpha[index]));
-    picture.image.pixels.iter().enumerate().flat_map(move |(index, pixel)| pixel.iter().copied().chain(alpha(index)))
+    picture
+        .image
+        .pixels
+        .iter()
+        .enumerate()
+        .flat_map(move |(index, pixel)| pixel.iter().copied().chain(alpha(index)))
 }
 
-fn encode(picture: &Picture, samples: &[u8], kinds: [ExtendedColorType; 2]) -> Result<Vec<u8>, EncodeError> {
+fn encode(
+    picture: &Picture,
+    samples: &[u8],
+    kinds: [ExtendedColorType; 2],
+) -> Result<Vec<u8>, EncodeError> {
     let mut bytes = Vec::new();
     let kind = kinds[usize::from(picture.alpha.is_some())];
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
@@ -47,33 +64,67 @@ mod tests {
     use super::*;
 
     fn ramp() -> Picture {
-        let pixels = (0..35).map(|i| [f64::from(i) / 34.0, 1.0 - f64::from(i) / 20.0, f64::NAN]).collect();
-        Picture::opaque(Image { width: 7, height: 5, pixels })
+        let pixels = (0..35)
+            .map(|i| [f64::from(i) / 34.0, 1.0 - f64::from(i) / 20.0, f64::NAN])
+            .collect();
+        Picture::opaque(Image {
+            width: 7,
+            height: 5,
+            pixels,
+        })
     }
 
     #[test]
     fn eight_bits_come_back() {
         let read = ::image::load_from_memory(&ramp().encode(&Form::Png8).unwrap()).unwrap();
-        let expected: Vec<u8> = ramp().image.pixels.iter().flatten().map(|&v| color::quantize8(v)).collect();
-        assert_eq!(((read.width(), read.height()), read.as_rgb8().unwrap().as_raw()), ((7, 5), &expected));
+        let expected: Vec<u8> = ramp()
+            .image
+            .pixels
+            .iter()
+            .flatten()
+            .map(|&v| color::quantize8(v))
+            .collect();
+        assert_eq!(
+            (
+                (read.width(), read.height()),
+                read.as_rgb8().unwrap().as_raw()
+            ),
+            ((7, 5), &expected)
+        );
     }
 
     #[test]
     fn sixteen_bits_come_back() {
         let read = ::image::load_from_memory(&ramp().encode(&Form::Png16).unwrap()).unwrap();
-        let expected: Vec<u16> = ramp().image.pixels.iter().flatten().map(|&v| color::quantize16(v)).collect();
+        let expected: Vec<u16> = ramp()
+            .image
+            .pixels
+            .iter()
+            .flatten()
+            .map(|&v| color::quantize16(v))
+            .collect();
         assert_eq!(read.as_rgb16().unwrap().as_raw(), &expected);
     }
 
     #[test]
     fn opacity_comes_back_beside_the_colours() {
         let pixels = vec![[1.0, 0.5, 0.0]; 3];
-        let mut picture = Picture::opaque(Image { width: 3, height: 1, pixels });
+        let mut picture = Picture::opaque(Image {
+            width: 3,
+            height: 1,
+            pixels,
+        });
         picture.alpha = Some(vec![0.0, 0.5, 1.0]);
         let read = |form| ::image::load_from_memory(&picture.encode(&form).unwrap()).unwrap();
-        let eight: Vec<u8> = [0, 127, 255].into_iter().flat_map(|alpha| [255, 127, 0, alpha]).collect();
+        let eight: Vec<u8> = [0, 127, 255]
+            .into_iter()
+            .flat_map(|alpha| [255, 127, 0, alpha])
+            .collect();
         assert_eq!(read(Form::Png8).as_rgba8().unwrap().as_raw(), &eight);
-        let sixteen: Vec<u16> = [0, 32767, 65535].into_iter().flat_map(|alpha| [65535, 32767, 0, alpha]).collect();
+        let sixteen: Vec<u16> = [0, 32767, 65535]
+            .into_iter()
+            .flat_map(|alpha| [65535, 32767, 0, alpha])
+            .collect();
         assert_eq!(read(Form::Png16).as_rgba16().unwrap().as_raw(), &sixteen);
     }
 
@@ -81,7 +132,10 @@ mod tests {
     fn only_the_three_chunks_that_are_needed() {
         let bytes = ramp().encode(&Form::Png8).unwrap();
         for chunk in ["gAMA", "sRGB", "iCCP", "tIME", "tEXt"] {
-            assert!(!bytes.windows(4).any(|window| window == chunk.as_bytes()), "{chunk}");
+            assert!(
+                !bytes.windows(4).any(|window| window == chunk.as_bytes()),
+                "{chunk}"
+            );
         }
         assert_eq!(bytes, ramp().encode(&Form::Png8).unwrap());
     }

@@ -1,5 +1,5 @@
-//! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. A file is opened first, as a
-//! [`super::PixelFile`] is.
+//! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. A
+//! file is opened first, as a [`super::PixelFile`] is.
 
 use super::decode::{Cost, DecodeError, Size};
 use ::exr::meta::MetaData;
@@ -19,7 +19,8 @@ pub struct Radiance {
     pub width: u32,
     /// Height in pixels, at least 1.
     pub height: u32,
-    /// Rows from the top; red, green and blue as little-endian 32-bit floats, finite and at least 0.
+    /// Rows from the top; red, green and blue as little-endian 32-bit floats, finite and at least
+    /// 0.
     pub bytes: Vec<u8>,
 }
 
@@ -40,7 +41,8 @@ impl<'a> RadianceFile<'a> {
     /// Reads the header of a Radiance HDR or OpenEXR file.
     ///
     /// # Errors
-    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
+    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are
+    /// allowed.
     pub fn open(bytes: &'a [u8], most_pixels: u64) -> Result<Self, DecodeError> {
         match (is_exr(bytes), is_hdr(bytes)) {
             (true, _) => open_exr(bytes, most_pixels),
@@ -57,18 +59,29 @@ impl<'a> RadianceFile<'a> {
     #[must_use]
     pub fn cost(&self) -> Cost {
         let pixels = self.size.pixels();
-        Cost { pixels, memory: pixels.saturating_mul(PIXEL as u64 + 8), passing: self.block }
+        Cost {
+            pixels,
+            memory: pixels.saturating_mul(PIXEL as u64 + 8),
+            passing: self.block,
+        }
     }
 
-    /// Decodes it; of an EXR the first layer with red, green and blue. Negative values, which filters leave behind, become 0.
+    /// Decodes it; of an EXR the first layer with red, green and blue. Negative values, which
+    /// filters leave behind, become 0.
     ///
     /// # Errors
     /// If the file is damaged or holds a value that is not finite, or there is no memory for it.
     pub fn decode(self) -> Result<Radiance, DecodeError> {
-        let Self { mut size, block: _, decoder } = self;
+        let Self {
+            mut size,
+            block: _,
+            decoder,
+        } = self;
         let mut bytes = size.buffer(PIXEL)?;
         match decoder {
-            Decoder::Hdr(decoder) => decoder.read_image(&mut bytes).map_err(DecodeError::damaged)?,
+            Decoder::Hdr(decoder) => decoder
+                .read_image(&mut bytes)
+                .map_err(DecodeError::damaged)?,
             Decoder::Exr(file) => (size, bytes) = decode_exr(file, bytes)?,
         }
         let mut is_finite = true;
@@ -80,7 +93,11 @@ impl<'a> RadianceFile<'a> {
         if !is_finite {
             return Err(DecodeError::Damaged("a pixel is not finite".to_owned()));
         }
-        Ok(Radiance { width: size.width, height: size.height, bytes })
+        Ok(Radiance {
+            width: size.width,
+            height: size.height,
+            bytes,
+        })
     }
 }
 
@@ -101,22 +118,34 @@ fn is_hdr(head: &[u8]) -> bool {
 fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
     // Only files that begin so pass the strict reader; the others differ in nothing else.
     let is_strict = bytes.starts_with(b"#?RADIANCE");
-    let decoder = HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(DecodeError::damaged)?;
+    let decoder =
+        HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
     let size = Size::within(most_pixels, width, height)?;
-    Ok(RadianceFile { size, block: u64::from(width) * 4, decoder: Decoder::Hdr(decoder) })
+    Ok(RadianceFile {
+        size,
+        block: u64::from(width) * 4,
+        decoder: Decoder::Hdr(decoder),
+    })
 }
 
 fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(DecodeError::damaged)?;
+    let meta =
+        MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(DecodeError::damaged)?;
     let (mut largest, mut block) = (None::<Size>, 0);
     for header in &meta.headers {
         let size = size_of(most_pixels, header.layer_size)?;
-        largest = largest.filter(|largest| largest.pixels() >= size.pixels()).or(Some(size));
+        largest = largest
+            .filter(|largest| largest.pixels() >= size.pixels())
+            .or(Some(size));
         block += passing(header);
     }
     let size = largest.ok_or_else(|| DecodeError::Damaged("it has no layers".to_owned()))?;
-    Ok(RadianceFile { size, block, decoder: Decoder::Exr(bytes) })
+    Ok(RadianceFile {
+        size,
+        block,
+        decoder: Decoder::Exr(bytes),
+    })
 }
 
 /// The table of the blocks of a layer, and a block packed and unpacked.
@@ -126,7 +155,8 @@ fn passing(header: &Header) -> u64 {
         .saturating_add((header.max_block_byte_size() as u64).saturating_mul(3))
 }
 
-/// Decodes into the buffer, which has room for the largest layer, and says of what size the layer is that was decoded.
+/// Decodes into the buffer, which has room for the largest layer, and says of what size the layer
+/// is that was decoded.
 fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(Size, Vec<u8>), DecodeError> {
     let buffer = std::cell::Cell::new(buffer);
     let image = read()
@@ -141,7 +171,10 @@ fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(Size, Vec<u8>), DecodeErr
             |(width, bytes): &mut (usize, Vec<u8>), at: Vec2<usize>, (r, g, b): (f32, f32, f32)| {
                 let start = (at.y() * *width + at.x()) * PIXEL;
                 let pixel = bytes[start..start + PIXEL].as_chunks_mut::<4>().0;
-                pixel.iter_mut().zip([r, g, b]).for_each(|(bytes, channel)| *bytes = channel.to_ne_bytes());
+                pixel
+                    .iter_mut()
+                    .zip([r, g, b])
+                    .for_each(|(bytes, channel)| *bytes = channel.to_ne_bytes());
             },
         )
         .first_valid_layer()
@@ -164,7 +197,8 @@ mod tests {
     use ::exr::prelude::{SpecificChannels, WritableImage};
 
     /// Two by one pixels: (1, 0.5, 0.25) and black, in exponents of 129 and 0.
-    const HDR: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x81\x00\x00\x00\x00";
+    const HDR: &[u8] =
+        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x40\x20\x81\x00\x00\x00\x00";
 
     fn read(bytes: &[u8]) -> Result<Radiance, DecodeError> {
         RadianceFile::open(bytes, 1 << 25)?.decode()
@@ -172,20 +206,42 @@ mod tests {
 
     #[test]
     fn both_formats_are_read() {
-        let bytes = [1.0_f32, 0.5, 0.25, 0.0, 0.0, 0.0].into_iter().flat_map(f32::to_le_bytes).collect();
-        let expected = Radiance { width: 2, height: 1, bytes };
+        let bytes = [1.0_f32, 0.5, 0.25, 0.0, 0.0, 0.0]
+            .into_iter()
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        let expected = Radiance {
+            width: 2,
+            height: 1,
+            bytes,
+        };
         assert_eq!(read(HDR).unwrap(), expected);
         let named = [b"#?RGBE".as_slice(), &HDR[10..]].concat();
         assert_eq!(read(&named).unwrap(), expected);
-        let image = Image { width: 2, height: 1, pixels: vec![[1.0, 0.5, 0.25], [-1.0, 0.0, 0.0]] };
-        assert_eq!(read(&Picture::opaque(image).encode(&Form::Exr(Origin::default())).unwrap()).unwrap(), expected);
+        let image = Image {
+            width: 2,
+            height: 1,
+            pixels: vec![[1.0, 0.5, 0.25], [-1.0, 0.0, 0.0]],
+        };
+        assert_eq!(
+            read(
+                &Picture::opaque(image)
+                    .encode(&Form::Exr(Origin::default()))
+                    .unwrap()
+            )
+            .unwrap(),
+            expected
+        );
     }
 
     #[test]
     fn what_is_no_light_is_refused() {
         let infinite = SpecificChannels::rgb(|_| (1.0_f32, f32::INFINITY, 1.0_f32));
         let mut bytes = Cursor::new(Vec::new());
-        ::exr::prelude::Image::from_channels((1, 1), infinite).write().to_buffered(&mut bytes).unwrap();
+        ::exr::prelude::Image::from_channels((1, 1), infinite)
+            .write()
+            .to_buffered(&mut bytes)
+            .unwrap();
         let infinite = bytes.into_inner();
         let huge = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 65535 +X 65535\n";
         let cases: [(&[u8], &str); 6] = [

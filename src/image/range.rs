@@ -7,7 +7,8 @@ use super::{Image, Layers, Picture};
 pub struct Lost {
     /// How many pixels have a value that is no number: 0 in every file.
     pub unnumbered: u64,
-    /// The channels with values beyond the largest 32-bit float, 3.4e38: an EXR has that in their place.
+    /// The channels with values beyond the largest 32-bit float, 3.4e38: an EXR has that in their
+    /// place.
     pub beyond: Vec<&'static str>,
 }
 
@@ -15,7 +16,10 @@ impl Image {
     /// How many pixels have a value that is no number.
     #[must_use]
     pub fn unnumbered(&self) -> u64 {
-        self.pixels.iter().filter(|pixel| pixel.iter().any(|value| value.is_nan())).count() as u64
+        self.pixels
+            .iter()
+            .filter(|pixel| pixel.iter().any(|value| value.is_nan()))
+            .count() as u64
     }
 }
 
@@ -23,16 +27,31 @@ impl Picture {
     /// What files of this picture can't hold.
     #[must_use]
     pub fn lost(&self) -> Lost {
-        let Self { image: Image { pixels, .. }, alpha: _, layers: Layers { names, values } } = self;
+        let Self {
+            image: Image { pixels, .. },
+            alpha: _,
+            layers: Layers { names, values },
+        } = self;
         let width = names.len();
         let layer = |index: usize| &values[index * width..(index + 1) * width];
         let is_unnumbered = |(index, pixel): &(usize, &[f64; 3])| {
-            pixel.iter().any(|value| value.is_nan()) || layer(*index).iter().any(|value| value.is_nan())
+            pixel.iter().any(|value| value.is_nan())
+                || layer(*index).iter().any(|value| value.is_nan())
         };
         let colors = ["R", "G", "B"].into_iter().enumerate();
-        let colors = colors.filter(|(k, _)| pixels.iter().any(|pixel| pixel[*k].abs() > f64::from(f32::MAX)));
+        let colors = colors.filter(|(k, _)| {
+            pixels
+                .iter()
+                .any(|pixel| pixel[*k].abs() > f64::from(f32::MAX))
+        });
         let layers = names.iter().copied().enumerate();
-        let layers = layers.filter(|(k, _)| values.iter().skip(*k).step_by(width).any(|value| value.is_infinite()));
+        let layers = layers.filter(|(k, _)| {
+            values
+                .iter()
+                .skip(*k)
+                .step_by(width)
+                .any(|value| value.is_infinite())
+        });
         Lost {
             unnumbered: pixels.iter().enumerate().filter(is_unnumbered).count() as u64,
             beyond: colors.chain(layers).map(|(_, name)| name).collect(),
@@ -41,10 +60,17 @@ impl Picture {
 }
 
 /// The float nearest to a number, of those that are finite; 0 for what is no number.
-#[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounds to the nearest float"
+)]
 pub(super) fn narrow(v: f64) -> f32 {
     let largest = f64::from(f32::MAX);
-    if v.is_nan() { 0.0 } else { v.clamp(-largest, largest) as f32 }
+    if v.is_nan() {
+        0.0
+    } else {
+        v.clamp(-largest, largest) as f32
+    }
 }
 
 #[cfg(test)]
@@ -53,16 +79,52 @@ mod tests {
 
     #[test]
     fn what_a_file_cant_hold_is_counted() {
-        let pixels = vec![[0.0, 1.0, 1e39], [f64::NAN, f64::INFINITY, 0.0], [0.0; 3], [f64::from(f32::MAX); 3]];
-        let mut picture = Picture::opaque(Image { width: 2, height: 2, pixels });
-        assert_eq!(picture.lost(), Lost { unnumbered: 1, beyond: vec!["G", "B"] });
-        let values = vec![1.0, f32::NEG_INFINITY, 2.0, f32::NAN, f32::NAN, 0.0, f32::MAX, 3.0];
-        picture.layers = Layers { names: vec!["depth.Z", "uv.U"], values };
-        assert_eq!(picture.lost(), Lost { unnumbered: 2, beyond: vec!["G", "B", "uv.U"] });
+        let pixels = vec![
+            [0.0, 1.0, 1e39],
+            [f64::NAN, f64::INFINITY, 0.0],
+            [0.0; 3],
+            [f64::from(f32::MAX); 3],
+        ];
+        let mut picture = Picture::opaque(Image {
+            width: 2,
+            height: 2,
+            pixels,
+        });
+        assert_eq!(
+            picture.lost(),
+            Lost {
+                unnumbered: 1,
+                beyond: vec!["G", "B"]
+            }
+        );
+        let values = vec![
+            1.0,
+            f32::NEG_INFINITY,
+            2.0,
+            f32::NAN,
+            f32::NAN,
+            0.0,
+            f32::MAX,
+            3.0,
+        ];
+        picture.layers = Layers {
+            names: vec!["depth.Z", "uv.U"],
+            values,
+        };
+        assert_eq!(
+            picture.lost(),
+            Lost {
+                unnumbered: 2,
+                beyond: vec!["G", "B", "uv.U"]
+            }
+        );
     }
 
     #[test]
     fn floats_are_finite() {
-        assert_eq!([1e39, -f64::INFINITY, f64::NAN, 0.1].map(narrow), [f32::MAX, f32::MIN, 0.0, 0.1]);
+        assert_eq!(
+            [1e39, -f64::INFINITY, f64::NAN, 0.1].map(narrow),
+            [f32::MAX, f32::MIN, 0.0, 0.1]
+        );
     }
 }

@@ -30,18 +30,24 @@ pub struct Camera {
 }
 
 /// How the rays of a camera run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Projection {
     /// From the eye.
     #[default]
     Perspective,
-    /// Side by side: through each point of the image, in the direction from the eye to its middle, from as far before.
+    /// Side by side: through each point of the image, in the direction from the eye to its middle,
+    /// from as far before.
     Orthographic,
 }
 
 impl Projection {
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands over a reference"
+    )]
     fn is_perspective(&self) -> bool {
         *self == Self::Perspective
     }

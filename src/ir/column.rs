@@ -1,7 +1,7 @@
 //! Columns: what a mesh says of its vertices, vertex by vertex, in the precision of its source.
 //!
-//! They are shared, not copied: a proof and a prepared world hold the columns of the scene itself. In JSON a column of
-//! 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
+//! They are shared, not copied: a proof and a prepared world hold the columns of the scene itself.
+//! In JSON a column of 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
 
 use arbitrary::Arbitrary;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -92,7 +92,10 @@ pub enum Column<const N: usize> {
 impl<const N: usize> Column<N> {
     /// The numbers rounded to 32 bits.
     pub fn rounded(vectors: impl IntoIterator<Item = [f64; N]>) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "rounding is what is asked for")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "rounding is what is asked for"
+        )]
         let round = |vector: [f64; N]| vector.map(|number| number as f32);
         vectors.into_iter().map(round).collect::<Vec<_>>().into()
     }
@@ -119,7 +122,10 @@ impl<const N: usize> Column<N> {
         match self {
             Self::Single(vectors) => {
                 let mut vector = [0.0; N];
-                vector.iter_mut().zip(vectors[index]).for_each(|(wide, number)| *wide = f64::from(number));
+                vector
+                    .iter_mut()
+                    .zip(vectors[index])
+                    .for_each(|(wide, number)| *wide = f64::from(number));
                 vector
             }
             Self::Double(vectors) => vectors[index],
@@ -131,11 +137,15 @@ impl<const N: usize> Column<N> {
         (0..self.len()).map(|index| self.at(index))
     }
 
-    /// What it says of these vertices, whose indices are below the length; an empty column stays empty.
+    /// What it says of these vertices, whose indices are below the length; an empty column stays
+    /// empty.
     #[must_use]
     pub fn pick(&self, vertices: &[u32]) -> Self {
         fn pick<T: Copy>(from: &[T], vertices: &[u32]) -> Vec<T> {
-            vertices.iter().map(|vertex| from[*vertex as usize]).collect()
+            vertices
+                .iter()
+                .map(|vertex| from[*vertex as usize])
+                .collect()
         }
         match self {
             _ if self.is_empty() => Self::default(),
@@ -166,7 +176,11 @@ impl<const N: usize> PartialEq for Column<N> {
 
 impl<const N: usize> From<Vec<[f32; N]>> for Column<N> {
     fn from(vectors: Vec<[f32; N]>) -> Self {
-        if vectors.is_empty() { Self::default() } else { Self::Single(vectors.into()) }
+        if vectors.is_empty() {
+            Self::default()
+        } else {
+            Self::Single(vectors.into())
+        }
     }
 }
 
@@ -192,7 +206,9 @@ where
 {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Self::Single(vectors) if !vectors.is_empty() => serializer.collect_map([(SINGLE, vectors)]),
+            Self::Single(vectors) if !vectors.is_empty() => {
+                serializer.collect_map([(SINGLE, vectors)])
+            }
             Self::Single(_) => serializer.collect_seq([(); 0]),
             Self::Double(vectors) => vectors.serialize(serializer),
         }
@@ -220,7 +236,10 @@ where
     type Value = Column<N>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a list of {N} numbers each, or a map of `{SINGLE}` to one")
+        write!(
+            f,
+            "a list of {N} numbers each, or a map of `{SINGLE}` to one"
+        )
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Column<N>, A::Error> {
@@ -228,7 +247,9 @@ where
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Column<N>, A::Error> {
-        let key = map.next_key::<Cow<'_, str>>()?.ok_or_else(|| Error::missing_field(SINGLE))?;
+        let key = map
+            .next_key::<Cow<'_, str>>()?
+            .ok_or_else(|| Error::missing_field(SINGLE))?;
         if key != SINGLE {
             return Err(Error::unknown_field(&key, &[SINGLE]));
         }
@@ -276,17 +297,29 @@ mod tests {
         assert_eq!(text, r#"{"f32":[[0.1,-0.0],[3.4028235e+38,1e-45]]}"#);
         for column in [single, double, Column::default()] {
             let text = serde_json::to_string(&column).unwrap();
-            assert_eq!(format!("{:?}", serde_json::from_str::<Column<2>>(&text).unwrap()), format!("{column:?}"));
+            assert_eq!(
+                format!("{:?}", serde_json::from_str::<Column<2>>(&text).unwrap()),
+                format!("{column:?}")
+            );
             let tree = serde_json::to_value(&column).unwrap();
-            assert_eq!(format!("{:?}", serde_json::from_value::<Column<2>>(tree).unwrap()), format!("{column:?}"));
+            assert_eq!(
+                format!("{:?}", serde_json::from_value::<Column<2>>(tree).unwrap()),
+                format!("{column:?}")
+            );
         }
     }
 
     #[test]
     fn what_is_no_column_is_refused() {
-        for text in
-            ["{}", r#"{"f64":[]}"#, r#"{"f32":[],"f32":[]}"#, r#"{"f32":[[1]]}"#, "[[1]]", "1", r#"{"f32":[[1e39,0]]}"#]
-        {
+        for text in [
+            "{}",
+            r#"{"f64":[]}"#,
+            r#"{"f32":[],"f32":[]}"#,
+            r#"{"f32":[[1]]}"#,
+            "[[1]]",
+            "1",
+            r#"{"f32":[[1e39,0]]}"#,
+        ] {
             assert!(serde_json::from_str::<Column<2>>(text).is_err(), "{text}");
         }
     }
@@ -297,6 +330,9 @@ mod tests {
         let mut second = first.clone();
         assert!(std::ptr::eq(first.as_ptr(), second.as_ptr()));
         second.push(3);
-        assert_eq!((first.as_slice(), second.as_slice()), (&[1, 2][..], &[1, 2, 3][..]));
+        assert_eq!(
+            (first.as_slice(), second.as_slice()),
+            (&[1, 2][..], &[1, 2, 3][..])
+        );
     }
 }

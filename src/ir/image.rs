@@ -33,7 +33,9 @@ pub struct Image {
 }
 
 /// What a pixel is made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Pixels {
     /// Three bytes: red, green, blue.
@@ -56,7 +58,10 @@ impl Pixels {
         }
     }
 
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands over a reference"
+    )]
     fn is_rgb8(&self) -> bool {
         *self == Self::Rgb8
     }
@@ -76,7 +81,9 @@ mod base64_text {
         serializer.collect_str(&Base64Display::new(bytes, &STANDARD))
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Shared<u8>, D::Error> {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Shared<u8>, D::Error> {
         deserializer.deserialize_str(Text)
     }
 
@@ -91,7 +98,9 @@ mod base64_text {
 
         fn visit_str<E: Error>(self, text: &str) -> Result<Shared<u8>, E> {
             let bytes = STANDARD.decode(text);
-            bytes.map(Shared::from).map_err(|fault| E::custom(format_args!("this is not Base64: {fault}")))
+            bytes
+                .map(Shared::from)
+                .map_err(|fault| E::custom(format_args!("this is not Base64: {fault}")))
         }
     }
 }

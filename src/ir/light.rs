@@ -31,8 +31,8 @@ impl Light {
 pub struct Punctual {
     /// How and from where it shines.
     pub emitter: Emitter,
-    /// Linear Rec. 709: of a sun the irradiance on a surface that faces it, of the others the radiant intensity (power
-    /// per steradian); each channel at least 0.
+    /// Linear Rec. 709: of a sun the irradiance on a surface that faces it, of the others the
+    /// radiant intensity (power per steradian); each channel at least 0.
     #[schemars(inner(range(min = 0.0)))]
     pub intensity: [f64; 3],
 }
@@ -51,7 +51,8 @@ pub enum Emitter {
     Point {
         /// Where it stands.
         position: [f64; 3],
-        /// Beyond this distance it is dark, by the falloff of `KHR_lights_punctual`; none for infinite.
+        /// Beyond this distance it is dark, by the falloff of `KHR_lights_punctual`; none for
+        /// infinite.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         range: Option<f64>,
     },
@@ -72,8 +73,8 @@ pub enum Emitter {
     },
 }
 
-/// A point light, or with a radius the sphere around it: then shadows have soft edges. It is no surface, so no ray
-/// sees or hits it.
+/// A point light, or with a radius the sphere around it: then shadows have soft edges. It is no
+/// surface, so no ray sees or hits it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct PointLight {
@@ -88,7 +89,10 @@ pub struct PointLight {
     pub radius: f64,
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
 fn is_zero(radius: &f64) -> bool {
     radius.to_bits() == 0
 }

@@ -39,7 +39,8 @@ impl Material {
     }
 }
 
-/// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) + kt·I(refracted)`.
+/// Phong's model: `I = Σ_l c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)^n)] + ks·I(mirror) +
+/// kt·I(refracted)`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Phong {
@@ -73,7 +74,8 @@ pub struct Phong {
     /// The texture whose red channel multiplies ks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub specular_map: Option<TextureId>,
-    /// The texture that gives the shading normal in the frame of the surface: (2·rgb − 1), blue along the normal.
+    /// The texture that gives the shading normal in the frame of the surface: (2·rgb − 1), blue
+    /// along the normal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal_map: Option<TextureId>,
     /// The texture whose brightness is the height of the surface.

@@ -28,10 +28,12 @@ pub struct Mesh {
     /// The second set of texture coordinates; empty if there is none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub second_uvs: Column<2>,
-    /// The direction of growing u at each corner, and ±1 for that of growing v: `w·(normal × tangent)`; empty if none.
+    /// The direction of growing u at each corner, and ±1 for that of growing v: `w·(normal ×
+    /// tangent)`; empty if none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub tangents: Column<4>,
-    /// The colour at each corner, linear, with alpha: it multiplies that of the material; empty if none.
+    /// The colour at each corner, linear, with alpha: it multiplies that of the material; empty if
+    /// none.
     #[serde(default, skip_serializing_if = "Column::is_empty")]
     pub colors: Column<4>,
     /// The corners of each triangle; its normal is (v1 − v0) × (v2 − v0).

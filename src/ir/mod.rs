@@ -1,9 +1,9 @@
 //! The intermediate representation: a scene with names gone, defaults filled and units resolved.
 //!
-//! It holds numbers as stored, in or out of range: [`crate::valid`] proves them. It knows neither YAML nor glTF, nor
-//! the renderer. Lengths are in scene units, colours are linear display values per channel (red, green, blue), where
-//! 1 is the full byte. Surfaces refer to materials by index; where each value was written is kept beside the scene, in
-//! [`Origins`], and is not part of it.
+//! It holds numbers as stored, in or out of range: [`crate::valid`] proves them. It knows neither
+//! YAML nor glTF, nor the renderer. Lengths are in scene units, colours are linear display values
+//! per channel (red, green, blue), where 1 is the full byte. Surfaces refer to materials by index;
+//! where each value was written is kept beside the scene, in [`Origins`], and is not part of it.
 
 mod bounds;
 mod camera;
@@ -33,7 +33,9 @@ pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
 pub use overrides::Overrides;
 pub use settings::{Gooch, Mode, Path, Pattern, Settings};
-pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+pub use shape::{
+    Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
+};
 pub use stage::{Integrator, Stage, Sun, Surroundings, View};
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
@@ -76,7 +78,8 @@ pub struct Scene {
     pub environment: Option<Environment>,
 }
 
-/// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values beside it.
+/// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values
+/// beside it.
 #[derive(Clone, Debug)]
 pub struct Lowered {
     /// The scene; entities that failed are left out, and the sink has an error for each.

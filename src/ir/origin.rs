@@ -110,7 +110,11 @@ impl Place {
     /// The address of `field` in entity `index` of kind `noun`.
     #[must_use]
     pub fn new(noun: Noun, index: usize, field: Field) -> Self {
-        Self { noun, index: u32::try_from(index).unwrap_or(u32::MAX), field }
+        Self {
+            noun,
+            index: u32::try_from(index).unwrap_or(u32::MAX),
+            field,
+        }
     }
 }
 
@@ -199,8 +203,8 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
 
 /// The places of a scene and the spans they were written at; empty for a scene that was never text.
 ///
-/// Each kind of entity has its own list: a front end meets the entities of a kind in order, but the kinds in turns, and
-/// so there is mostly nothing to sort.
+/// Each kind of entity has its own list: a front end meets the entities of a kind in order, but the
+/// kinds in turns, and so there is mostly nothing to sort.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     lists: [List; Noun::COUNT],
@@ -214,7 +218,9 @@ struct List {
 
 impl List {
     fn find(&self, index: u32, field: Field) -> Option<Span> {
-        let found = self.spans.binary_search_by_key(&(index, field), |(index, field, _)| (*index, *field));
+        let found = self
+            .spans
+            .binary_search_by_key(&(index, field), |(index, field, _)| (*index, *field));
         found.ok().map(|at| self.spans[at].2)
     }
 }
@@ -225,7 +231,10 @@ impl Origins {
         let Place { noun, index, field } = place;
         if let Some(span) = span.into() {
             let list = &mut self.lists[noun as usize];
-            list.unsorted |= list.spans.last().is_some_and(|(last, before, _)| (*last, *before) >= (index, field));
+            list.unsorted |= list
+                .spans
+                .last()
+                .is_some_and(|(last, before, _)| (*last, *before) >= (index, field));
             list.spans.push((index, field, span));
         }
     }
@@ -248,7 +257,8 @@ impl Origins {
     pub fn span(&self, place: Place) -> Option<Span> {
         let Place { noun, index, field } = place;
         let list = &self.lists[noun as usize];
-        list.find(index, field).or_else(|| list.find(index, Field::Whole))
+        list.find(index, field)
+            .or_else(|| list.find(index, Field::Whole))
     }
 }
 
@@ -260,11 +270,27 @@ mod tests {
     fn a_default_falls_back_to_its_entity() {
         let file = crate::source::SourceMap::default().add("x", Vec::new());
         let mut origins = Origins::default();
-        origins.record(Place::new(Noun::Surface, 3, Field::SphereRadius), Span::new(file, 5, 6));
-        origins.record(Place::new(Noun::Surface, 3, Field::Whole), Span::new(file, 1, 9));
+        origins.record(
+            Place::new(Noun::Surface, 3, Field::SphereRadius),
+            Span::new(file, 5, 6),
+        );
+        origins.record(
+            Place::new(Noun::Surface, 3, Field::Whole),
+            Span::new(file, 1, 9),
+        );
         origins.finish();
-        let span = |field| origins.span(Place::new(Noun::Surface, 3, field)).map(|span| span.start);
-        assert_eq!((span(Field::SphereRadius), span(Field::SphereCenter)), (Some(5), Some(1)));
-        assert_eq!(Place::new(Noun::Surface, 3, Field::SphereRadius).to_string(), "/surfaces/3/shape/sphere/radius");
+        let span = |field| {
+            origins
+                .span(Place::new(Noun::Surface, 3, field))
+                .map(|span| span.start)
+        };
+        assert_eq!(
+            (span(Field::SphereRadius), span(Field::SphereCenter)),
+            (Some(5), Some(1))
+        );
+        assert_eq!(
+            Place::new(Noun::Surface, 3, Field::SphereRadius).to_string(),
+            "/surfaces/3/shape/sphere/radius"
+        );
     }
 }

@@ -5,7 +5,8 @@ use super::{Material, Mode, Scene};
 /// Values that replace those of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
-    /// Width and height in pixels. The picture keeps its height in the scene, so pixels shrink or grow.
+    /// Width and height in pixels. The picture keeps its height in the scene, so pixels shrink or
+    /// grow.
     pub size: Option<[u32; 2]>,
     /// Sub-samples along each side of a pixel.
     pub supersampling: Option<u32>,
@@ -24,7 +25,15 @@ pub struct Overrides {
 impl Overrides {
     /// Writes the values given into `scene`.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { size, supersampling, aperture_samples, light_samples, glossy_samples, depth, spp } = *self;
+        let Self {
+            size,
+            supersampling,
+            aperture_samples,
+            light_samples,
+            glossy_samples,
+            depth,
+            spp,
+        } = *self;
         if let Some(size) = size {
             let ratio = f64::from(scene.camera.size[1]) / f64::from(size[1]);
             scene.camera.right = scene.camera.right.map(|component| component * ratio);
@@ -32,9 +41,14 @@ impl Overrides {
             scene.camera.size = size;
         }
         if let Some(samples) = glossy_samples {
-            let lobes =
-                scene.materials.iter_mut().filter_map(Material::phong_mut).map(|phong| &mut phong.glossy_samples);
-            lobes.filter(|count| **count > 1).for_each(|count| *count = samples);
+            let lobes = scene
+                .materials
+                .iter_mut()
+                .filter_map(Material::phong_mut)
+                .map(|phong| &mut phong.glossy_samples);
+            lobes
+                .filter(|count| **count > 1)
+                .for_each(|count| *count = samples);
         }
         if let (Some(spp), Mode::Path(path)) = (spp, &mut scene.settings.mode) {
             path.samples = spp;

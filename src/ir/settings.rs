@@ -29,29 +29,56 @@ pub struct Settings {
 
 impl Settings {
     /// The names of the fields in the text form.
-    const NAMES: [&str; 6] = ["mode", "shadows", "maxDepth", "supersampling", "pattern", "lightSamples"];
+    const NAMES: [&str; 6] = [
+        "mode",
+        "shadows",
+        "maxDepth",
+        "supersampling",
+        "pattern",
+        "lightSamples",
+    ];
 
-    /// Replaces one value, by the name that the text form gives it: a field of the settings, or of the parameters of their
-    /// mode. What is no JSON is a word.
+    /// Replaces one value, by the name that the text form gives it: a field of the settings, or of
+    /// the parameters of their mode. What is no JSON is a word.
     ///
     /// # Errors
     /// If there is no field of this name, or the value is none for it; in words.
     pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
         let wrong = |fault: serde_json::Error| {
-            format!("`{name}` can't be `{}`: {}", clip(value), clip_words(&fault.to_string()))
+            format!(
+                "`{name}` can't be `{}`: {}",
+                clip(value),
+                clip_words(&fault.to_string())
+            )
         };
         let mut text = serde_json::to_value(&*self).map_err(wrong)?;
         let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
-        let parameters = text["mode"].as_object().and_then(|mode| mode.values().next()?.as_object());
-        let parameters: Vec<_> = parameters.into_iter().flat_map(|fields| fields.keys().cloned()).collect();
+        let parameters = text["mode"]
+            .as_object()
+            .and_then(|mode| mode.values().next()?.as_object());
+        let parameters: Vec<_> = parameters
+            .into_iter()
+            .flat_map(|fields| fields.keys().cloned())
+            .collect();
         if Self::NAMES.contains(&name) {
             text[name] = value;
         } else if parameters.iter().any(|own| own == name) {
-            let mode = text["mode"].as_object_mut().and_then(|mode| mode.values_mut().next());
-            mode.into_iter().for_each(|fields| fields[name] = value.clone());
+            let mode = text["mode"]
+                .as_object_mut()
+                .and_then(|mode| mode.values_mut().next());
+            mode.into_iter()
+                .for_each(|fields| fields[name] = value.clone());
         } else {
-            let names = Self::NAMES.map(str::to_owned).into_iter().chain(parameters).collect::<Vec<_>>().join(", ");
-            return Err(format!("there is no setting `{}`; there are {names}", clip(name)));
+            let names = Self::NAMES
+                .map(str::to_owned)
+                .into_iter()
+                .chain(parameters)
+                .collect::<Vec<_>>()
+                .join(", ");
+            return Err(format!(
+                "there is no setting `{}`; there are {names}",
+                clip(name)
+            ));
         }
         *self = serde_json::from_value(text).map_err(wrong)?;
         Ok(())
@@ -62,13 +89,18 @@ fn one() -> u32 {
     1
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
 fn is_one(count: &u32) -> bool {
     *count == 1
 }
 
 /// Where in its cell of the pixel each sub-sample lies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Pattern {
     /// In the middle.
@@ -81,7 +113,10 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands over a reference"
+    )]
     fn is_grid(&self) -> bool {
         *self == Self::Grid
     }
@@ -122,7 +157,10 @@ impl Path {
 impl Default for Path {
     /// What is good for a look.
     fn default() -> Self {
-        Self { samples: 64, multiple_scattering: true }
+        Self {
+            samples: 64,
+            multiple_scattering: true,
+        }
     }
 }
 
@@ -146,7 +184,10 @@ mod tests {
 
     fn paths() -> Settings {
         Settings {
-            mode: Mode::Path(Path { samples: 64, multiple_scattering: true }),
+            mode: Mode::Path(Path {
+                samples: 64,
+                multiple_scattering: true,
+            }),
             shadows: true,
             max_depth: 16,
             supersampling: 1,
@@ -171,8 +212,17 @@ mod tests {
         for (name, value) in values {
             settings.set(name, value).unwrap();
         }
-        let mode = Mode::Path(Path { samples: 9, multiple_scattering: false });
-        let expected = Settings { mode, max_depth: 3, pattern: Pattern::Random, shadows: false, ..paths() };
+        let mode = Mode::Path(Path {
+            samples: 9,
+            multiple_scattering: false,
+        });
+        let expected = Settings {
+            mode,
+            max_depth: 3,
+            pattern: Pattern::Random,
+            shadows: false,
+            ..paths()
+        };
         assert_eq!(settings, expected);
         settings.set("mode", "normal").unwrap();
         assert_eq!(settings.mode, Mode::Normal);
@@ -182,8 +232,16 @@ mod tests {
     fn what_is_wrong_is_said_and_changes_nothing() {
         let mut settings = paths();
         let unknown = settings.set("sample", "3").unwrap_err();
-        assert!(unknown.starts_with("there is no setting `sample`; there are mode, ") && unknown.contains("samples"));
-        for (name, value) in [("samples", "-1"), ("shadows", "maybe"), ("mode", "{\"path\": {}}"), ("b", "1")] {
+        assert!(
+            unknown.starts_with("there is no setting `sample`; there are mode, ")
+                && unknown.contains("samples")
+        );
+        for (name, value) in [
+            ("samples", "-1"),
+            ("shadows", "maybe"),
+            ("mode", "{\"path\": {}}"),
+            ("b", "1"),
+        ] {
             assert!(settings.set(name, value).is_err(), "{name} {value}");
         }
         assert_eq!(settings, paths());

@@ -48,8 +48,9 @@ pub struct Sphere {
     /// Its radius, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
-    /// The rows of the rotation that takes directions of the world to those of the texture, whose poles are ±z; none
-    /// for the identity. u = φ/2π with φ = atan2(y, x) in [0, 2π), v = 1 − θ/π with θ = acos(z).
+    /// The rows of the rotation that takes directions of the world to those of the texture, whose
+    /// poles are ±z; none for the identity. u = φ/2π with φ = atan2(y, x) in [0, 2π), v = 1 −
+    /// θ/π with θ = acos(z).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture_from_world: Option<[[f64; 3]; 3]>,
 }
@@ -75,7 +76,8 @@ pub struct Triangle {
     pub uvs: Option<[[f64; 2]; 3]>,
 }
 
-/// A quadrilateral, seen from both sides: flat if its corners are in a plane, else the bilinear patch between them.
+/// A quadrilateral, seen from both sides: flat if its corners are in a plane, else the bilinear
+/// patch between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Quad {
@@ -147,6 +149,7 @@ pub struct Torus {
 pub struct Instance {
     /// Which mesh.
     pub mesh: MeshId,
-    /// The columns of the affine map from object to world: the images of the three axes, and the origin's.
+    /// The columns of the affine map from object to world: the images of the three axes, and the
+    /// origin's.
     pub world_from_object: [[f64; 3]; 4],
 }

@@ -1,9 +1,14 @@
-//! What is said about view and light on one occasion: it replaces the camera, the lights and the surroundings of a scene
-//! before it is proven. Nothing else of the scene changes.
+//! What is said about view and light on one occasion: it replaces the camera, the lights and the
+//! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
-use super::{Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path, PointLight};
+use super::{
+    Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path,
+    PointLight,
+};
 use super::{Projection, Punctual, Scene};
-use crate::math::{BasisFault, Vec3, camera_basis, cos, fallback_up, length, sin, unit, unit_scale};
+use crate::math::{
+    BasisFault, Vec3, camera_basis, cos, fallback_up, length, sin, unit, unit_scale,
+};
 use std::f64::consts::PI;
 
 /// The view and the light; what is not given stays as it is in the scene.
@@ -61,7 +66,8 @@ pub struct Sun {
     pub irradiance: [f64; 3],
 }
 
-/// So many times as far as the scene is large stands a sun for those to whom it must stand somewhere.
+/// So many times as far as the scene is large stands a sun for those to whom it must stand
+/// somewhere.
 const FAR: f64 = 1e4;
 
 impl Stage {
@@ -115,20 +121,33 @@ impl View {
     }
 
     fn aim(&self, scene: &mut Scene) -> Result<(), BasisFault> {
-        let middle = self.eye.and_then(|_| scene.ball()).map_or(scene.camera.center, |ball| ball.center.to_array());
+        let middle = self
+            .eye
+            .and_then(|_| scene.ball())
+            .map_or(scene.camera.center, |ball| ball.center.to_array());
         let camera = &mut scene.camera;
         let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
         let center = Vec3::from_array(self.center.unwrap_or(middle));
-        // A picture of the same angle is larger the farther it is; side by side, rays make it as large everywhere.
+        // A picture of the same angle is larger the farther it is; side by side, rays make it as
+        // large everywhere.
         let scale = match camera.projection {
             Projection::Perspective => eye.distance(center) / camera.distance(),
             Projection::Orthographic => 1.0,
         };
         // A lens that is asked for makes the picture of its own size.
-        let pixel = if self.yfov.is_some() { 1.0 } else { length(Vec3::from_array(camera.up)) * scale };
-        let up = self.up.map_or_else(|| camera.upright(), |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::ZERO));
+        let pixel = if self.yfov.is_some() {
+            1.0
+        } else {
+            length(Vec3::from_array(camera.up)) * scale
+        };
+        let up = self.up.map_or_else(
+            || camera.upright(),
+            |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::ZERO),
+        );
         let basis = match (camera_basis(eye, center, up * pixel), self.up) {
-            (Err(BasisFault::Parallel), None) => camera_basis(eye, center, fallback_up(center - eye, up * pixel)),
+            (Err(BasisFault::Parallel), None) => {
+                camera_basis(eye, center, fallback_up(center - eye, up * pixel))
+            }
             (basis, _) => basis,
         };
         let (right, up) = basis?;
@@ -149,28 +168,56 @@ impl Camera {
     #[must_use]
     pub fn upright(&self) -> Vec3 {
         let up = Vec3::from_array(self.up);
-        let better = |best: Vec3, axis: Vec3| if up.dot(axis).abs() > up.dot(best).abs() { axis } else { best };
+        let better = |best: Vec3, axis: Vec3| {
+            if up.dot(axis).abs() > up.dot(best).abs() {
+                axis
+            } else {
+                best
+            }
+        };
         let axis = [Vec3::Z, Vec3::X].into_iter().fold(Vec3::Y, better);
         if up.dot(axis) < 0.0 { -axis } else { axis }
     }
 
-    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a point.
+    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a
+    /// point.
     #[must_use]
     pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
         let (sine, cosine) = (sin(angle), cos(angle));
         // Rodrigues' formula.
-        let turn = |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
+        let turn =
+            |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
         let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
         let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
-        let Self { eye, center, right, up, size, lens, projection } = self.clone();
-        Self { eye: point(eye), center: point(center), right: step(right), up: step(up), size, lens, projection }
+        let Self {
+            eye,
+            center,
+            right,
+            up,
+            size,
+            lens,
+            projection,
+        } = self.clone();
+        Self {
+            eye: point(eye),
+            center: point(center),
+            right: step(right),
+            up: step(up),
+            size,
+            lens,
+            projection,
+        }
     }
 
     /// From the eye to the plane of the image.
     fn distance(&self) -> f64 {
-        let [eye, center, right, up] = [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
-        let [right, up] = [right, up].map(|step| unit_scale(step).map_or(Vec3::ZERO, |(scaled, _)| scaled));
-        (center - eye).dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO)).abs()
+        let [eye, center, right, up] =
+            [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
+        let [right, up] =
+            [right, up].map(|step| unit_scale(step).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        (center - eye)
+            .dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO))
+            .abs()
     }
 
     /// Opens to an angle from bottom to top, in radians, in its place.
@@ -185,8 +232,14 @@ impl Camera {
 
 impl Sun {
     fn light(&self) -> Light {
-        let Self { direction, irradiance } = *self;
-        Light::Punctual(Punctual { emitter: Emitter::Sun { direction }, intensity: irradiance })
+        let Self {
+            direction,
+            irradiance,
+        } = *self;
+        Light::Punctual(Punctual {
+            emitter: Emitter::Sun { direction },
+            intensity: irradiance,
+        })
     }
 }
 
@@ -196,7 +249,11 @@ impl Surroundings {
             Self::Color(radiance) => (*radiance, None),
             Self::Picture(image) => ([1.0; 3], Some(scene.add_image(image.clone()))),
         };
-        Environment { radiance, image, image_from_world: None }
+        Environment {
+            radiance,
+            image,
+            image_from_world: None,
+        }
     }
 }
 
@@ -217,14 +274,18 @@ fn trace_paths(scene: &mut Scene) {
     }
 }
 
-/// Has Whitted's integrator draw what was made for paths; with a light from the left and above if there is none.
+/// Has Whitted's integrator draw what was made for paths; with a light from the left and above if
+/// there is none.
 fn leave_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
         return;
     }
     scene.settings.mode = Mode::Phong;
     if scene.lights.is_empty() {
-        let key = Sun { direction: super::studio::key().to_array(), irradiance: [PI; 3] };
+        let key = Sun {
+            direction: super::studio::key().to_array(),
+            irradiance: [PI; 3],
+        };
         scene.lights.push(key.light());
     }
 }
@@ -234,7 +295,10 @@ fn stand_lights(scene: &mut Scene) {
     if scene.lights.iter().all(|light| light.point().is_some()) {
         return;
     }
-    let ball = scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
+    let ball = scene.ball().unwrap_or(Ball {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    });
     for light in &mut scene.lights {
         if let Light::Punctual(punctual) = light {
             *light = Light::Point(as_point(punctual, ball));
@@ -247,7 +311,10 @@ fn as_point(light: &Punctual, ball: Ball) -> PointLight {
     let (position, irradiance) = match &light.emitter {
         Emitter::Sun { direction } => {
             let direction = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Y);
-            ((ball.center + direction * (FAR * ball.radius)).to_array(), 1.0)
+            (
+                (ball.center + direction * (FAR * ball.radius)).to_array(),
+                1.0,
+            )
         }
         Emitter::Point { position, range: _ } | Emitter::Spot { position, .. } => {
             let square = Vec3::from_array(*position).distance_squared(ball.center);
@@ -255,7 +322,11 @@ fn as_point(light: &Punctual, ball: Ball) -> PointLight {
         }
     };
     // A white surface that faces the light shows its colour here, its irradiance over π there.
-    PointLight { position, color: light.intensity.map(|channel| channel * irradiance / PI), radius: 0.0 }
+    PointLight {
+        position,
+        color: light.intensity.map(|channel| channel * irradiance / PI),
+        radius: 0.0,
+    }
 }
 
 #[cfg(test)]
@@ -270,7 +341,10 @@ mod tests {
             right: [0.5, 0.0, 0.0],
             up: [0.0, 0.5, 0.0],
             size: [8, 4],
-            lens: Lens { radius: 0.0, samples: 1 },
+            lens: Lens {
+                radius: 0.0,
+                samples: 1,
+            },
             projection: Projection::Perspective,
         }
     }
@@ -279,16 +353,33 @@ mod tests {
     fn an_angle_spans_the_height_of_the_picture() {
         let mut camera = camera();
         camera.open(std::f64::consts::FRAC_PI_2);
-        assert!((4.0 * camera.up[1] - 20.0).abs() < 1e-12 && (camera.right[0] - camera.up[1]).abs() < 1e-12);
+        assert!(
+            (4.0 * camera.up[1] - 20.0).abs() < 1e-12
+                && (camera.right[0] - camera.up[1]).abs() < 1e-12
+        );
     }
 
     #[test]
     fn a_turn_of_a_quarter_and_the_axis_that_is_up() {
-        let turned = camera().turned(std::f64::consts::FRAC_PI_2, Vec3::Y, Vec3::new(0.0, 7.0, 0.0));
-        let near = |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b)) < 1e-12;
-        assert!(near(turned.eye, [10.0, 0.0, 0.0]) && near(turned.right, [0.0, 0.0, -0.5]), "{turned:?}");
+        let turned = camera().turned(
+            std::f64::consts::FRAC_PI_2,
+            Vec3::Y,
+            Vec3::new(0.0, 7.0, 0.0),
+        );
+        let near =
+            |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b)) < 1e-12;
+        assert!(
+            near(turned.eye, [10.0, 0.0, 0.0]) && near(turned.right, [0.0, 0.0, -0.5]),
+            "{turned:?}"
+        );
         assert!(near(turned.up, [0.0, 0.5, 0.0]) && near(turned.center, [0.0; 3]));
-        let tilted = Camera { up: [0.1, 0.2, -0.4], ..camera() };
-        assert_eq!((camera().upright(), tilted.upright()), (Vec3::Y, Vec3::NEG_Z));
+        let tilted = Camera {
+            up: [0.1, 0.2, -0.4],
+            ..camera()
+        };
+        assert_eq!(
+            (camera().upright(), tilted.upright()),
+            (Vec3::Y, Vec3::NEG_Z)
+        );
     }
 }

@@ -15,8 +15,8 @@ pub struct Map {
     #[serde(default, skip_serializing_if = "is_default")]
     #[schemars(range(max = 1))]
     pub set: u32,
-    /// The rows of the affine map from the coordinates of the surface to those of the texture, `(a, b, c)` for
-    /// `a·u + b·v + c`; none for the identity.
+    /// The rows of the affine map from the coordinates of the surface to those of the texture,
+    /// `(a, b, c)` for `a·u + b·v + c`; none for the identity.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub texture_from_surface: Option<[[f64; 3]; 2]>,
 }
@@ -34,11 +34,14 @@ pub enum Alpha {
     Blend,
 }
 
-/// The material of glTF 2.0, appendix B, and of the `KHR_materials_*` extensions, by whose names the fields go; a map
-/// multiplies its factor, in the channels the specification gives it.
+/// The material of glTF 2.0, appendix B, and of the `KHR_materials_*` extensions, by whose names
+/// the fields go; a map multiplies its factor, in the channels the specification gives it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields, default)]
-#[expect(missing_docs, reason = "each is named and described in the specification of glTF")]
+#[expect(
+    missing_docs,
+    reason = "each is named and described in the specification of glTF"
+)]
 pub struct Standard {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub name: String,
@@ -49,8 +52,8 @@ pub struct Standard {
     pub roughness: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub metallic_roughness_map: Option<Map>,
-    /// The reflectance at normal incidence and the glossiness (rgb, a) of `KHR_materials_pbrSpecularGlossiness`, in place
-    /// of metallic, roughness and ior.
+    /// The reflectance at normal incidence and the glossiness (rgb, a) of
+    /// `KHR_materials_pbrSpecularGlossiness`, in place of metallic, roughness and ior.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub specular_glossiness: Option<[f64; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -66,7 +69,8 @@ pub struct Standard {
     pub normal_scale: f64,
     #[serde(skip_serializing_if = "is_default")]
     pub alpha: Alpha,
-    /// Whether the camera sees the back where paths are traced. It sees that of what transmits, and all other rays meet it.
+    /// Whether the camera sees the back where paths are traced. It sees that of what transmits,
+    /// and all other rays meet it.
     #[serde(skip_serializing_if = "is_default")]
     pub double_sided: bool,
     #[serde(skip_serializing_if = "is_default")]
@@ -133,7 +137,8 @@ pub struct Standard {
 }
 
 impl Standard {
-    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from within.
+    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
+    /// within.
     #[must_use]
     pub fn is_seen_from_one_side(&self) -> bool {
         !self.double_sided && self.transmission == 0.0
@@ -247,7 +252,10 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
 fn is_zero(value: &f64) -> bool {
     value.to_bits() == 0
 }
@@ -256,7 +264,10 @@ fn are_zero(values: &[f64; 3]) -> bool {
     values.iter().all(is_zero)
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands over a reference"
+)]
 fn is_one(value: &f64) -> bool {
     value.to_bits() == 1.0_f64.to_bits()
 }

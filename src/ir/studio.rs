@@ -1,7 +1,9 @@
-//! The studio: light for what brings none. Three soft boxes in a dim room, as a picture of all directions.
+//! The studio: light for what brings none. Three soft boxes in a dim room, as a picture of all
+//! directions.
 //!
-//! In units in which a white diffuse surface shows its irradiance over π: 0.12 from below, 0.75 from the front (+z), 1.2
-//! at most, from above; so a white of 0.8 is nowhere blown. The mean radiance is 0.57.
+//! In units in which a white diffuse surface shows its irradiance over π: 0.12 from below, 0.75
+//! from the front (+z), 1.2 at most, from above; so a white of 0.8 is nowhere blown. The mean
+//! radiance is 0.57.
 
 use super::{Environment, Image, Light, Material, Pixels, Scene, Shape, Texture};
 use crate::color::srgb_decoded;
@@ -9,7 +11,8 @@ use crate::math::{Vec3, acos, atan2, cos, sin};
 use glam::DAffine3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a soft box.
+/// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a
+/// soft box.
 const SIZE: [u32; 2] = [64, 32];
 /// The radiance of the room, above and below.
 const ROOM: [f64; 2] = [0.3, 0.12];
@@ -17,8 +20,8 @@ const ROOM: [f64; 2] = [0.3, 0.12];
 const HORIZON: f64 = 30.0;
 const EDGE: f64 = 10.0;
 
-/// A soft box: the azimuth (from +z towards +x) and elevation of its middle, half its width and height, in degrees; its
-/// radiance.
+/// A soft box: the azimuth (from +z towards +x) and elevation of its middle, half its width and
+/// height, in degrees; its radiance.
 struct SoftBox {
     middle: [f64; 2],
     half: [f64; 2],
@@ -27,16 +30,29 @@ struct SoftBox {
 
 /// The key light from the left and above, a fill light from the right, and a rim light from behind.
 const BOXES: [SoftBox; 3] = [
-    SoftBox { middle: [-35.0, 45.0], half: [30.0, 20.0], radiance: 5.0 },
-    SoftBox { middle: [70.0, 20.0], half: [20.0, 30.0], radiance: 1.5 },
-    SoftBox { middle: [170.0, 50.0], half: [35.0, 15.0], radiance: 2.5 },
+    SoftBox {
+        middle: [-35.0, 45.0],
+        half: [30.0, 20.0],
+        radiance: 5.0,
+    },
+    SoftBox {
+        middle: [70.0, 20.0],
+        half: [20.0, 30.0],
+        radiance: 1.5,
+    },
+    SoftBox {
+        middle: [170.0, 50.0],
+        half: [35.0, 15.0],
+        radiance: 2.5,
+    },
 ];
 
 impl SoftBox {
     fn at(&self, [azimuth, elevation]: [f64; 2]) -> f64 {
         let across = (azimuth - self.middle[0] + 540.0).rem_euclid(360.0) - 180.0;
         let offsets = [across, elevation - self.middle[1]];
-        let share = |axis: usize| 1.0 - smooth((offsets[axis].abs() - self.half[axis]) / EDGE + 0.5);
+        let share =
+            |axis: usize| 1.0 - smooth((offsets[axis].abs() - self.half[axis]) / EDGE + 0.5);
         self.radiance * share(0) * share(1)
     }
 }
@@ -52,43 +68,70 @@ fn radiance(direction: Vec3) -> f64 {
     let azimuth = atan2(direction.x, direction.z).to_degrees();
     let elevation = (FRAC_PI_2 - acos(direction.y.clamp(-1.0, 1.0))).to_degrees();
     let room = ROOM[1] + (ROOM[0] - ROOM[1]) * smooth(elevation / HORIZON + 0.5);
-    room + BOXES.iter().map(|one| one.at([azimuth, elevation])).sum::<f64>()
+    room + BOXES
+        .iter()
+        .map(|one| one.at([azimuth, elevation]))
+        .sum::<f64>()
 }
 
 /// The direction to the middle of the key light, a unit vector.
 pub(super) fn key() -> Vec3 {
     let [azimuth, elevation] = BOXES[0].middle.map(f64::to_radians);
-    Vec3::new(sin(azimuth) * cos(elevation), sin(elevation), cos(azimuth) * cos(elevation))
+    Vec3::new(
+        sin(azimuth) * cos(elevation),
+        sin(elevation),
+        cos(azimuth) * cos(elevation),
+    )
 }
 
 /// The direction of a pixel of the picture: its middle towards −z, +y up.
 fn direction(x: u32, y: u32) -> Vec3 {
     let longitude = ((f64::from(x) + 0.5) / f64::from(SIZE[0]) - 0.5) * TAU;
     let colatitude = (f64::from(y) + 0.5) / f64::from(SIZE[1]) * PI;
-    Vec3::new(sin(colatitude) * sin(longitude), cos(colatitude), -sin(colatitude) * cos(longitude))
+    Vec3::new(
+        sin(colatitude) * sin(longitude),
+        cos(colatitude),
+        -sin(colatitude) * cos(longitude),
+    )
 }
 
 /// The picture of the studio.
 fn picture() -> Image {
     let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
-    #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float")]
-    let bytes: Vec<u8> =
-        pixels.flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat()).collect();
-    Image { name: String::new(), width: SIZE[0], height: SIZE[1], kind: Pixels::Rgb32f, pixels: bytes.into() }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float"
+    )]
+    let bytes: Vec<u8> = pixels
+        .flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat())
+        .collect();
+    Image {
+        name: String::new(),
+        width: SIZE[0],
+        height: SIZE[1],
+        kind: Pixels::Rgb32f,
+        pixels: bytes.into(),
+    }
 }
 
 impl Scene {
     /// Puts the scene into the studio.
     pub(super) fn enter_studio(&mut self) {
         let image = self.add_image(picture());
-        self.environment = Some(Environment { radiance: [1.0; 3], image: Some(image), image_from_world: None });
+        self.environment = Some(Environment {
+            radiance: [1.0; 3],
+            image: Some(image),
+            image_from_world: None,
+        });
     }
 
-    /// Whether the scene brings light: a light, an environment (a dark one is meant so), or surfaces that glow enough.
+    /// Whether the scene brings light: a light, an environment (a dark one is meant so), or
+    /// surfaces that glow enough.
     ///
-    /// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a white surface in it
-    /// would show about L·A/(4·π·R²). If that is less than [`FAINT`], they are labels, lamps on a dashboard or
-    /// eyes: they light nothing, and the studio is wanted. Unlit materials light nothing at all.
+    /// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a
+    /// white surface in it would show about L·A/(4·π·R²). If that is less than [`FAINT`], they
+    /// are labels, lamps on a dashboard or eyes: they light nothing, and the studio is wanted.
+    /// Unlit materials light nothing at all.
     #[must_use]
     pub fn is_lit(&self) -> bool {
         let shines = |light: &Light| match light {
@@ -100,23 +143,48 @@ impl Scene {
 
     /// What the surfaces that glow would make a white surface show, by the strongest channel.
     fn glow(&self) -> f64 {
-        let strengths: Vec<f64> = self.materials.iter().map(|material| self.emission(material)).collect();
-        let strength = |surface: &super::Surface| strengths.get(surface.material.0 as usize).copied().unwrap_or(0.0);
-        let glowing = self.surfaces.iter().map(|surface| (surface, strength(surface)));
+        let strengths: Vec<f64> = self
+            .materials
+            .iter()
+            .map(|material| self.emission(material))
+            .collect();
+        let strength = |surface: &super::Surface| {
+            strengths
+                .get(surface.material.0 as usize)
+                .copied()
+                .unwrap_or(0.0)
+        };
+        let glowing = self
+            .surfaces
+            .iter()
+            .map(|surface| (surface, strength(surface)));
         let glowing: Vec<_> = glowing.filter(|(_, strength)| *strength > 0.0).collect();
-        let Some(ball) = self.ball().filter(|_| !glowing.is_empty()) else { return 0.0 };
-        let power: f64 = glowing.iter().map(|(surface, strength)| strength * self.area(&surface.shape)).sum();
+        let Some(ball) = self.ball().filter(|_| !glowing.is_empty()) else {
+            return 0.0;
+        };
+        let power: f64 = glowing
+            .iter()
+            .map(|(surface, strength)| strength * self.area(&surface.shape))
+            .sum();
         power / (2.0 * TAU * ball.radius * ball.radius)
     }
 
     /// The mean radiance of a material that glows, by the strongest channel.
     fn emission(&self, material: &Material) -> f64 {
-        let Material::Standard(standard) = material else { return 0.0 };
-        let factor = standard.emissive.iter().fold(0.0, |most: f64, channel| most.max(*channel));
+        let Material::Standard(standard) = material else {
+            return 0.0;
+        };
+        let factor = standard
+            .emissive
+            .iter()
+            .fold(0.0, |most: f64, channel| most.max(*channel));
         if standard.unlit || factor <= 0.0 {
             return 0.0;
         }
-        let map = standard.emissive_map.as_ref().and_then(|map| self.textures.get(map.texture.0 as usize));
+        let map = standard
+            .emissive_map
+            .as_ref()
+            .and_then(|map| self.textures.get(map.texture.0 as usize));
         let image = match map {
             Some(Texture::Sampled(sampled)) => self.images.get(sampled.image.0 as usize),
             Some(Texture::Image(image)) => self.images.get(image.0 as usize),
@@ -136,11 +204,17 @@ impl Scene {
             }
             Shape::Instance(instance) => {
                 let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
-                let Some(mesh) = self.meshes.get(instance.mesh.0 as usize) else { return 0.0 };
+                let Some(mesh) = self.meshes.get(instance.mesh.0 as usize) else {
+                    return 0.0;
+                };
                 let known = |index: &u32| (*index as usize) < mesh.positions.len();
                 let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
-                let sound = mesh.triangles.iter().filter(|indices| indices.iter().all(known));
-                let placed = sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
+                let sound = mesh
+                    .triangles
+                    .iter()
+                    .filter(|indices| indices.iter().all(known));
+                let placed =
+                    sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
                 placed.map(triangle).sum()
             }
             Shape::Sphere(_)
@@ -153,7 +227,8 @@ impl Scene {
     }
 }
 
-/// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth of what it reflects.
+/// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth
+/// of what it reflects.
 const FAINT: f64 = 0.05;
 
 /// The mean of an image that codes light in sRGB, by the strongest channel of each pixel.
@@ -163,9 +238,14 @@ fn brightness(image: &Image) -> f64 {
     if image.kind == Pixels::Rgb32f || bytes.len() < size {
         return 1.0;
     }
-    let decoded: Vec<f64> = (0..=u8::MAX).map(|code| srgb_decoded(f64::from(code) / 255.0)).collect();
+    let decoded: Vec<f64> = (0..=u8::MAX)
+        .map(|code| srgb_decoded(f64::from(code) / 255.0))
+        .collect();
     let strongest = |pixel: &[u8]| pixel[0].max(pixel[1]).max(pixel[2]);
-    let sum: f64 = bytes.chunks_exact(size).map(|pixel| decoded[usize::from(strongest(pixel))]).sum();
+    let sum: f64 = bytes
+        .chunks_exact(size)
+        .map(|pixel| decoded[usize::from(strongest(pixel))])
+        .sum();
     sum / (bytes.len() / size) as f64
 }
 
@@ -178,7 +258,9 @@ mod tests {
         let [width, height] = SIZE.map(f64::from);
         let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));
         let sum: f64 = pixels
-            .map(|(y, from)| radiance(from) * normal.dot(from).max(0.0) * sin((f64::from(y) + 0.5) / height * PI))
+            .map(|(y, from)| {
+                radiance(from) * normal.dot(from).max(0.0) * sin((f64::from(y) + 0.5) / height * PI)
+            })
             .sum();
         sum * (PI / height) * (TAU / width) / PI
     }
@@ -186,7 +268,10 @@ mod tests {
     #[test]
     fn the_studio_shows_white_as_it_promises() {
         let (front, below) = (shown(Vec3::Z), shown(Vec3::NEG_Y));
-        assert!((front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02, "{front} {below}");
+        assert!(
+            (front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02,
+            "{front} {below}"
+        );
         let normals = (0..8).flat_map(|y| (0..16).map(move |x| direction(4 * x, 4 * y)));
         let most = normals.map(shown).fold(0.0, f64::max);
         assert!((1.1..1.25).contains(&most), "{most}");
@@ -195,7 +280,9 @@ mod tests {
     #[test]
     fn the_key_light_is_where_it_is_brightest() {
         let brightest = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
-        let brightest = brightest.max_by(|a, b| radiance(*a).total_cmp(&radiance(*b))).unwrap();
+        let brightest = brightest
+            .max_by(|a, b| radiance(*a).total_cmp(&radiance(*b)))
+            .unwrap();
         assert!(brightest.dot(key()) > 0.9 && radiance(key()) > 5.0);
     }
 }

@@ -16,8 +16,9 @@ pub struct TextureId(pub u32);
 pub enum Texture {
     /// The colour (u, 0, v): shows how uv lies on a surface.
     Uv,
-    /// An image over the unit square, v = 1 at its top row, repeated beyond; bilinear with the outer texels at the very
-    /// edges: u = 0 is the middle of the first column, u = 1 that of the last.
+    /// An image over the unit square, v = 1 at its top row, repeated beyond; bilinear with the
+    /// outer texels at the very edges: u = 0 is the middle of the first column, u = 1 that of
+    /// the last.
     Image(ImageId),
     /// An image as glTF samples it: v = 0 at its top row, texel middles half a texel inside.
     Sampled(Sampled),
@@ -36,7 +37,9 @@ pub struct Sampled {
 }
 
 /// What lies beyond the unit square.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Wrap {
     /// The image again.
@@ -49,7 +52,9 @@ pub enum Wrap {
 }
 
 /// How texels blend.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, Arbitrary,
+)]
 #[serde(rename_all = "camelCase")]
 pub enum Filter {
     /// The four nearest by their nearness.

@@ -34,8 +34,8 @@ pub fn camera_basis(eye: Vec3, center: Vec3, up: Vec3) -> Result<(Vec3, Vec3), B
 
 /// As [`camera_basis`] for a view direction, but refuses only what is exactly parallel.
 ///
-/// Every component is right to within 8 u·‖up‖ for any length of either vector, subnormal ones included: the cross
-/// products are Kahan's, on vectors scaled by powers of two.
+/// Every component is right to within 8 u·‖up‖ for any length of either vector, subnormal ones
+/// included: the cross products are Kahan's, on vectors scaled by powers of two.
 ///
 /// # Errors
 /// If the two give no camera; see [`BasisFault`].
@@ -47,13 +47,17 @@ pub fn view_basis(gaze: Vec3, up: Vec3) -> Result<(Vec3, Vec3), BasisFault> {
     let pixel = dot(up, up).sqrt();
     let step = |direction: Vec3| {
         let step = direction * pixel;
-        Vec3::new(ldexp(step.x, exponent), ldexp(step.y, exponent), ldexp(step.z, exponent))
+        Vec3::new(
+            ldexp(step.x, exponent),
+            ldexp(step.y, exponent),
+            ldexp(step.z, exponent),
+        )
     };
     Ok((step(right), step(above)))
 }
 
-/// The world axis that says best which way is up for a view: among y, z, x, in that order, the one that makes the
-/// largest angle with `gaze`, with the length of `up`.
+/// The world axis that says best which way is up for a view: among y, z, x, in that order, the one
+/// that makes the largest angle with `gaze`, with the length of `up`.
 #[must_use]
 pub fn fallback_up(gaze: Vec3, up: Vec3) -> Vec3 {
     let along = gaze.abs();
@@ -77,7 +81,11 @@ mod tests {
 
     #[test]
     fn the_course_camera_is_exact() {
-        let basis = camera_basis(Vec3::new(200.0, 200.0, 1000.0), Vec3::new(200.0, 200.0, 0.0), Vec3::Y);
+        let basis = camera_basis(
+            Vec3::new(200.0, 200.0, 1000.0),
+            Vec3::new(200.0, 200.0, 0.0),
+            Vec3::Y,
+        );
         assert_eq!(basis, Ok((Vec3::X, Vec3::Y)));
     }
 
@@ -86,7 +94,10 @@ mod tests {
         let at = |center, up| camera_basis(Vec3::ZERO, center, up).unwrap_err();
         assert_eq!(at(Vec3::ZERO, Vec3::Y), BasisFault::ZeroGaze);
         assert_eq!(at(Vec3::Z, Vec3::ZERO), BasisFault::ZeroUp);
-        assert_eq!(at(Vec3::Z, Vec3::new(5e-10, 0.0, 1.0)), BasisFault::Parallel);
+        assert_eq!(
+            at(Vec3::Z, Vec3::new(5e-10, 0.0, 1.0)),
+            BasisFault::Parallel
+        );
         assert!(camera_basis(Vec3::ZERO, Vec3::Z, Vec3::new(2e-9, 0.0, 1.0)).is_ok());
     }
 

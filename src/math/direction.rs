@@ -1,10 +1,10 @@
-//! Directions and lengths of vectors of any size: scaled by a power of two first, which rounds nothing, so that no square
-//! leaves the range of f64.
+//! Directions and lengths of vectors of any size: scaled by a power of two first, which rounds
+//! nothing, so that no square leaves the range of f64.
 
 use super::{Vec3, ldexp};
 
-/// `v` times the power of two that brings its largest component into [1, 2), and the exponent taken out:
-/// `v = scaled·2^exponent`. `None` for the zero vector and for components that are not finite.
+/// `v` times the power of two that brings its largest component into [1, 2), and the exponent taken
+/// out: `v = scaled·2^exponent`. `None` for the zero vector and for components that are not finite.
 #[must_use]
 #[inline]
 pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
@@ -15,32 +15,43 @@ pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
     let exponent = libm::ilogb(largest);
     let scaled = match power_of_two(-exponent) {
         Some(factor) => v * factor,
-        None => Vec3::new(ldexp(v.x, -exponent), ldexp(v.y, -exponent), ldexp(v.z, -exponent)),
+        None => Vec3::new(
+            ldexp(v.x, -exponent),
+            ldexp(v.y, -exponent),
+            ldexp(v.z, -exponent),
+        ),
     };
     Some((scaled, exponent))
 }
 
-/// The vector of length 1 along `v`. `None` for the zero vector and for components that are not finite.
+/// The vector of length 1 along `v`. `None` for the zero vector and for components that are not
+/// finite.
 ///
-/// `unit(v·2^k)` has the bits of `unit(v)` for every k at which no component becomes subnormal or infinite. Where the
-/// squares of the components are in range these are the bits of v·(1/‖v‖).
+/// `unit(v·2^k)` has the bits of `unit(v)` for every k at which no component becomes subnormal or
+/// infinite. Where the squares of the components are in range these are the bits of v·(1/‖v‖).
 #[must_use]
 #[inline]
 pub fn unit(v: Vec3) -> Option<Vec3> {
     unit_scale(v).map(|(scaled, _)| scaled.normalize())
 }
 
-/// The length of a vector: finite unless it lies beyond the range of f64, and 0 only for the zero vector.
+/// The length of a vector: finite unless it lies beyond the range of f64, and 0 only for the zero
+/// vector.
 #[must_use]
 #[inline]
 pub fn length(v: Vec3) -> f64 {
-    unit_scale(v).map_or_else(|| v.length(), |(scaled, exponent)| ldexp(scaled.length(), exponent))
+    unit_scale(v).map_or_else(
+        || v.length(),
+        |(scaled, exponent)| ldexp(scaled.length(), exponent),
+    )
 }
 
 /// 2^`exponent`, if it is a normal number.
 #[inline]
 fn power_of_two(exponent: i32) -> Option<f64> {
-    let biased = u64::try_from(exponent + 1023).ok().filter(|biased| (1..2047).contains(biased))?;
+    let biased = u64::try_from(exponent + 1023)
+        .ok()
+        .filter(|biased| (1..2047).contains(biased))?;
     Some(f64::from_bits(biased << 52))
 }
 
@@ -54,7 +65,10 @@ mod tests {
         let (scaled, exponent) = unit_scale(Vec3::new(0.0, 5e-324, 0.0)).unwrap();
         assert_eq!((scaled.y, exponent), (1.0, -1074));
         let (scaled, exponent) = unit_scale(Vec3::new(f64::MAX, f64::MIN_POSITIVE, 1.0)).unwrap();
-        assert_eq!((scaled.x, scaled.z, exponent), (f64::MAX / ldexp(1.0, 1023), ldexp(1.0, -1023), 1023));
+        assert_eq!(
+            (scaled.x, scaled.z, exponent),
+            (f64::MAX / ldexp(1.0, 1023), ldexp(1.0, -1023), 1023)
+        );
         assert!(unit_scale(Vec3::ZERO).is_none() && unit(Vec3::ZERO).is_none());
         assert!(unit_scale(Vec3::new(f64::NAN, 1.0, 0.0)).is_none());
     }
@@ -63,8 +77,13 @@ mod tests {
     fn lengths_are_those_of_vectors_whose_squares_are_out_of_range() {
         let far = ldexp(1.0, 600);
         assert_eq!(length(Vec3::new(3.0 * far, 0.0, -4.0 * far)), 5.0 * far);
-        assert_eq!((length(Vec3::new(0.0, 5e-324, 0.0)), length(Vec3::ZERO)), (5e-324, 0.0));
-        assert!(length(Vec3::splat(f64::MAX)).is_infinite() && length(Vec3::splat(f64::NAN)).is_nan());
+        assert_eq!(
+            (length(Vec3::new(0.0, 5e-324, 0.0)), length(Vec3::ZERO)),
+            (5e-324, 0.0)
+        );
+        assert!(
+            length(Vec3::splat(f64::MAX)).is_infinite() && length(Vec3::splat(f64::NAN)).is_nan()
+        );
     }
 
     /// A component of any size, or none.

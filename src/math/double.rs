@@ -1,13 +1,14 @@
-//! Double-double: a number as an unevaluated sum of two f64, about 106 bits. For the cold paths that decide what one
-//! f64 can't.
+//! Double-double: a number as an unevaluated sum of two f64, about 106 bits. For the cold paths
+//! that decide what one f64 can't.
 
 use super::{two_difference, two_product, two_sum};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// `high + low`, with `|low| ≤ ½ ulp(high)`.
 ///
-/// The operations are those of Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of
-/// double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12 and 18, each with a relative error of a few u².
+/// The operations are those of Joldes, Muller, Popescu, "Tight and rigorous error bounds for basic
+/// building blocks of double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12 and 18, each
+/// with a relative error of a few u².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Double {
     high: f64,
@@ -44,7 +45,10 @@ impl Double {
 
 fn normalized(a: f64, b: f64) -> Double {
     let high = a + b;
-    Double { high, low: b - (high - a) }
+    Double {
+        high,
+        low: b - (high - a),
+    }
 }
 
 impl From<f64> for Double {
@@ -68,7 +72,10 @@ impl Sub for Double {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self + Self { high: -other.high, low: -other.low }
+        self + Self {
+            high: -other.high,
+            low: -other.low,
+        }
     }
 }
 

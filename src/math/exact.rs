@@ -1,6 +1,7 @@
 //! Error-free transformations and the compensated sums built on them.
 //!
-//! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps scenes far inside.
+//! Exact unless a product leaves ±2^996 or its error falls below the subnormals; `valid` keeps
+//! scenes far inside.
 
 use super::Vec3;
 
@@ -22,11 +23,14 @@ pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
 
 /// The product and its rounding error: `a·b = p + e` exactly.
 ///
-/// With an FMA unit known at build time the error is one instruction, else Dekker's product (Numerische Mathematik 18,
-/// 1971); both are exact, so the bits are the same.
+/// With an FMA unit known at build time the error is one instruction, else Dekker's product
+/// (Numerische Mathematik 18, 1971); both are exact, so the bits are the same.
 #[must_use]
 #[inline]
-#[expect(clippy::disallowed_methods, reason = "only where it is one instruction")]
+#[expect(
+    clippy::disallowed_methods,
+    reason = "only where it is one instruction"
+)]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     if cfg!(target_feature = "fma") {
@@ -47,9 +51,11 @@ fn split(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
-/// `a·b − c·d` to within 2 u of the result; exactly antisymmetric under exchange of the two products.
+/// `a·b − c·d` to within 2 u of the result; exactly antisymmetric under exchange of the two
+/// products.
 ///
-/// After Kahan; see Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm", Math. Comp. 82 (2013).
+/// After Kahan; see Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm", Math. Comp.
+/// 82 (2013).
 #[must_use]
 #[inline]
 pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
@@ -69,8 +75,8 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
     )
 }
 
-/// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi, "Accurate sum and dot
-/// product", SIAM J. Sci. Comput. 26 (2005), algorithm 5.3).
+/// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi,
+/// "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005), algorithm 5.3).
 #[must_use]
 #[inline]
 pub fn dot(a: Vec3, b: Vec3) -> f64 {
@@ -98,7 +104,10 @@ mod tests {
     fn a_difference_of_nearly_equal_products_keeps_its_digits() {
         let a = 1.0 + f64::EPSILON;
         // (1 + ε)² − (1 + 2ε)·1 = ε²
-        assert_eq!(difference_of_products(a, a, 1.0 + 2.0 * f64::EPSILON, 1.0), f64::EPSILON * f64::EPSILON);
+        assert_eq!(
+            difference_of_products(a, a, 1.0 + 2.0 * f64::EPSILON, 1.0),
+            f64::EPSILON * f64::EPSILON
+        );
     }
 
     #[test]

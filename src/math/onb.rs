@@ -14,7 +14,8 @@ pub struct Basis {
 }
 
 impl Basis {
-    /// The basis around a unit vector (Duff et al., "Building an orthonormal basis, revisited", JCGT 6 (2017)).
+    /// The basis around a unit vector (Duff et al., "Building an orthonormal basis, revisited",
+    /// JCGT 6 (2017)).
     #[must_use]
     pub fn around(n: Vec3) -> Self {
         let sign = 1.0_f64.copysign(n.z);
@@ -35,6 +36,10 @@ impl Basis {
     /// The coordinates of a vector along tangent, bitangent and normal.
     #[must_use]
     pub fn to_local(&self, world: Vec3) -> Vec3 {
-        Vec3::new(self.tangent.dot(world), self.bitangent.dot(world), self.normal.dot(world))
+        Vec3::new(
+            self.tangent.dot(world),
+            self.bitangent.dot(world),
+            self.normal.dot(world),
+        )
     }
 }

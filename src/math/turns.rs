@@ -22,7 +22,8 @@ pub fn cos_sin_turns(turns: u64) -> (f64, f64) {
     }
 }
 
-/// `k` golden angles, k·π(3 − √5), in units of 2⁻⁶⁴ turns: no error grows with k but that of the constant.
+/// `k` golden angles, k·π(3 − √5), in units of 2⁻⁶⁴ turns: no error grows with k but that of the
+/// constant.
 #[must_use]
 pub fn golden_turns(k: u64) -> u64 {
     /// (3 − √5)/2 · 2⁶⁴.

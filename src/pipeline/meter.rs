@@ -1,15 +1,16 @@
 //! The meter: counts the rays of a picture while they are traced, and says where they run out.
 //!
-//! That is the first pixel, in the order of rows, up to which the pixels take more rays than the limit: the same on any
-//! number of threads. A thread that is ahead of that pixel works on until those behind have come there, so that in all
-//! no more is traced than the limit for each thread.
+//! That is the first pixel, in the order of rows, up to which the pixels take more rays than the
+//! limit: the same on any number of threads. A thread that is ahead of that pixel works on until
+//! those behind have come there, so that in all no more is traced than the limit for each thread.
 
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
 use crate::render::{Crop, Step};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// Branches that a path may put off: so many of them never end within a limit, and each takes memory.
+/// Branches that a path may put off: so many of them never end within a limit, and each takes
+/// memory.
 const MOST_OPEN: usize = 1 << 16;
 
 /// Counts the rays of one part of a picture.
@@ -37,7 +38,15 @@ impl Meter {
     /// A meter of a part of a picture; 8 bytes a pixel, unless there is no limit.
     #[must_use]
     pub fn new(limit: u64, crop: Crop) -> Self {
-        let crop = if limit == u64::MAX { Crop { width: 0, height: 0, ..crop } } else { crop };
+        let crop = if limit == u64::MAX {
+            Crop {
+                width: 0,
+                height: 0,
+                ..crop
+            }
+        } else {
+            crop
+        };
         let pixels = crop.width as usize * crop.height as usize;
         Self {
             // Room for rays that are counted beyond it.
@@ -53,8 +62,11 @@ impl Meter {
 
     /// Begins another round over all pixels; nobody renders meanwhile.
     pub fn begin_round(&self) {
-        self.before.fetch_add(self.total.swap(0, Ordering::Relaxed), Ordering::Relaxed);
-        self.pixels.iter().for_each(|rays| rays.store(0, Ordering::Relaxed));
+        self.before
+            .fetch_add(self.total.swap(0, Ordering::Relaxed), Ordering::Relaxed);
+        self.pixels
+            .iter()
+            .for_each(|rays| rays.store(0, Ordering::Relaxed));
         for Row { rays, is_done } in &self.rows {
             rays.store(0, Ordering::Relaxed);
             is_done.store(false, Ordering::Relaxed);
@@ -63,13 +75,28 @@ impl Meter {
 
     /// Counts a step; false if the rays have run out.
     pub fn step(&self, step: Step) -> bool {
-        let Step { rays, pixel, is_done, open } = step;
-        let [x, y] = [pixel[0].wrapping_sub(self.crop.x), pixel[1].wrapping_sub(self.crop.y)];
+        let Step {
+            rays,
+            pixel,
+            is_done,
+            open,
+        } = step;
+        let [x, y] = [
+            pixel[0].wrapping_sub(self.crop.x),
+            pixel[1].wrapping_sub(self.crop.y),
+        ];
         if x >= self.crop.width || y >= self.crop.height {
             return true;
         }
-        let rays = if open > MOST_OPEN { self.limit + 1 } else { rays };
-        let (row, at) = (&self.rows[y as usize], y as usize * self.crop.width as usize + x as usize);
+        let rays = if open > MOST_OPEN {
+            self.limit + 1
+        } else {
+            rays
+        };
+        let (row, at) = (
+            &self.rows[y as usize],
+            y as usize * self.crop.width as usize + x as usize,
+        );
         self.pixels[at].fetch_add(rays, Ordering::Relaxed);
         let in_row = row.rays.fetch_add(rays, Ordering::Relaxed) + rays;
         if is_done && x + 1 == self.crop.width {
@@ -87,7 +114,12 @@ impl Meter {
     /// The rays of all rows above one, if these are done.
     fn above(&self, y: u32) -> Option<u64> {
         let rows = self.rows[..y as usize].iter();
-        rows.map(|row| row.is_done.load(Ordering::Acquire).then(|| row.rays.load(Ordering::Relaxed))).sum()
+        rows.map(|row| {
+            row.is_done
+                .load(Ordering::Acquire)
+                .then(|| row.rays.load(Ordering::Relaxed))
+        })
+        .sum()
     }
 
     /// The pixel at which the rays ran out, if they did; to be asked when the render has ended.
@@ -99,19 +131,31 @@ impl Meter {
             sum > self.limit
         })?;
         let at = u32::try_from(at).unwrap_or(u32::MAX);
-        Some([self.crop.x + at % self.crop.width, self.crop.y + at / self.crop.width])
+        Some([
+            self.crop.x + at % self.crop.width,
+            self.crop.y + at / self.crop.width,
+        ])
     }
 
-    /// What to say of a scene whose rays ran out at a pixel: it points at the key that makes them so many.
+    /// What to say of a scene whose rays ran out at a pixel: it points at the key that makes them
+    /// so many.
     #[must_use]
     pub fn finding(&self, lowered: &Lowered, pixel: [u32; 2]) -> Diagnostic {
         let ([x, y], Key { place, name, value }) = (pixel, key(lowered));
-        let message = format!("the picture takes more than {} rays: they run out at pixel {x}, {y}", self.limit);
+        let message = format!(
+            "the picture takes more than {} rays: they run out at pixel {x}, {y}",
+            self.limit
+        );
         let camera = Place::new(Noun::Camera, 0, Field::Whole);
-        let span = lowered.origins.span(place).or_else(|| lowered.origins.span(camera));
+        let span = lowered
+            .origins
+            .span(place)
+            .or_else(|| lowered.origins.span(camera));
         Diagnostic::new(&codes::RAYS_RAN_OUT, message)
             .at(span, format!("`{name}` is {value}"))
-            .hint(format!("lower `{name}`; `--limit rays=…` sets another limit, `--allow-huge` lifts it"))
+            .hint(format!(
+                "lower `{name}`; `--limit rays=…` sets another limit, `--allow-huge` lifts it"
+            ))
     }
 }
 
@@ -125,37 +169,79 @@ struct Key {
 /// The key that multiplies rays most: by branching, if it does so at all.
 fn key(lowered: &Lowered) -> Key {
     let settings = &lowered.scene.settings;
-    let setting = |field, name, value| Key { place: Place::new(Noun::Settings, 0, field), name, value };
+    let setting = |field, name, value| Key {
+        place: Place::new(Noun::Settings, 0, field),
+        name,
+        value,
+    };
     let depth = setting(Field::MaxDepth, "MaxRecursionDepth", settings.max_depth);
     if let Mode::Path(path) = &settings.mode {
         let samples = setting(Field::Mode, "samples", path.samples);
-        return if path.samples >= settings.max_depth { samples } else { depth };
+        return if path.samples >= settings.max_depth {
+            samples
+        } else {
+            depth
+        };
     }
-    let phongs = || lowered.scene.materials.iter().map(Material::phong).enumerate();
+    let phongs = || {
+        lowered
+            .scene
+            .materials
+            .iter()
+            .map(Material::phong)
+            .enumerate()
+    };
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong = phong.filter(|phong| phong.ks > 0.0 && phong.glossy_samples > 1)?;
         let place = Place::new(Noun::Material, index, Field::GlossySamples);
-        Some(Key { place, name: "glossySamples", value: phong.glossy_samples })
+        Some(Key {
+            place,
+            name: "glossySamples",
+            value: phong.glossy_samples,
+        })
     });
-    let bounces = phongs().any(|(_, phong)| phong.is_some_and(|phong| phong.ks > 0.0 || phong.kt > 0.0));
+    let bounces =
+        phongs().any(|(_, phong)| phong.is_some_and(|phong| phong.ks > 0.0 || phong.kt > 0.0));
     if settings.max_depth > 0 && bounces {
-        return glossy.max_by_key(|key| key.value).filter(|key| key.value >= settings.max_depth).unwrap_or(depth);
+        return glossy
+            .max_by_key(|key| key.value)
+            .filter(|key| key.value >= settings.max_depth)
+            .unwrap_or(depth);
     }
-    let is_soft = lowered.scene.lights.iter().filter_map(Light::point).any(|light| light.radius > 0.0);
+    let is_soft = lowered
+        .scene
+        .lights
+        .iter()
+        .filter_map(Light::point)
+        .any(|light| light.radius > 0.0);
     if is_soft && settings.light_samples >= settings.supersampling {
         return setting(Field::LightSamples, "LightSamples", settings.light_samples);
     }
-    setting(Field::Supersampling, "SuperSampling", settings.supersampling)
+    setting(
+        Field::Supersampling,
+        "SuperSampling",
+        settings.supersampling,
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const CROP: Crop = Crop { x: 5, y: 7, width: 3, height: 2 };
+    const CROP: Crop = Crop {
+        x: 5,
+        y: 7,
+        width: 3,
+        height: 2,
+    };
 
     fn step(x: u32, y: u32, rays: u64) -> Step {
-        Step { rays, pixel: [x, y], is_done: true, open: 0 }
+        Step {
+            rays,
+            pixel: [x, y],
+            is_done: true,
+            open: 0,
+        }
     }
 
     #[test]
@@ -171,7 +257,10 @@ mod tests {
         // The second row goes on until the first is done.
         assert_eq!(run(&[second, first].concat()), (None, Some([5, 8])));
         // What the first row finds out stops the second.
-        assert_eq!(run(&[step(5, 8, 9), step(5, 7, 8), step(6, 8, 1)]), (Some(1), Some([5, 7])));
+        assert_eq!(
+            run(&[step(5, 8, 9), step(5, 7, 8), step(6, 8, 1)]),
+            (Some(1), Some([5, 7]))
+        );
         assert_eq!(run(&first), (None, None));
     }
 
@@ -189,7 +278,11 @@ mod tests {
     fn a_pixel_that_puts_off_too_much_has_no_end() {
         let meter = Meter::new(1 << 32, CROP);
         assert!(meter.step(step(5, 7, 1)));
-        assert!(!meter.step(Step { open: MOST_OPEN + 1, is_done: false, ..step(6, 7, 1) }));
+        assert!(!meter.step(Step {
+            open: MOST_OPEN + 1,
+            is_done: false,
+            ..step(6, 7, 1)
+        }));
         assert_eq!(meter.ran_out(), Some([6, 7]));
     }
 

@@ -1,4 +1,5 @@
-//! The stages on bytes nobody vouches for: what the fuzz targets call, and the suite with what they found.
+//! The stages on bytes nobody vouches for: what the fuzz targets call, and the suite with what they
+//! found.
 //!
 //! None may panic, whatever the bytes are. What a stage promises beyond that is asserted here.
 
@@ -25,13 +26,17 @@ pub fn lower(bytes: &[u8]) {
     let (map, file) = source(bytes);
     let mut sink = Sink::default();
     let lowered = course::lower(file, &map, &Options::default().front, &mut sink);
-    assert!(lowered.is_some() || sink.has_errors(), "a text is refused with an error");
+    assert!(
+        lowered.is_some() || sink.has_errors(),
+        "a text is refused with an error"
+    );
 }
 
 /// Takes a scene in any form from bytes to its proof.
 ///
 /// # Panics
-/// If there is neither a proof nor an error, or both, or a proven scene is another one after encoding and decoding.
+/// If there is neither a proof nor an error, or both, or a proven scene is another one after
+/// encoding and decoding.
 pub fn check(bytes: &[u8]) {
     check_as("trial", bytes);
 }
@@ -58,21 +63,32 @@ fn check_as(name: &str, bytes: &[u8]) {
     is_proven_or_refused(file, &mut map);
 }
 
-/// Takes a scene from its file, with the files that it names, to its proof and a few pixels, and prints what was found.
+/// Takes a scene from its file, with the files that it names, to its proof and a few pixels, and
+/// prints what was found.
 ///
 /// # Panics
 /// As [`check`] and [`picture`], or if a text about the findings could command a terminal.
 pub fn file(path: &Path) {
     let mut map = SourceMap::default();
-    let Ok(file) = Loader.file(path, &mut map) else { return };
+    let Ok(file) = Loader.file(path, &mut map) else {
+        return;
+    };
     let (sink, scene) = is_proven_or_refused(file, &mut map);
     let name = map.name(file).to_owned();
     // SARIF says what JSON says, after a long table that is always the same.
     for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
-        let options = diag::Options { color: false, width: 100, least: Severity::Note, max: 100 };
+        let options = diag::Options {
+            color: false,
+            width: 100,
+            least: Severity::Note,
+            max: 100,
+        };
         let mut printer = Printer::new(format, options);
         let text = printer.file(&name, sink.clone(), &map) + &printer.finish();
-        assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{format:?} is harmless text: {text:?}");
+        assert!(
+            !text.contains(|c: char| c.is_control() && c != '\n'),
+            "{format:?} is harmless text: {text:?}"
+        );
     }
     scene.into_iter().for_each(is_picture);
 }
@@ -81,9 +97,17 @@ pub fn file(path: &Path) {
 fn is_proven_or_refused(file: FileId, map: &mut SourceMap) -> (Sink, Option<Scene>) {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = load(file, map, &options, &mut sink);
-    let proven = lowered.as_ref().and_then(|lowered| prove(lowered, &options, &mut sink));
-    assert_eq!(proven.is_none(), sink.has_errors(), "a proof or an error, never both");
-    let scene = lowered.filter(|_| proven.is_some()).map(|lowered| lowered.scene);
+    let proven = lowered
+        .as_ref()
+        .and_then(|lowered| prove(lowered, &options, &mut sink));
+    assert_eq!(
+        proven.is_none(),
+        sink.has_errors(),
+        "a proof or an error, never both"
+    );
+    let scene = lowered
+        .filter(|_| proven.is_some())
+        .map(|lowered| lowered.scene);
     scene.iter().for_each(round_trips);
     (sink, scene)
 }
@@ -97,7 +121,11 @@ pub fn decode(bytes: &[u8]) {
     for form in [Form::Text, Form::Binary] {
         let mut sink = Sink::default();
         let scene = codec::decode(form, file, &map, &mut sink);
-        assert_eq!(scene.is_none(), sink.has_errors(), "a scene or an error, never both");
+        assert_eq!(
+            scene.is_none(),
+            sink.has_errors(),
+            "a scene or an error, never both"
+        );
         scene.iter().for_each(round_trips);
     }
 }
@@ -107,10 +135,21 @@ pub fn decode(bytes: &[u8]) {
 /// # Panics
 /// If there is neither a proof nor an error, or both.
 pub fn validate(bytes: &[u8]) {
-    let Ok(scene) = Scene::arbitrary(&mut Unstructured::new(bytes)) else { return };
+    let Ok(scene) = Scene::arbitrary(&mut Unstructured::new(bytes)) else {
+        return;
+    };
     let mut sink = Sink::default();
-    let proven = valid::validate(&scene, &Origins::default(), &Options::default().valid, &mut sink);
-    assert_eq!(proven.is_none(), sink.has_errors(), "a proof or an error, never both");
+    let proven = valid::validate(
+        &scene,
+        &Origins::default(),
+        &Options::default().valid,
+        &mut sink,
+    );
+    assert_eq!(
+        proven.is_none(),
+        sink.has_errors(),
+        "a proof or an error, never both"
+    );
 }
 
 /// Renders a scene in any form, a few pixels of it.
@@ -120,18 +159,35 @@ pub fn validate(bytes: &[u8]) {
 pub fn picture(bytes: &[u8]) {
     let (mut map, file) = source(bytes);
     let lowered = load(file, &mut map, &Options::default(), &mut Sink::default());
-    lowered.into_iter().for_each(|lowered| is_picture(lowered.scene));
+    lowered
+        .into_iter()
+        .for_each(|lowered| is_picture(lowered.scene));
 }
 
 fn is_picture(mut scene: Scene) {
     make_tiny(&mut scene);
-    let lowered = Lowered { scene, origins: Origins::default() };
-    let Some(proven) = prove(&lowered, &Options::default(), &mut Sink::default()) else { return };
-    let film = render(&proven, &Plan::new(&proven, Rules::ALL), &Job::default(), 1, &|_| true)
-        .expect("the system gives one thread");
+    let lowered = Lowered {
+        scene,
+        origins: Origins::default(),
+    };
+    let Some(proven) = prove(&lowered, &Options::default(), &mut Sink::default()) else {
+        return;
+    };
+    let film = render(
+        &proven,
+        &Plan::new(&proven, Rules::ALL),
+        &Job::default(),
+        1,
+        &|_| true,
+    )
+    .expect("the system gives one thread");
     let image = film.expect("nobody said stop").image;
     let inside = |channel: &f64| (0.0..=1.0).contains(channel);
-    assert!(image.pixels.iter().flatten().all(inside), "every channel is in [0, 1]: {:?}", image.pixels);
+    assert!(
+        image.pixels.iter().flatten().all(inside),
+        "every channel is in [0, 1]: {:?}",
+        image.pixels
+    );
 }
 
 fn source(bytes: &[u8]) -> (SourceMap, FileId) {
@@ -143,7 +199,11 @@ fn source(bytes: &[u8]) -> (SourceMap, FileId) {
 fn round_trips(scene: &Scene) {
     for form in [Form::Text, Form::Binary] {
         let bytes = codec::encode(form, scene).expect("a scene that was read holds finite numbers");
-        assert_eq!(codec::recognise(&bytes), Some(form), "what was encoded is recognised");
+        assert_eq!(
+            codec::recognise(&bytes),
+            Some(form),
+            "what was encoded is recognised"
+        );
         let (map, file) = source(&bytes);
         let mut sink = Sink::default();
         let back = codec::decode(form, file, &map, &mut sink);

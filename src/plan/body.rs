@@ -1,4 +1,5 @@
-//! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is a convex solid.
+//! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is
+//! a convex solid.
 
 use super::space::{Flat, ROOM, Sides, Space};
 use crate::math::{Vec3, cross, unit};
@@ -41,42 +42,79 @@ impl Body {
         match shape {
             Shape::Sphere(Sphere { center, radius, .. }) => {
                 let radius = radius.get();
-                Self::within(Space::around(*center, Vec3::splat(radius)), Form::Ball(*center, radius))
+                Self::within(
+                    Space::around(*center, Vec3::splat(radius)),
+                    Form::Ball(*center, radius),
+                )
             }
             Shape::Plane(plane) => {
-                let flat = unit(plane.normal).map(|normal| Flat { point: plane.center, normal });
-                Self { extent: flat.map_or(Extent::Anywhere, Extent::Plane), form: Form::Other }
+                let flat = unit(plane.normal).map(|normal| Flat {
+                    point: plane.center,
+                    normal,
+                });
+                Self {
+                    extent: flat.map_or(Extent::Anywhere, Extent::Plane),
+                    form: Form::Other,
+                }
             }
-            Shape::Triangle(triangle) => Self::within(Space::of(triangle.vertices), face(triangle.vertices)),
+            Shape::Triangle(triangle) => {
+                Self::within(Space::of(triangle.vertices), face(triangle.vertices))
+            }
             Shape::Quad(quad) => Self::of_quad(quad),
-            Shape::Disc(Disc { center, normal, radius }) => {
-                let form = unit(*normal).map_or(Form::Other, |normal| Form::Flat(Flat { point: *center, normal }));
+            Shape::Disc(Disc {
+                center,
+                normal,
+                radius,
+            }) => {
+                let form = unit(*normal).map_or(Form::Other, |normal| {
+                    Form::Flat(Flat {
+                        point: *center,
+                        normal,
+                    })
+                });
                 Self::within(ring(*center, *normal, radius.get(), 0.0), form)
             }
-            Shape::Cylinder(Cylinder { base, axis, height, radius }) => {
+            Shape::Cylinder(Cylinder {
+                base,
+                axis,
+                height,
+                radius,
+            }) => {
                 let top = *base + unit(*axis).unwrap_or(Vec3::ZERO) * height.get();
                 let rim = |center| ring(center, *axis, radius.get(), 0.0);
                 Self::within(rim(*base).union(rim(top)), Form::Convex)
             }
-            Shape::Cone(Cone { base, up, radius }) => {
-                Self::within(ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])), Form::Convex)
+            Shape::Cone(Cone { base, up, radius }) => Self::within(
+                ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])),
+                Form::Convex,
+            ),
+            Shape::Torus(Torus {
+                center,
+                axis,
+                major,
+                minor,
+            }) => Self::within(ring(*center, *axis, major.get(), minor.get()), Form::Other),
+            Shape::Instance(instance) => {
+                Self::within(placed(instance, &meshes[instance.mesh]), Form::Other)
             }
-            Shape::Torus(Torus { center, axis, major, minor }) => {
-                Self::within(ring(*center, *axis, major.get(), minor.get()), Form::Other)
-            }
-            Shape::Instance(instance) => Self::within(placed(instance, &meshes[instance.mesh]), Form::Other),
         }
     }
 
     fn within(space: Space, form: Form) -> Self {
-        Self { extent: Extent::Within(space), form }
+        Self {
+            extent: Extent::Within(space),
+            form,
+        }
     }
 
     /// A patch is met by formulas whose error nobody has bounded, so that it may be anywhere.
     fn of_quad(quad: &Quad) -> Self {
         let [a, b, c, d] = quad.vertices;
         if !quad.is_flat() {
-            return Self { extent: Extent::Anywhere, form: Form::Other };
+            return Self {
+                extent: Extent::Anywhere,
+                form: Form::Other,
+            };
         }
         let form = match face([a, b, c]) {
             Form::Flat(flat) => Form::Flat(flat),
@@ -85,8 +123,8 @@ impl Body {
         Self::within(Space::of(quad.vertices), form)
     }
 
-    /// Makes room for points that are off by `blur`. Where that is no small part of the thickness, they may be anywhere on the
-    /// surface, and its form says nothing of them.
+    /// Makes room for points that are off by `blur`. Where that is no small part of the thickness,
+    /// they may be anywhere on the surface, and its form says nothing of them.
     fn blur(&mut self, blur: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(space) = &mut self.extent {
@@ -117,22 +155,33 @@ impl Body {
 
     /// Whether a convex solid surely does not reach into a box.
     pub(super) fn is_clear_of(&self, other: &Space) -> bool {
-        let Some(space) = self.space() else { return false };
+        let Some(space) = self.space() else {
+            return false;
+        };
         match self.form {
-            Form::Ball(center, radius) => other.distance(center) > radius + 4.0 * ROOM * (space.size() + other.size()),
+            Form::Ball(center, radius) => {
+                other.distance(center) > radius + 4.0 * ROOM * (space.size() + other.size())
+            }
             Form::Flat(_) | Form::Convex | Form::Other => space.is_apart_from(other),
         }
     }
 }
 
-/// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and round by its coordinates.
+/// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and
+/// round by its coordinates.
 pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
-    let mut bodies = surfaces().map(|shape| Body::of(shape, &meshes)).collect::<Vec<_>>();
+    let mut bodies = surfaces()
+        .map(|shape| Body::of(shape, &meshes))
+        .collect::<Vec<_>>();
     let eye = scene.camera().eye.abs().max_element();
-    let farthest = bodies.iter().filter_map(Body::space).map(Space::size).fold(eye, f64::max);
+    let farthest = bodies
+        .iter()
+        .filter_map(Body::space)
+        .map(Space::size)
+        .fold(eye, f64::max);
     for (body, shape) in bodies.iter_mut().zip(surfaces()) {
         body.blur(ROOM * farthest, thickness(shape));
     }
@@ -142,7 +191,10 @@ pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
 /// How thick a solid is, or how long the shortest side of a face.
 fn thickness(shape: &Shape) -> f64 {
     let shortest = |corners: &[Vec3]| {
-        let sides = corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a - *b).abs().max_element());
+        let sides = corners
+            .iter()
+            .zip(corners.iter().cycle().skip(1))
+            .map(|(a, b)| (*a - *b).abs().max_element());
         sides.fold(f64::INFINITY, f64::min)
     };
     match shape {
@@ -156,7 +208,8 @@ fn thickness(shape: &Shape) -> f64 {
     }
 }
 
-/// The plane of a triangle, unless its corners are so nearly in line that rounding moves its normal.
+/// The plane of a triangle, unless its corners are so nearly in line that rounding moves its
+/// normal.
 fn face([a, b, c]: [Vec3; 3]) -> Form {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
@@ -172,10 +225,14 @@ fn face([a, b, c]: [Vec3; 3]) -> Form {
 fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + ROOM * (radius + tube);
-    Space::around(center, Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)))
+    Space::around(
+        center,
+        Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)),
+    )
 }
 
-/// The box of a mesh in the world. Rays go to its own space and back: the flatter the map, the more they round.
+/// The box of a mesh in the world. Rays go to its own space and back: the flatter the map, the more
+/// they round.
 fn placed(instance: &Instance, mesh: &Space) -> Space {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
@@ -196,12 +253,22 @@ mod tests {
     fn is_grown(space: Space, from: Space, margin: f64) {
         let (low, high) = (from.min - space.min, space.max - from.max);
         let margins = [low.x, low.y, low.z, high.x, high.y, high.z];
-        assert!(margins.iter().all(|found| (found - margin).abs() < 1e-3 * margin), "{margins:?}, not {margin:e}");
+        assert!(
+            margins
+                .iter()
+                .all(|found| (found - margin).abs() < 1e-3 * margin),
+            "{margins:?}, not {margin:e}"
+        );
     }
 
     #[test]
     fn a_ring_reaches_across_its_axis_and_has_room() {
-        let found = ring(Vec3::new(1.0, 2.0, -1.0), Vec3::new(0.0, 3.0, 4.0), 2.0, 0.5);
+        let found = ring(
+            Vec3::new(1.0, 2.0, -1.0),
+            Vec3::new(0.0, 3.0, 4.0),
+            2.0,
+            0.5,
+        );
         is_grown(found, span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]), 2.5 * ROOM);
     }
 
@@ -210,9 +277,19 @@ mod tests {
         let [x, y, z] = [[2.0, 0.0, 0.0], [0.0, 3.0, 4.0], [0.0, 0.0, 5.0]].map(Vec3::from_array);
         let world_from_object = [x, y, z, Vec3::new(7.0, -20.0, 1.0)];
         let mesh = span([-1.0, -2.0, -3.0], [4.0, 5.0, 6.0]);
-        let found = placed(&Instance { mesh: 0, world_from_object }, &mesh);
+        let found = placed(
+            &Instance {
+                mesh: 0,
+                world_from_object,
+            },
+            &mesh,
+        );
         // 2, 3 and 4 + 5 times 6 at most, and 20; the axes span 0.6 of a cube.
-        is_grown(found, span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]), (9.0 * 6.0 + 20.0) / 0.6 * ROOM);
+        is_grown(
+            found,
+            span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]),
+            (9.0 * 6.0 + 20.0) / 0.6 * ROOM,
+        );
     }
 
     #[test]
@@ -221,21 +298,44 @@ mod tests {
         let ball = Body::within(Space::around(center, Vec3::ONE), Form::Ball(center, 1.0));
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
         has_margin(4.0 * 13.0 * ROOM, |gap| ball.is_clear_of(&before(gap)));
-        assert!(!ball.is_clear_of(&before(4.0 * 13.0 * ROOM)), "in doubt it is not");
-        let solid = Body { form: Form::Convex, ..ball };
+        assert!(
+            !ball.is_clear_of(&before(4.0 * 13.0 * ROOM)),
+            "in doubt it is not"
+        );
+        let solid = Body {
+            form: Form::Convex,
+            ..ball
+        };
         has_margin(13.0 * ROOM, |gap| solid.is_clear_of(&before(gap)));
         let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
-        assert!(ball.is_clear_of(&corner) && !solid.is_clear_of(&corner), "a ball has no corners");
+        assert!(
+            ball.is_clear_of(&corner) && !solid.is_clear_of(&corner),
+            "a ball has no corners"
+        );
     }
 
     #[test]
     fn a_triangle_has_a_plane_unless_it_is_a_sliver() {
         let corners = |sine: f64| [Vec3::ZERO, Vec3::X * 3.0, Vec3::new(2.0, 2.0 * sine, 0.0)];
-        has_margin(1.0 / 65536.0, |sine| matches!(face(corners(sine)), Form::Flat(_)));
+        has_margin(1.0 / 65536.0, |sine| {
+            matches!(face(corners(sine)), Form::Flat(_))
+        });
         // Of a sine of just 2⁻¹⁶.
-        let slim = [Vec3::ZERO, Vec3::X * 3.0, Vec3::new((1.0 - ROOM).sqrt(), 1.0 / 65536.0, 0.0)];
+        let slim = [
+            Vec3::ZERO,
+            Vec3::X * 3.0,
+            Vec3::new((1.0 - ROOM).sqrt(), 1.0 / 65536.0, 0.0),
+        ];
         assert!(matches!(face(slim), Form::Other), "in doubt it is");
-        let Form::Flat(flat) = face(corners(1.0)) else { panic!("no sliver") };
-        assert_eq!(flat, Flat { point: Vec3::ZERO, normal: Vec3::Z });
+        let Form::Flat(flat) = face(corners(1.0)) else {
+            panic!("no sliver")
+        };
+        assert_eq!(
+            flat,
+            Flat {
+                point: Vec3::ZERO,
+                normal: Vec3::Z
+            }
+        );
     }
 }

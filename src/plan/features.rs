@@ -1,4 +1,5 @@
-//! What an integrator can do: a set known at compile time, so that no branch is left for what a picture does not need.
+//! What an integrator can do: a set known at compile time, so that no branch is left for what a
+//! picture does not need.
 
 /// A set of features of an integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,8 @@ impl Features {
     pub const BOUNCE: Self = Self(1 << 6);
     /// Soft lights and glossy lobes.
     pub const SAMPLED: Self = Self(1 << 7);
-    /// Whatever a rule would leave out at a hit is simulated as well, unless the plan has that rule.
+    /// Whatever a rule would leave out at a hit is simulated as well, unless the plan has that
+    /// rule.
     pub const NAIVE: Self = Self(1 << 8);
     /// All of them but the last.
     pub const EVERYTHING: Self = Self((1 << 8) - 1);
@@ -73,8 +75,17 @@ mod tests {
             Features::SAMPLED,
         ];
         assert!(single.iter().all(|feature| feature.count() == 1));
-        assert_eq!(single.into_iter().fold(Features::NONE, Features::with), Features::EVERYTHING);
-        assert_eq!((Features::EVERYTHING.count(), Features::EVERYTHING.with(Features::NAIVE).count()), (8, 9));
+        assert_eq!(
+            single.into_iter().fold(Features::NONE, Features::with),
+            Features::EVERYTHING
+        );
+        assert_eq!(
+            (
+                Features::EVERYTHING.count(),
+                Features::EVERYTHING.with(Features::NAIVE).count()
+            ),
+            (8, 9)
+        );
         let two = Features::MAPS.with(Features::LIGHT);
         assert_eq!(two.with(Features::LIGHT), two);
         assert!(two.contains(Features::LIGHT) && two.contains(two) && two.contains(Features::NONE));

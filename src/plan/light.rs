@@ -37,7 +37,14 @@ impl Lights {
         let lights = facts.scene.lights();
         let (plans, rules) = lights.iter().map(|light| facts.light(light, reach)).unzip();
         let casts = vec![false; facts.bodies.len()];
-        let mut all = Self { plans, rules, casts, shadow: None, alone: true, capped: false };
+        let mut all = Self {
+            plans,
+            rules,
+            casts,
+            shadow: None,
+            alone: true,
+            capped: false,
+        };
         if facts.scene.settings().shadows && matches!(facts.scene.settings().mode, Mode::Phong) {
             all.find_shadows(facts, reach);
         }
@@ -49,12 +56,25 @@ impl Lights {
         let count = facts.bodies.len();
         let receives = |surface: &usize| reach.reached[*surface] && facts.looks[*surface].is_lit();
         let receivers = (0..count).filter(receives).collect::<Vec<_>>();
-        let lights = (0..self.plans.len()).filter(|light| self.plans[*light].direct).collect::<Vec<_>>();
-        let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else { return };
-        if receivers.len().saturating_mul(lights.len()).saturating_mul(count) > MAX_PAIRS {
+        let lights = (0..self.plans.len())
+            .filter(|light| self.plans[*light].direct)
+            .collect::<Vec<_>>();
+        let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else {
+            return;
+        };
+        if receivers
+            .len()
+            .saturating_mul(lights.len())
+            .saturating_mul(count)
+            > MAX_PAIRS
+        {
             self.capped = true;
             self.casts = vec![true; count];
-            self.shadow = Some(Shadow { light: *light, caster: count - 1, receiver: *receiver });
+            self.shadow = Some(Shadow {
+                light: *light,
+                caster: count - 1,
+                receiver: *receiver,
+            });
             return;
         }
         self.alone = count == 1;
@@ -63,15 +83,24 @@ impl Lights {
             let is_dark = |surface: usize| facts.is_dark(surface, reach.sides[surface], source);
             for receiver in &receivers {
                 let is_behind = facts.rules.contains(Rule::LightBehind) && is_dark(*receiver);
-                let pair = Pair { light, source: extent(source), receiver: *receiver };
-                self.plans[light].shadowed[*receiver] = !is_behind && self.find_casters(facts, reach, &pair);
+                let pair = Pair {
+                    light,
+                    source: extent(source),
+                    receiver: *receiver,
+                };
+                self.plans[light].shadowed[*receiver] =
+                    !is_behind && self.find_casters(facts, reach, &pair);
             }
         }
     }
 
     /// Whether anything may stand between a light and a surface; remembers what.
     fn find_casters(&mut self, facts: &Facts<'_>, reach: &Reach, pair: &Pair) -> bool {
-        let Pair { light, source, receiver } = *pair;
+        let Pair {
+            light,
+            source,
+            receiver,
+        } = *pair;
         let mut falls = false;
         for caster in 0..facts.bodies.len() {
             let may_cast = if caster == receiver {
@@ -83,7 +112,11 @@ impl Lights {
             if may_cast {
                 self.casts[caster] = true;
                 falls = true;
-                self.shadow.get_or_insert(Shadow { light, caster, receiver });
+                self.shadow.get_or_insert(Shadow {
+                    light,
+                    caster,
+                    receiver,
+                });
             }
         }
         falls
@@ -110,11 +143,15 @@ impl Facts<'_> {
         let rule = match self.scene.settings().mode {
             Mode::Gooch(_) | Mode::Path(_) => None,
             Mode::Normal | Mode::Zbuffer => self.allowed(Rule::Mode),
-            Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => Some(Rule::LightBlack),
+            Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => {
+                Some(Rule::LightBlack)
+            }
             Mode::Phong if surfaces().all(|surface| !self.looks[surface].is_lit()) => {
                 self.allowed(Rule::LightUnreached)
             }
-            Mode::Phong if surfaces().all(|surface| self.is_dark(surface, reach.sides[surface], light)) => {
+            Mode::Phong
+                if surfaces().all(|surface| self.is_dark(surface, reach.sides[surface], light)) =>
+            {
                 self.allowed(Rule::LightBehind)
             }
             Mode::Phong => None,
@@ -125,13 +162,20 @@ impl Facts<'_> {
             Some(Rule::LightBlack | Rule::Mode) => false,
             Some(_) => ambient || !self.rules.contains(Rule::LightUnreached),
         };
-        (LightPlan { kept, direct: rule.is_none(), shadowed }, rule)
+        (
+            LightPlan {
+                kept,
+                direct: rule.is_none(),
+                shadowed,
+            },
+            rule,
+        )
     }
 
     /// Whether a light adds no direct term to a surface: none shows, or the light is behind it.
     ///
-    /// The light and all that looks at the surface are off its plane by [`super::space::ROOM`] of all coordinates, so
-    /// N·L < −2⁻³³, far beyond its rounding.
+    /// The light and all that looks at the surface are off its plane by [`super::space::ROOM`] of
+    /// all coordinates, so N·L < −2⁻³³, far beyond its rounding.
     pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &Light) -> bool {
         let (body, look) = (&self.bodies[surface], &self.looks[surface]);
         let gated = self.scene.settings().shadows || !look.shines;
@@ -149,7 +193,9 @@ impl Facts<'_> {
         let (body, look) = (&self.bodies[surface], &self.looks[surface]);
         let spares = match body.form {
             Form::Flat(flat) => flat.sides(light) != Sides::BOTH,
-            Form::Ball(..) | Form::Convex => seen_from == Sides::FRONT && !look.is_bent() && body.is_clear_of(light),
+            Form::Ball(..) | Form::Convex => {
+                seen_from == Sides::FRONT && !look.is_bent() && body.is_clear_of(light)
+            }
             Form::Other => false,
         };
         spares && self.rules.contains(Rule::ShadowConvex)
@@ -159,7 +205,9 @@ impl Facts<'_> {
 impl Body {
     /// Whether `caster` may stand between this surface and a light.
     fn may_be_hidden_by(&self, caster: &Self, light: &Space) -> bool {
-        let Some(space) = self.space() else { return true };
+        let Some(space) = self.space() else {
+            return true;
+        };
         match &caster.extent {
             Extent::Within(other) => {
                 space.may_see_through(light, other)
@@ -185,15 +233,21 @@ impl Ball {
 
     /// The ball in a cube.
     fn around(cube: &Space) -> Self {
-        Self(Some((cube.min * 0.5 + cube.max * 0.5, 0.5 * (cube.max.x - cube.min.x))))
+        Self(Some((
+            cube.min * 0.5 + cube.max * 0.5,
+            0.5 * (cube.max.x - cube.min.x),
+        )))
     }
 
     /// Whether a segment from this ball to `end` may meet `other`.
     ///
-    /// At the share τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c + τ·(l − c)`. It meets
-    /// the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))² ≤ 0`.
+    /// At the share τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c +
+    /// τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
+    /// ≤ 0`.
     fn may_see_through(self, end: &Self, other: &Self) -> bool {
-        let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else { return true };
+        let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else {
+            return true;
+        };
         let size = (c.abs() + l.abs() + o.abs()).element_sum() + r + rho + big;
         let (f, d) = (c - o, l - c);
         let (sum, growth) = (big + r + 8.0 * ROOM * size, rho - r);
@@ -225,7 +279,10 @@ mod tests {
 
     #[test]
     fn the_ball_in_a_cube_touches_its_sides() {
-        let Some((center, radius)) = Ball::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0 else { panic!("a ball") };
+        let Some((center, radius)) = Ball::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0
+        else {
+            panic!("a ball")
+        };
         assert_eq!((center, radius), (Vec3::new(2.0, -1.0, 5.0), 1.0));
     }
 
@@ -233,7 +290,8 @@ mod tests {
     fn what_touches_the_way_between_equal_balls_is_off_it_by_room() {
         let (start, end) = (ball(0.0, 0.0, 1.0), ball(10.0, 0.0, 1.0));
         let is_clear = |gap: f64| !start.may_see_through(&end, &ball(5.0, 3.0 + gap, 2.0));
-        // All coordinates and radii sum up to 22: eightfold, and its square over twice the distance of 3.
+        // All coordinates and radii sum up to 22: eightfold, and its square over twice the distance
+        // of 3.
         has_margin((8.0 * 22.0 + 22.0 * 22.0 / 6.0) * ROOM, is_clear);
     }
 
@@ -253,7 +311,8 @@ mod tests {
 
     #[test]
     fn the_way_to_a_ball_around_the_start_is_that_ball() {
-        let is_clear = |x: f64| !ball(0.0, 0.0, 1.0).may_see_through(&ball(1.0, 0.0, 5.0), &ball(x, 0.0, 1.0));
+        let is_clear =
+            |x: f64| !ball(0.0, 0.0, 1.0).may_see_through(&ball(1.0, 0.0, 5.0), &ball(x, 0.0, 1.0));
         assert!(!is_clear(7.0) && is_clear(7.0 + 1e-6));
         assert!(!is_clear(-5.0) && is_clear(-5.0 - 1e-6));
     }

@@ -33,9 +33,23 @@ pub(super) struct Look {
 impl Look {
     pub(super) fn of(surface: &Surface, scene: &ValidScene, constants: &[Option<Vec3>]) -> Self {
         let material = &scene.materials()[surface.material];
-        let Phong { color, ka, kd, ks, kt, glossy_samples, .. } = material;
-        let maps = material.maps.as_deref().filter(|_| has_uv(&surface.shape, scene));
-        let (color_map, specular_map) = (maps.and_then(|maps| maps.color), maps.and_then(|maps| maps.specular));
+        let Phong {
+            color,
+            ka,
+            kd,
+            ks,
+            kt,
+            glossy_samples,
+            ..
+        } = material;
+        let maps = material
+            .maps
+            .as_deref()
+            .filter(|_| has_uv(&surface.shape, scene));
+        let (color_map, specular_map) = (
+            maps.and_then(|maps| maps.color),
+            maps.and_then(|maps| maps.specular),
+        );
         let color = color_map.map_or(Some(*color), |map| constants[map]);
         let scale = specular_map.map_or(Some(1.0), |map| constants[map].map(|value| value.x));
         let most_ks = ks.get() * scale.unwrap_or_else(|| largest(scene, specular_map).x);
@@ -46,12 +60,16 @@ impl Look {
             diffuse: kd.get() > 0.0 && colored,
             shines,
             weight: most_ks + kt.get(),
-            brightest: (ka.get() + kd.get()) * color.unwrap_or_else(|| largest(scene, color_map)).max_element()
+            brightest: (ka.get() + kd.get())
+                * color
+                    .unwrap_or_else(|| largest(scene, color_map))
+                    .max_element()
                 + most_ks,
             refracts: kt.get() > 0.0,
             glossy: glossy_samples.get() > 1,
             smooth: has_normals(&surface.shape, scene),
-            mapped: maps.is_some_and(|Maps { normal, bump, .. }| normal.is_some() || bump.is_some()),
+            mapped: maps
+                .is_some_and(|Maps { normal, bump, .. }| normal.is_some() || bump.is_some()),
             color_map,
             specular_map,
         }
@@ -86,7 +104,11 @@ fn has_uv(shape: &Shape, scene: &ValidScene) -> bool {
         Shape::Sphere(_) | Shape::Quad(_) => true,
         Shape::Triangle(triangle) => triangle.uvs.is_some(),
         Shape::Instance(instance) => !scene.meshes()[instance.mesh].uvs.is_empty(),
-        Shape::Plane(_) | Shape::Disc(_) | Shape::Cylinder(_) | Shape::Cone(_) | Shape::Torus(_) => false,
+        Shape::Plane(_)
+        | Shape::Disc(_)
+        | Shape::Cylinder(_)
+        | Shape::Cone(_)
+        | Shape::Torus(_) => false,
     }
 }
 

@@ -1,9 +1,11 @@
-//! What the picture of a scene really needs: each effect with its verdict and the reason, and the work that is left.
+//! What the picture of a scene really needs: each effect with its verdict and the reason, and the
+//! work that is left.
 //!
-//! A plan changes no bit of the picture. A rule leaves out only what it proves to add exactly nothing: a term with a
-//! factor of 0 whose other factors are finite (validation bounds every number by 1e60, so each local term is), a ray
-//! that can meet nothing, a sample that equals its neighbour. Sums keep their order, and random numbers are keyed by
-//! pixel, sample and path, so that leaving one out shifts no other.
+//! A plan changes no bit of the picture. A rule leaves out only what it proves to add exactly
+//! nothing: a term with a factor of 0 whose other factors are finite (validation bounds every
+//! number by 1e60, so each local term is), a ray that can meet nothing, a sample that equals its
+//! neighbour. Sums keep their order, and random numbers are keyed by pixel, sample and path, so
+//! that leaving one out shifts no other.
 
 mod body;
 mod effect;
@@ -108,17 +110,41 @@ impl Plan {
         let facts = Facts::new(scene, rules);
         let settings = scene.settings();
         let window = Window::new(scene.camera(), facts.is_pinhole());
-        let shown = facts.bodies.iter().map(|body| window.shown(body)).collect::<Vec<_>>();
-        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode { settings.max_depth } else { 0 };
+        let shown = facts
+            .bodies
+            .iter()
+            .map(|body| window.shown(body))
+            .collect::<Vec<_>>();
+        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode {
+            settings.max_depth
+        } else {
+            0
+        };
         let anywhere = vec![Shown::Anywhere; shown.len()];
-        let seen = if rules.contains(Rule::Cull) { &shown } else { &anywhere };
+        let seen = if rules.contains(Rule::Cull) {
+            &shown
+        } else {
+            &anywhere
+        };
         let reach = Reach::new(&facts, &window, seen, asked);
         let lights = Lights::new(&facts, &reach);
-        let needed = if rules.contains(Rule::MirrorKs) { reach.depth } else { asked };
+        let needed = if rules.contains(Rule::MirrorKs) {
+            reach.depth
+        } else {
+            asked
+        };
         let max_depth = reach::cut(&facts, needed, rules);
-        let is_kept = |surface: usize| reach.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull);
+        let is_kept = |surface: usize| {
+            reach.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull)
+        };
         let surfaces = (0..shown.len()).map(is_kept).collect::<Vec<_>>();
-        let findings = Findings { facts, reach, lights, max_depth, asked };
+        let findings = Findings {
+            facts,
+            reach,
+            lights,
+            max_depth,
+            asked,
+        };
         let region = Region::new(&findings, &window, &shown);
         Self {
             arithmetic: Arithmetic::Robust,
@@ -134,28 +160,36 @@ impl Plan {
         }
     }
 
-    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing by it: what is proven
-    /// of the shapes is proven for the robust one.
+    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing
+    /// by it: what is proven of the shapes is proven for the robust one.
     #[must_use]
     pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
             Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
         };
-        Self { arithmetic, ..Self::new(scene, rules) }
+        Self {
+            arithmetic,
+            ..Self::new(scene, rules)
+        }
     }
 
     /// The rule that left out an effect, of the whole scene or else of some entity.
     #[must_use]
     pub fn rule_of(&self, effect: Effect) -> Option<Rule> {
-        let mut verdicts = self.verdicts.iter().filter(|verdict| verdict.effect == effect);
+        let mut verdicts = self
+            .verdicts
+            .iter()
+            .filter(|verdict| verdict.effect == effect);
         verdicts.find_map(|verdict| verdict.rule)
     }
 
     /// Whether the picture needs an effect, of whatever entity.
     #[must_use]
     pub fn needs(&self, effect: Effect) -> bool {
-        self.verdicts.iter().any(|verdict| verdict.effect == effect && verdict.state == State::Needed)
+        self.verdicts
+            .iter()
+            .any(|verdict| verdict.effect == effect && verdict.state == State::Needed)
     }
 }
 
@@ -175,11 +209,29 @@ struct Facts<'scene> {
 
 impl<'scene> Facts<'scene> {
     fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
-        let constants =
-            if rules.contains(Rule::TextureConstant) { constants(scene) } else { vec![None; scene.textures().len()] };
-        let looks = scene.surfaces().iter().map(|surface| Look::of(surface, scene, &constants)).collect();
-        let even = scene.meshes().iter().map(|mesh| look::is_even(mesh)).collect();
-        Self { scene, rules, bodies: bodies(scene), looks, constants, even }
+        let constants = if rules.contains(Rule::TextureConstant) {
+            constants(scene)
+        } else {
+            vec![None; scene.textures().len()]
+        };
+        let looks = scene
+            .surfaces()
+            .iter()
+            .map(|surface| Look::of(surface, scene, &constants))
+            .collect();
+        let even = scene
+            .meshes()
+            .iter()
+            .map(|mesh| look::is_even(mesh))
+            .collect();
+        Self {
+            scene,
+            rules,
+            bodies: bodies(scene),
+            looks,
+            constants,
+            even,
+        }
     }
 
     /// The rule, if it may be applied.
@@ -190,14 +242,18 @@ impl<'scene> Facts<'scene> {
     /// Whether no triangle of a surface has several shading normals.
     fn is_even(&self, surface: usize) -> bool {
         let shape = &self.scene.surfaces()[surface].shape;
-        let Shape::Instance(instance) = shape else { return true };
+        let Shape::Instance(instance) = shape else {
+            return true;
+        };
         self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
     }
 
     /// Whether all rays of a pixel's point start at the eye.
     fn is_pinhole(&self) -> bool {
         let lens = &self.scene.camera().lens;
-        lens.radius.get() == 0.0 || lens.samples.get() == 1 || matches!(self.scene.settings().mode, Mode::Zbuffer)
+        lens.radius.get() == 0.0
+            || lens.samples.get() == 1
+            || matches!(self.scene.settings().mode, Mode::Zbuffer)
     }
 }
 
@@ -224,7 +280,8 @@ impl Findings<'_> {
 
     /// Whether any surface that is looked at shows something.
     fn any(&self, shows: impl Fn(&Look) -> bool) -> bool {
-        self.reached().any(|surface| shows(&self.facts.looks[surface]))
+        self.reached()
+            .any(|surface| shows(&self.facts.looks[surface]))
     }
 
     fn is_shaded(&self) -> bool {
@@ -252,13 +309,17 @@ impl Findings<'_> {
 
     /// Whether the picture depends on what the texture of a surface's colour shows.
     fn shows_color_map(&self, look: &Look) -> bool {
-        let is_constant = look.color_map.is_none_or(|map| self.facts.constants[map].is_some());
+        let is_constant = look
+            .color_map
+            .is_none_or(|map| self.facts.constants[map].is_some());
         self.is_shaded() && !is_constant && (look.ambient || look.diffuse)
     }
 
     /// Whether the picture depends on what the texture of a surface's ks shows.
     fn shows_specular_map(&self, look: &Look) -> bool {
-        let is_constant = look.specular_map.is_none_or(|map| self.facts.constants[map].is_some());
+        let is_constant = look
+            .specular_map
+            .is_none_or(|map| self.facts.constants[map].is_some());
         self.is_shaded() && !is_constant && look.shines
     }
 
@@ -271,7 +332,9 @@ impl Findings<'_> {
     fn is_soft(&self) -> bool {
         let settings = self.facts.scene.settings();
         let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
-        let soft = lights.filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct).count();
+        let soft = lights
+            .filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct)
+            .count();
         self.is_phong() && settings.light_samples.get() > 1 && soft > 0
     }
 
@@ -290,7 +353,9 @@ impl Findings<'_> {
     /// The smallest set of features that makes the picture.
     fn features(&self) -> Features {
         let rules = self.facts.rules;
-        let bends = |look: &Look| look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat));
+        let bends = |look: &Look| {
+            look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat))
+        };
         let colors = |look: &Look| {
             let unseen = look.color_map.is_some() || look.specular_map.is_some();
             let shows = self.shows_color_map(look) || self.shows_specular_map(look);
@@ -299,8 +364,17 @@ impl Findings<'_> {
         let shines = |look: &Look| look.shines && self.is_lit(look);
         let lit = self.any(|look| self.is_lit(look)) || !rules.contains(Rule::LightUnreached);
         let mut features = Features::NONE;
-        let mut add = |feature, condition: bool| features = if condition { features.with(feature) } else { features };
-        add(Features::CAMERA, self.is_sampled() || !self.facts.is_pinhole());
+        let mut add = |feature, condition: bool| {
+            features = if condition {
+                features.with(feature)
+            } else {
+                features
+            }
+        };
+        add(
+            Features::CAMERA,
+            self.is_sampled() || !self.facts.is_pinhole(),
+        );
         add(Features::MAPS, self.any(|look| bends(look) || colors(look)));
         add(Features::LIGHT, self.is_phong() && lit);
         add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
@@ -313,7 +387,8 @@ impl Findings<'_> {
     }
 }
 
-/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from an eye.
+/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from
+/// an eye.
 fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
     match (scene.settings().mode, scene.camera().projection) {
         (Mode::Path(_), _) => Rules::NONE,
@@ -323,7 +398,16 @@ fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
 }
 
 fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
-    let is_basic = |shape: &Shape| matches!(shape, Shape::Sphere(_) | Shape::Plane(_) | Shape::Triangle(_));
+    let is_basic = |shape: &Shape| {
+        matches!(
+            shape,
+            Shape::Sphere(_) | Shape::Plane(_) | Shape::Triangle(_)
+        )
+    };
     let mut planned = scene.surfaces().iter().zip(kept).filter(|(_, kept)| **kept);
-    if planned.all(|(surface, _)| is_basic(&surface.shape)) { Shapes::Basic } else { Shapes::All }
+    if planned.all(|(surface, _)| is_basic(&surface.shape)) {
+        Shapes::Basic
+    } else {
+        Shapes::All
+    }
 }

@@ -1,15 +1,19 @@
-//! What the plain arithmetics would lose in a scene: first-order estimates from its own sizes and distances.
+//! What the plain arithmetics would lose in a scene: first-order estimates from its own sizes and
+//! distances.
 //!
-//! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors are larger.
+//! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors
+//! are larger.
 
 use super::Arithmetic;
 use crate::math::{Vec3, unit};
 use crate::valid::{Instance, Mode, Phong, Shape, Surface, ValidScene};
 
-/// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray starts on.
+/// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray
+/// starts on.
 pub const NEAREST: f64 = 1e-5;
 
-/// The largest part of the size of a curved surface that its points may be off before its shading shows it in 8 bits.
+/// The largest part of the size of a curved surface that its points may be off before its shading
+/// shows it in 8 bits.
 const VISIBLE: f64 = 1.0 / 512.0;
 
 /// The largest part of the size of a surface that may be skipped before it shows.
@@ -49,17 +53,35 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         Arithmetic::Plain => f64::EPSILON / 2.0,
         Arithmetic::F32 => f64::from(f32::EPSILON) / 2.0,
     };
-    let losses = scene.surfaces().iter().enumerate().filter_map(|(index, surface)| {
-        let measure = Measure::of(scene, surface);
-        let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
-        let excess = symptoms.map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface)));
-        let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
-        let (symptom, excess) = (symptoms[worst], excess[worst]);
-        (excess > 1.0).then(|| Loss { surface: index, symptom, error: measure.error(unit), excess, surfaces: 1 })
-    });
+    let losses = scene
+        .surfaces()
+        .iter()
+        .enumerate()
+        .filter_map(|(index, surface)| {
+            let measure = Measure::of(scene, surface);
+            let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
+            let excess =
+                symptoms.map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface)));
+            let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
+            let (symptom, excess) = (symptoms[worst], excess[worst]);
+            (excess > 1.0).then(|| Loss {
+                surface: index,
+                symptom,
+                error: measure.error(unit),
+                excess,
+                surfaces: 1,
+            })
+        });
     losses.reduce(|worst, loss| {
         let surfaces = worst.surfaces + loss.surfaces;
-        Loss { surfaces, ..if loss.excess > worst.excess { loss } else { worst } }
+        Loss {
+            surfaces,
+            ..if loss.excess > worst.excess {
+                loss
+            } else {
+                worst
+            }
+        }
     })
 }
 
@@ -98,23 +120,41 @@ enum Form {
 impl Measure {
     fn of(scene: &ValidScene, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
-        let size = |from: Vec3, corners: &[Vec3]| corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max);
+        let size = |from: Vec3, corners: &[Vec3]| {
+            corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max)
+        };
         let (middle, form) = match &surface.shape {
             Shape::Sphere(sphere) => (sphere.center, Form::Round(sphere.radius.get())),
-            Shape::Plane(plane) => (nearest(plane.center, plane.normal, eye), Form::Flat(f64::INFINITY)),
+            Shape::Plane(plane) => (
+                nearest(plane.center, plane.normal, eye),
+                Form::Flat(f64::INFINITY),
+            ),
             Shape::Triangle(triangle) => {
                 let [a, b, c] = triangle.vertices;
                 (a, Form::Flat(size(a, &[b, c])))
             }
-            Shape::Quad(quad) => (quad.vertices[0], Form::Flat(size(quad.vertices[0], &quad.vertices[1..]))),
+            Shape::Quad(quad) => (
+                quad.vertices[0],
+                Form::Flat(size(quad.vertices[0], &quad.vertices[1..])),
+            ),
             Shape::Disc(disc) => (disc.center, Form::Flat(disc.radius.get())),
             Shape::Cylinder(cylinder) => (cylinder.base, Form::Round(cylinder.radius.get())),
             Shape::Cone(cone) => (cone.base, Form::Round(cone.radius.get())),
-            Shape::Torus(torus) => (torus.center, Form::Torus { major: torus.major.get(), minor: torus.minor.get() }),
+            Shape::Torus(torus) => (
+                torus.center,
+                Form::Torus {
+                    major: torus.major.get(),
+                    minor: torus.minor.get(),
+                },
+            ),
             Shape::Instance(instance) => placed(scene, instance),
         };
         let coordinates = eye.abs().max_element().max(middle.abs().max_element());
-        Self { coordinates, distance: eye.distance(middle), form }
+        Self {
+            coordinates,
+            distance: eye.distance(middle),
+            form,
+        }
     }
 
     fn size(&self) -> f64 {
@@ -123,18 +163,22 @@ impl Measure {
         }
     }
 
-    /// How far off a point is: the rounding of its coordinates, and that of the polynomial over its slope at the root.
+    /// How far off a point is: the rounding of its coordinates, and that of the polynomial over its
+    /// slope at the root.
     fn error(&self, unit: f64) -> f64 {
         let distance = self.distance;
         let polynomial = match self.form {
             Form::Flat(_) => distance,
             // The discriminant is known to u·d², and its root is about the radius.
             Form::Round(radius) => distance * (distance / radius).max(1.0),
-            // The quartic is known to 16 u·d⁴, the sum of its terms' sizes; its slope is the product of the distances to
-            // the other roots.
+            // The quartic is known to 16 u·d⁴, the sum of its terms' sizes; its slope is the
+            // product of the distances to the other roots.
             Form::Torus { major, minor } => {
                 let other = distance / (2.0 * (major + minor));
-                16.0 * distance * other.max(1.0) * other.max(1.0) * (distance / (2.0 * minor)).max(1.0)
+                16.0 * distance
+                    * other.max(1.0)
+                    * other.max(1.0)
+                    * (distance / (2.0 * minor)).max(1.0)
             }
         };
         unit * (self.coordinates + polynomial)
@@ -144,7 +188,9 @@ impl Measure {
     fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
             Symptom::SelfHit if sends_rays => self.error(unit) / NEAREST,
-            Symptom::Shape if !matches!(self.form, Form::Flat(_)) => self.error(unit) / (VISIBLE * self.size()),
+            Symptom::Shape if !matches!(self.form, Form::Flat(_)) => {
+                self.error(unit) / (VISIBLE * self.size())
+            }
             Symptom::Skipped if sends_rays => NEAREST / (SKIPPED * self.size()),
             Symptom::SelfHit | Symptom::Shape | Symptom::Skipped => 0.0,
         }
@@ -161,7 +207,18 @@ fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
 fn placed(scene: &ValidScene, instance: &Instance) -> (Vec3, Form) {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
-    let mut corners = scene.meshes()[instance.mesh].positions.iter().map(Vec3::from_array).map(to_world);
+    let mut corners = scene.meshes()[instance.mesh]
+        .positions
+        .iter()
+        .map(Vec3::from_array)
+        .map(to_world);
     let first = corners.next().unwrap_or(origin);
-    (first, Form::Flat(corners.map(|corner| corner.distance(first)).fold(0.0, f64::max)))
+    (
+        first,
+        Form::Flat(
+            corners
+                .map(|corner| corner.distance(first))
+                .fold(0.0, f64::max),
+        ),
+    )
 }

@@ -1,4 +1,5 @@
-//! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of mirrors.
+//! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of
+//! mirrors.
 
 use super::body::{Body, Form};
 use super::rule::{Rule, Rules};
@@ -22,29 +23,52 @@ impl Reach {
     /// What rays may meet, where each surface shows as given, with at most `depth` bounces.
     pub(super) fn new(facts: &Facts<'_>, window: &Window, shown: &[Shown], depth: u32) -> Self {
         let lens = window.lens();
-        let reached = shown.iter().map(|shown| *shown != Shown::Nowhere).collect::<Vec<_>>();
+        let reached = shown
+            .iter()
+            .map(|shown| *shown != Shown::Nowhere)
+            .collect::<Vec<_>>();
         let seen = |(body, reached): (&Body, &bool)| {
-            if *reached { body.sides_seen_from(Some(&lens)) } else { Sides::default() }
+            if *reached {
+                body.sides_seen_from(Some(&lens))
+            } else {
+                Sides::default()
+            }
         };
         let sides = facts.bodies.iter().zip(&reached).map(seen).collect();
-        let reach = Self { reached, sides, depth: 0, capped: false };
-        if depth == 0 { reach } else { reach.bounce(facts, depth) }
+        let reach = Self {
+            reached,
+            sides,
+            depth: 0,
+            capped: false,
+        };
+        if depth == 0 {
+            reach
+        } else {
+            reach.bounce(facts, depth)
+        }
     }
 
     /// Adds what mirrors show.
     ///
-    /// A least fixed point: a ray after k bounces meets what a surface reached by k − 1 shows from a side it is looked at
-    /// from, so by induction no ray leaves the set.
+    /// A least fixed point: a ray after k bounces meets what a surface reached by k − 1 shows from
+    /// a side it is looked at from, so by induction no ray leaves the set.
     fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
         let count = facts.bodies.len();
         let mirrors = facts.looks.iter().filter(|look| look.mirrors()).count();
         let is_reached = |mirror: usize| self.reached[mirror] && facts.looks[mirror].mirrors();
-        let mut open = (0..count).filter(|surface| is_reached(*surface)).collect::<Vec<_>>();
+        let mut open = (0..count)
+            .filter(|surface| is_reached(*surface))
+            .collect::<Vec<_>>();
         if open.is_empty() {
             return self;
         }
         if mirrors.saturating_mul(count) > MAX_PAIRS {
-            return Self { reached: vec![true; count], sides: vec![Sides::BOTH; count], depth, capped: true };
+            return Self {
+                reached: vec![true; count],
+                sides: vec![Sides::BOTH; count],
+                depth,
+                capped: true,
+            };
         }
         let mut targets = vec![Vec::new(); count];
         while let Some(mirror) = open.pop() {
@@ -71,19 +95,32 @@ impl Facts<'_> {
         let scatters = look.refracts || (look.glossy && look.is_bent());
         let others = |may_show: &dyn Fn(&Body) -> bool| {
             let others = (0..self.bodies.len()).filter(|surface| *surface != mirror);
-            others.filter(|surface| may_show(&self.bodies[*surface])).collect()
+            others
+                .filter(|surface| may_show(&self.bodies[*surface]))
+                .collect()
         };
-        let one_side = if sides == Sides::BOTH { None } else { Some(sides) };
+        let one_side = if sides == Sides::BOTH {
+            None
+        } else {
+            Some(sides)
+        };
         match (body.form, one_side) {
-            (Form::Flat(flat), Some(side)) if !scatters && self.rules.contains(Rule::MirrorUnreached) => {
-                others(&|body| body.space().is_none_or(|space| flat.sides(space) != side.opposite()))
+            (Form::Flat(flat), Some(side))
+                if !scatters && self.rules.contains(Rule::MirrorUnreached) =>
+            {
+                others(&|body| {
+                    body.space()
+                        .is_none_or(|space| flat.sides(space) != side.opposite())
+                })
             }
             (Form::Ball(..) | Form::Convex, Some(Sides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
             }
-            (Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other, _) => (0..self.bodies.len()).collect(),
+            (Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other, _) => {
+                (0..self.bodies.len()).collect()
+            }
         }
     }
 }
@@ -110,20 +147,37 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
         Some(longest)
     }
     let mut chains = vec![Chain::Unknown; targets.len()];
-    (0..targets.len()).try_fold(0, |longest, mirror| Some(longest.max(from(mirror, targets, &mut chains)?)))
+    (0..targets.len()).try_fold(0, |longest, mirror| {
+        Some(longest.max(from(mirror, targets, &mut chains)?))
+    })
 }
 
-/// The bounces after which what is left weighs less than half a level of 8 bits, if that is ever so.
+/// The bounces after which what is left weighs less than half a level of 8 bits, if that is ever
+/// so.
 ///
-/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, with k the largest weight of all that goes on from a point and
-/// L the most that a point shows directly.
+/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, with k the largest weight of all that goes
+/// on from a point and L the most that a point shows directly.
 pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
     if !rules.contains(Rule::Cut) {
         return depth;
     }
-    let weight = facts.looks.iter().map(|look| look.weight).fold(0.0, f64::max);
-    let light = facts.scene.lights().iter().map(|light| light.color.max_element()).sum::<f64>();
-    let brightest = facts.looks.iter().map(|look| look.brightest).fold(0.0, f64::max) * light;
+    let weight = facts
+        .looks
+        .iter()
+        .map(|look| look.weight)
+        .fold(0.0, f64::max);
+    let light = facts
+        .scene
+        .lights()
+        .iter()
+        .map(|light| light.color.max_element())
+        .sum::<f64>();
+    let brightest = facts
+        .looks
+        .iter()
+        .map(|look| look.brightest)
+        .fold(0.0, f64::max)
+        * light;
     let mut rest = brightest * weight / (1.0 - weight);
     let mut bounces = 0;
     while bounces < depth && !(weight < 1.0 && rest < 0.5 / 255.0) {
@@ -140,7 +194,10 @@ mod tests {
     #[test]
     fn the_longest_chain_of_mirrors_is_found_and_a_cycle_has_none() {
         assert_eq!(longest_chain(&[vec![], vec![]]), Some(0));
-        assert_eq!(longest_chain(&[vec![1, 2], vec![2], vec![3], vec![]]), Some(3));
+        assert_eq!(
+            longest_chain(&[vec![1, 2], vec![2], vec![3], vec![]]),
+            Some(3)
+        );
         assert_eq!(longest_chain(&[vec![1], vec![0]]), None);
         assert_eq!(longest_chain(&[vec![0]]), None);
     }

@@ -1,7 +1,8 @@
 //! What each pixel may show: nothing, one flat surface of one value, or anything.
 //!
-//! Each surface is counted in the cells its rectangle of the picture overlaps, cells being squares of pixels so many that
-//! they stay cheap. What no rectangle overlaps shows nothing, whatever the order or shape of the surfaces.
+//! Each surface is counted in the cells its rectangle of the picture overlaps, cells being squares
+//! of pixels so many that they stay cheap. What no rectangle overlaps shows nothing, whatever the
+//! order or shape of the surfaces.
 
 use super::body::Form;
 use super::rule::Rule;
@@ -61,7 +62,11 @@ impl Region {
         let flats = findings.has_flat_pixels();
         for (surface, shown) in shown.iter().enumerate() {
             let Shown::In(rect) = shown else { continue };
-            let polygon = if flats { findings.polygon(surface, window) } else { None };
+            let polygon = if flats {
+                findings.polygon(surface, window)
+            } else {
+                None
+            };
             let mark = polygon.map_or(0, |polygon| {
                 polygons.push(polygon);
                 polygons.len() as i64
@@ -70,7 +75,13 @@ impl Region {
         }
         let cells = grid.cells();
         let (shift, columns) = (grid.shift, grid.columns);
-        Self { shift, columns, cells, polygons, misses: rules.contains(Rule::PixelMiss) }
+        Self {
+            shift,
+            columns,
+            cells,
+            polygons,
+            misses: rules.contains(Rule::PixelMiss),
+        }
     }
 
     /// What the rays through a pixel may meet.
@@ -81,7 +92,9 @@ impl Region {
         }
         match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
             Cell::Nothing if self.misses => Sight::Nothing,
-            Cell::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => Sight::Uniform,
+            Cell::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
+                Sight::Uniform
+            }
             Cell::Nothing | Cell::One(_) | Cell::Anything => Sight::Anything,
         }
     }
@@ -89,8 +102,16 @@ impl Region {
     /// The share of the picture that surely shows nothing, in [0, 1].
     #[must_use]
     pub fn empty_share(&self) -> f64 {
-        let empty = self.cells.iter().filter(|cell| **cell == Cell::Nothing).count();
-        if self.misses { empty as f64 / self.cells.len().max(1) as f64 } else { 0.0 }
+        let empty = self
+            .cells
+            .iter()
+            .filter(|cell| **cell == Cell::Nothing)
+            .count();
+        if self.misses {
+            empty as f64 / self.cells.len().max(1) as f64
+        } else {
+            0.0
+        }
     }
 
     /// Whether some pixels may show one flat surface of one value alone.
@@ -106,26 +127,43 @@ impl Findings<'_> {
         self.facts.rules.contains(Rule::PixelFlat) && self.is_sampled() && self.facts.is_pinhole()
     }
 
-    /// The outline in the picture of a convex polygon within a surface, if that is flat and shows one value.
+    /// The outline in the picture of a convex polygon within a surface, if that is flat and shows
+    /// one value.
     fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
-        let Form::Flat(flat) = self.facts.bodies[surface].form else { return None };
+        let Form::Flat(flat) = self.facts.bodies[surface].form else {
+            return None;
+        };
         let shape = &self.facts.scene.surfaces()[surface].shape;
         let look = &self.facts.looks[surface];
         let shows_one_value = match self.mode() {
             // The two halves of a quad may differ in the last bit of their normals.
             Mode::Normal => {
-                !look.is_bent() && !matches!(shape, Shape::Quad(_)) && self.reach.sides[surface] != Sides::BOTH
+                !look.is_bent()
+                    && !matches!(shape, Shape::Quad(_))
+                    && self.reach.sides[surface] != Sides::BOTH
             }
             Mode::Phong => {
                 let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
                 let mut direct = lights.filter(|(_, plan)| plan.direct);
-                let is_dark = direct.all(|(light, _)| self.facts.is_dark(surface, self.reach.sides[surface], light));
+                let is_dark = direct.all(|(light, _)| {
+                    self.facts
+                        .is_dark(surface, self.reach.sides[surface], light)
+                });
                 is_dark && !self.shows_color_map(look) && (self.max_depth == 0 || !look.mirrors())
             }
             Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
         };
-        let corners = if shows_one_value { corners(shape, flat.normal) } else { None };
-        convex(corners?.into_iter().map(|corner| window.middle(corner)).collect::<Option<_>>()?)
+        let corners = if shows_one_value {
+            corners(shape, flat.normal)
+        } else {
+            None
+        };
+        convex(
+            corners?
+                .into_iter()
+                .map(|corner| window.middle(corner))
+                .collect::<Option<_>>()?,
+        )
     }
 }
 
@@ -166,7 +204,9 @@ fn edges(polygon: &[[f64; 2]]) -> impl Iterator<Item = [[f64; 2]; 2]> {
 
 /// The polygon with its corners turning left, unless it is not convex or too small to hold a pixel.
 fn convex(mut polygon: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
-    let whole = edges(&polygon).map(|edge| area(edge, polygon[0])).sum::<f64>();
+    let whole = edges(&polygon)
+        .map(|edge| area(edge, polygon[0]))
+        .sum::<f64>();
     if whole < 0.0 {
         polygon.reverse();
     }
@@ -177,12 +217,21 @@ fn convex(mut polygon: Vec<[f64; 2]>) -> Option<Vec<[f64; 2]>> {
 
 /// Whether a pixel lies inside a polygon, with a margin.
 fn is_inside(polygon: &[[f64; 2]], [x, y]: [u32; 2]) -> bool {
-    let (low, high) = ([x, y].map(|at| f64::from(at) - MARGIN), [x, y].map(|at| f64::from(at) + 1.0 + MARGIN));
-    let corners = [[low[0], low[1]], [high[0], low[1]], [low[0], high[1]], [high[0], high[1]]];
+    let (low, high) = (
+        [x, y].map(|at| f64::from(at) - MARGIN),
+        [x, y].map(|at| f64::from(at) + 1.0 + MARGIN),
+    );
+    let corners = [
+        [low[0], low[1]],
+        [high[0], low[1]],
+        [low[0], high[1]],
+        [high[0], high[1]],
+    ];
     edges(polygon).all(|edge| corners.iter().all(|corner| area(edge, *corner) >= 0.0))
 }
 
-/// How many surfaces each cell may show, and the sum of their marks, as differences from the cells before.
+/// How many surfaces each cell may show, and the sum of their marks, as differences from the cells
+/// before.
 struct Grid {
     shift: u32,
     columns: usize,
@@ -199,13 +248,25 @@ impl Grid {
         let shift = (0..31).find(is_cheap).unwrap_or(31);
         let side = |side: u32| ((side - 1) >> shift) as usize + 1;
         let (columns, rows) = (side(width), side(height));
-        Self { shift, columns, rows, differences: vec![(0, 0); (columns + 1) * (rows + 1)] }
+        Self {
+            shift,
+            columns,
+            rows,
+            differences: vec![(0, 0); (columns + 1) * (rows + 1)],
+        }
     }
 
     fn add(&mut self, rect: Rect, mark: i64) {
-        let span = |[first, last]: [u32; 2]| [first >> self.shift, ((last - 1) >> self.shift) + 1].map(|k| k as usize);
+        let span = |[first, last]: [u32; 2]| {
+            [first >> self.shift, ((last - 1) >> self.shift) + 1].map(|k| k as usize)
+        };
         let ([left, right], [top, bottom]) = (span(rect.x), span(rect.y));
-        for (x, y, sign) in [(left, top, 1), (right, top, -1), (left, bottom, -1), (right, bottom, 1)] {
+        for (x, y, sign) in [
+            (left, top, 1),
+            (right, top, -1),
+            (left, bottom, -1),
+            (right, bottom, 1),
+        ] {
             let (count, marks) = &mut self.differences[y * (self.columns + 1) + x];
             *count += sign;
             *marks += i64::from(sign) * mark;
@@ -218,7 +279,11 @@ impl Grid {
         for y in 0..self.rows {
             let mut row = (0, 0);
             for x in 0..self.columns {
-                let above = if y == 0 { (0, 0) } else { self.differences[(y - 1) * stride + x] };
+                let above = if y == 0 {
+                    (0, 0)
+                } else {
+                    self.differences[(y - 1) * stride + x]
+                };
                 let here = &mut self.differences[y * stride + x];
                 row = (row.0 + here.0, row.1 + here.1);
                 *here = (row.0 + above.0, row.1 + above.1);
@@ -239,11 +304,32 @@ mod tests {
 
     #[test]
     fn cells_count_the_rectangles_that_overlap_them() {
-        let mut grid = Grid { shift: 1, columns: 4, rows: 3, differences: vec![(0, 0); 20] };
-        grid.add(Rect { x: [0, 4], y: [0, 2] }, 1);
-        grid.add(Rect { x: [3, 8], y: [1, 6] }, 0);
+        let mut grid = Grid {
+            shift: 1,
+            columns: 4,
+            rows: 3,
+            differences: vec![(0, 0); 20],
+        };
+        grid.add(
+            Rect {
+                x: [0, 4],
+                y: [0, 2],
+            },
+            1,
+        );
+        grid.add(
+            Rect {
+                x: [3, 8],
+                y: [1, 6],
+            },
+            0,
+        );
         let (nothing, one, any) = (Cell::Nothing, Cell::One(0), Cell::Anything);
-        let wanted = [[one, any, any, any], [nothing, any, any, any], [nothing, any, any, any]];
+        let wanted = [
+            [one, any, any, any],
+            [nothing, any, any, any],
+            [nothing, any, any, any],
+        ];
         assert_eq!(grid.cells(), wanted.concat());
     }
 
@@ -251,17 +337,34 @@ mod tests {
     fn a_pixel_is_inside_a_polygon_with_a_margin() {
         let square = convex(vec![[0.0, 0.0], [0.0, 5.0], [5.0, 5.0], [5.0, 0.0]]).unwrap();
         assert!(is_inside(&square, [1, 1]) && is_inside(&square, [3, 3]));
-        assert!(!is_inside(&square, [0, 1]) && !is_inside(&square, [4, 1]) && !is_inside(&square, [9, 9]));
-        assert!(convex(vec![[0.0, 0.0], [9.0, 0.0], [2.0, 2.0], [0.0, 9.0]]).is_none(), "a dart is not convex");
+        assert!(
+            !is_inside(&square, [0, 1])
+                && !is_inside(&square, [4, 1])
+                && !is_inside(&square, [9, 9])
+        );
+        assert!(
+            convex(vec![[0.0, 0.0], [9.0, 0.0], [2.0, 2.0], [0.0, 9.0]]).is_none(),
+            "a dart is not convex"
+        );
     }
 
     #[test]
     fn a_polygon_is_taken_in_either_order_unless_it_is_smaller_than_a_pixel() {
-        let square = |side: f64| vec![[3.0, 2.0], [3.0 + side, 2.0], [3.0 + side, 2.0 + side], [3.0, 2.0 + side]];
+        let square = |side: f64| {
+            vec![
+                [3.0, 2.0],
+                [3.0 + side, 2.0],
+                [3.0 + side, 2.0 + side],
+                [3.0, 2.0 + side],
+            ]
+        };
         let turned = |side: f64| square(side).into_iter().rev().collect::<Vec<_>>();
         for polygon in [square(4.0), turned(4.0)] {
             let polygon = convex(polygon).unwrap();
-            assert!(edges(&polygon).all(|edge| area(edge, [5.0, 4.0]) == 8.0), "the middle is to the left");
+            assert!(
+                edges(&polygon).all(|edge| area(edge, [5.0, 4.0]) == 8.0),
+                "the middle is to the left"
+            );
         }
         assert!(convex(square(1.0)).is_none() && convex(turned(1.0)).is_none());
         assert!(convex(square(1.01)).is_some() && convex(turned(1.01)).is_some());

@@ -79,7 +79,9 @@ impl Rule {
     /// The rule of a name.
     #[must_use]
     pub fn find(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|rule| rule.name().eq_ignore_ascii_case(name))
+        Self::ALL
+            .into_iter()
+            .find(|rule| rule.name().eq_ignore_ascii_case(name))
     }
 
     #[expect(clippy::too_many_lines, reason = "a table, one row a rule")]
@@ -93,9 +95,10 @@ impl Rule {
                 "E-LIGHT-BLACK",
                 "A black light multiplies finite terms by 0. Not in Gooch's shading, whose tones are not the light's.",
             ),
-            Self::LightUnreached => {
-                ("E-LIGHT-UNREACH", "Where kd·C and ks are 0 on all that can be seen, each direct term has a factor 0.")
-            }
+            Self::LightUnreached => (
+                "E-LIGHT-UNREACH",
+                "Where kd·C and ks are 0 on all that can be seen, each direct term has a factor 0.",
+            ),
             Self::LightBehind => (
                 "E-LIGHT-BEHIND",
                 "A flat surface seen from one side has N·L < 0 for a light on the other: its diffuse term is max(0, N·L) \
@@ -107,9 +110,10 @@ impl Rule {
                 "Where N·L ≤ 0, with the shading or the geometric normal, the surface stands in its own light: no shadow ray \
                  need say so.",
             ),
-            Self::ShadowUnlit => {
-                ("E-SHADOW-KM", "At a hit whose kd·C and ks are 0 a light adds nothing, hidden or not: no shadow ray.")
-            }
+            Self::ShadowUnlit => (
+                "E-SHADOW-KM",
+                "At a hit whose kd·C and ks are 0 a light adds nothing, hidden or not: no shadow ray.",
+            ),
             Self::ShadowConvex => (
                 "E-SHADOW-CONVEX",
                 "A convex solid lies behind the plane that touches it at a point with N·L > 0, the light before it: it \
@@ -120,10 +124,14 @@ impl Rule {
                 "All segments from a surface to a light lie in the convex hull of the two: what is surely outside \
                  shadows nothing there.",
             ),
-            Self::SoftPoint => {
-                ("E-SOFT", "A light of radius 0 is a point, and one sample of a light asks its centre: no sampling.")
-            }
-            Self::HighlightKs => ("E-SPEC", "Where ks is 0 the highlight is 0 times a power of at most 1: no power."),
+            Self::SoftPoint => (
+                "E-SOFT",
+                "A light of radius 0 is a point, and one sample of a light asks its centre: no sampling.",
+            ),
+            Self::HighlightKs => (
+                "E-SPEC",
+                "Where ks is 0 the highlight is 0 times a power of at most 1: no power.",
+            ),
             Self::MirrorKs => (
                 "E-REFL-KS",
                 "What a mirrored or refracted ray sees counts ks or kt times; where that is 0 no ray is traced.",
@@ -139,14 +147,23 @@ impl Rule {
                 "A ray mirrored off a convex solid from outside leaves through the half-space before its tangent plane: \
                  it can't meet the solid again.",
             ),
-            Self::Opaque => ("E-REFR", "No material that can be seen has kt > 0: nothing refracts."),
-            Self::GlossyMirror => ("E-GLOSSY", "A lobe of one sample is the mirror, a lobe of weight 0 is nothing."),
+            Self::Opaque => (
+                "E-REFR",
+                "No material that can be seen has kt > 0: nothing refracts.",
+            ),
+            Self::GlossyMirror => (
+                "E-GLOSSY",
+                "A lobe of one sample is the mirror, a lobe of weight 0 is nothing.",
+            ),
             Self::Cut => (
                 "B-CUT",
                 "Bounces whose weight bounds all they can add below half a level of 8 bits are cut off. Only with \
                  --approx: the picture may differ by that much.",
             ),
-            Self::TextureConstant => ("E-TEX-CONST", "A texture whose texels are all equal is that value everywhere."),
+            Self::TextureConstant => (
+                "E-TEX-CONST",
+                "A texture whose texels are all equal is that value everywhere.",
+            ),
             Self::TextureUnseen => (
                 "E-TEX-UNSEEN",
                 "A map on a surface without texture coordinates, on one that can't be seen, or for a term whose weight \
@@ -157,7 +174,10 @@ impl Rule {
                 "Shading normals do not show without light and mirrors, and where all corners of each triangle have the \
                  same normal there is nothing to interpolate.",
             ),
-            Self::Pinhole => ("E-DOF", "A lens of radius 0 or of one sample is its centre: one ray."),
+            Self::Pinhole => (
+                "E-DOF",
+                "A lens of radius 0 or of one sample is its centre: one ray.",
+            ),
             Self::OneSample => ("E-SS", "A factor of 1 is one sample a pixel."),
             Self::PixelMiss => (
                 "E-SS-MISS",
@@ -167,9 +187,10 @@ impl Rule {
                 "E-SS-FLAT",
                 "Where all rays of a pixel meet one flat surface of one value, one is traced and counts for all.",
             ),
-            Self::Cull => {
-                ("E-CULL", "A surface that no camera, shadow or mirror ray can meet is left out of the world.")
-            }
+            Self::Cull => (
+                "E-CULL",
+                "A surface that no camera, shadow or mirror ray can meet is left out of the world.",
+            ),
         }
     }
 }
@@ -184,8 +205,11 @@ impl Rules {
     /// Every rule that changes no bit.
     pub const ALL: Self = Self(u32::MAX).without(Rule::Cut);
     /// The rules that decide hit by hit.
-    pub const AT_HITS: Self =
-        Self::NONE.with(Rule::ShadowFacing).with(Rule::ShadowUnlit).with(Rule::HighlightKs).with(Rule::MirrorKs);
+    pub const AT_HITS: Self = Self::NONE
+        .with(Rule::ShadowFacing)
+        .with(Rule::ShadowUnlit)
+        .with(Rule::HighlightKs)
+        .with(Rule::MirrorKs);
 
     /// The set with a rule more.
     #[must_use]
@@ -229,7 +253,10 @@ mod tests {
             assert_eq!(Rule::find(&rule.name().to_lowercase()), Some(rule));
         }
         assert!(Rule::find("E-NOTHING").is_none());
-        assert!(!Rules::ALL.contains(Rule::Cut), "what changes a picture is asked for");
+        assert!(
+            !Rules::ALL.contains(Rule::Cut),
+            "what changes a picture is asked for"
+        );
     }
 
     #[test]
@@ -237,10 +264,21 @@ mod tests {
         let two = Rules::NONE.with(Rule::Mode).with(Rule::Cull);
         assert_eq!([two.with(Rule::Cull), two.without(Rule::Cut)], [two, two]);
         assert_eq!(two.without(Rule::Cull), Rules::NONE.with(Rule::Mode));
-        assert_eq!(two.of(Rules::AT_HITS.with(Rule::Cull)), Rules::NONE.with(Rule::Cull));
+        assert_eq!(
+            two.of(Rules::AT_HITS.with(Rule::Cull)),
+            Rules::NONE.with(Rule::Cull)
+        );
         assert!(two.contains(Rule::Cull) && two.contains_all(two) && two.contains_all(Rules::NONE));
         assert!(!two.contains(Rule::Cut) && !two.contains_all(two.with(Rule::Cut)));
-        let others = [Rule::ShadowFacing, Rule::ShadowUnlit, Rule::HighlightKs, Rule::MirrorKs];
-        assert_eq!(others.into_iter().fold(Rules::NONE, Rules::with), Rules::AT_HITS);
+        let others = [
+            Rule::ShadowFacing,
+            Rule::ShadowUnlit,
+            Rule::HighlightKs,
+            Rule::MirrorKs,
+        ];
+        assert_eq!(
+            others.into_iter().fold(Rules::NONE, Rules::with),
+            Rules::AT_HITS
+        );
     }
 }

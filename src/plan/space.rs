@@ -1,7 +1,9 @@
-//! Boxes, and the room that rounding takes: whatever the rules say about where things are holds with a margin.
+//! Boxes, and the room that rounding takes: whatever the rules say about where things are holds
+//! with a margin.
 //!
-//! Rays meet shapes to within some 10² units of rounding of the coordinates involved. The rules keep [`ROOM`], 2²¹ units,
-//! so that what they find apart is apart for the arithmetic of rays as well.
+//! Rays meet shapes to within some 10² units of rounding of the coordinates involved. The rules
+//! keep [`ROOM`], 2²¹ units, so that what they find apart is apart for the arithmetic of rays as
+//! well.
 
 use crate::math::Vec3;
 
@@ -18,17 +20,31 @@ pub(super) struct Space {
 impl Space {
     /// The box that reaches so far from a point along each axis.
     pub(super) fn around(center: Vec3, reach: Vec3) -> Self {
-        Self { min: center - reach, max: center + reach }
+        Self {
+            min: center - reach,
+            max: center + reach,
+        }
     }
 
     /// The box of some points; of none, one that nothing meets.
     pub(super) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
-        let nothing = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
-        points.into_iter().fold(nothing, |space, point| space.union(Self { min: point, max: point }))
+        let nothing = Self {
+            min: Vec3::INFINITY,
+            max: Vec3::NEG_INFINITY,
+        };
+        points.into_iter().fold(nothing, |space, point| {
+            space.union(Self {
+                min: point,
+                max: point,
+            })
+        })
     }
 
     pub(super) fn union(self, other: Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
     }
 
     /// The size of the largest coordinate.
@@ -38,34 +54,52 @@ impl Space {
 
     /// The box with a margin on all sides.
     pub(super) fn grown(self, by: f64) -> Self {
-        Self { min: self.min - Vec3::splat(by), max: self.max + Vec3::splat(by) }
+        Self {
+            min: self.min - Vec3::splat(by),
+            max: self.max + Vec3::splat(by),
+        }
     }
 
     pub(super) fn corners(&self) -> [Vec3; 8] {
-        let pick = |bit: usize, axis: usize| if bit == 0 { self.min[axis] } else { self.max[axis] };
+        let pick = |bit: usize, axis: usize| {
+            if bit == 0 {
+                self.min[axis]
+            } else {
+                self.max[axis]
+            }
+        };
         std::array::from_fn(|k| Vec3::new(pick(k & 1, 0), pick(k >> 1 & 1, 1), pick(k >> 2, 2)))
     }
 
     /// Whether the two surely have no point in common.
     pub(super) fn is_apart_from(&self, other: &Self) -> bool {
         let room = ROOM * (self.size() + other.size());
-        (self.min - other.max).max(other.min - self.max).max_element() > room
+        (self.min - other.max)
+            .max(other.min - self.max)
+            .max_element()
+            > room
     }
 
     /// The distance from a point to the nearest of the box.
     pub(super) fn distance(&self, point: Vec3) -> f64 {
-        (self.min - point).max(point - self.max).max(Vec3::ZERO).length()
+        (self.min - point)
+            .max(point - self.max)
+            .max(Vec3::ZERO)
+            .length()
     }
 
     /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
     ///
-    /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of `other` bounds τ by a
-    /// linear inequality; where no τ satisfies all, nothing meets.
+    /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
+    /// `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
     pub(super) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = ROOM;
         let near = ROOM * (self.size() + other.size());
-        let (start, end) = (self.grown(near), end.grown(ROOM * (end.size() + self.size())));
+        let (start, end) = (
+            self.grown(near),
+            end.grown(ROOM * (end.size() + self.size())),
+        );
         let other = other.grown(near);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         let mut limit = |at_start: f64, at_end: f64| {
@@ -79,8 +113,14 @@ impl Space {
             }
         };
         for axis in 0..3 {
-            limit(start.min[axis] - other.max[axis], end.min[axis] - other.max[axis]);
-            limit(other.min[axis] - start.max[axis], other.min[axis] - end.max[axis]);
+            limit(
+                start.min[axis] - other.max[axis],
+                end.min[axis] - other.max[axis],
+            );
+            limit(
+                other.min[axis] - start.max[axis],
+                other.min[axis] - end.max[axis],
+            );
         }
         low <= high + SLACK
     }
@@ -103,16 +143,31 @@ pub(super) struct Sides {
 }
 
 impl Sides {
-    pub(super) const BOTH: Self = Self { front: true, back: true };
-    pub(super) const FRONT: Self = Self { front: true, back: false };
-    pub(super) const BACK: Self = Self { front: false, back: true };
+    pub(super) const BOTH: Self = Self {
+        front: true,
+        back: true,
+    };
+    pub(super) const FRONT: Self = Self {
+        front: true,
+        back: false,
+    };
+    pub(super) const BACK: Self = Self {
+        front: false,
+        back: true,
+    };
 
     pub(super) fn opposite(self) -> Self {
-        Self { front: self.back, back: self.front }
+        Self {
+            front: self.back,
+            back: self.front,
+        }
     }
 
     pub(super) fn with(self, other: Self) -> Self {
-        Self { front: self.front || other.front, back: self.back || other.back }
+        Self {
+            front: self.front || other.front,
+            back: self.back || other.back,
+        }
     }
 }
 
@@ -120,7 +175,9 @@ impl Flat {
     /// On which sides of the plane a box lies; both if that is in doubt.
     pub(super) fn sides(&self, space: &Space) -> Sides {
         let room = 4.0 * ROOM * (space.size() + self.point.abs().max_element());
-        let heights = space.corners().map(|corner| (corner - self.point).dot(self.normal));
+        let heights = space
+            .corners()
+            .map(|corner| (corner - self.point).dot(self.normal));
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         if low > room {
@@ -139,13 +196,22 @@ pub(super) mod tests {
 
     /// Something that is surely so, seen from a margin on, is not yet so a little before it.
     pub(in crate::plan) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
-        assert!(!is_sure((1.0 - 1e-5) * margin), "the margin is smaller than {margin:e}");
-        assert!(is_sure((1.0 + 1e-5) * margin), "the margin is larger than {margin:e}");
+        assert!(
+            !is_sure((1.0 - 1e-5) * margin),
+            "the margin is smaller than {margin:e}"
+        );
+        assert!(
+            is_sure((1.0 + 1e-5) * margin),
+            "the margin is larger than {margin:e}"
+        );
     }
 
     /// A box, by its corners.
     pub(in crate::plan) fn span(min: [f64; 3], max: [f64; 3]) -> Space {
-        Space { min: Vec3::from_array(min), max: Vec3::from_array(max) }
+        Space {
+            min: Vec3::from_array(min),
+            max: Vec3::from_array(max),
+        }
     }
 
     fn unit(x: f64, y: f64, z: f64) -> Space {
@@ -161,19 +227,40 @@ pub(super) mod tests {
 
     #[test]
     fn what_stands_on_the_way_is_seen_and_what_stands_beside_is_not() {
-        let (from, light) = (unit(0.0, 0.0, 0.0), Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO));
+        let (from, light) = (
+            unit(0.0, 0.0, 0.0),
+            Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::ZERO),
+        );
         assert!(from.may_see_through(&light, &unit(5.0, 0.0, 0.0)));
-        assert!(!from.may_see_through(&light, &unit(11.0, 0.0, 0.0)), "behind the light");
-        assert!(!from.may_see_through(&light, &unit(-1.5, 0.0, 0.0)), "behind the surface");
-        assert!(from.may_see_through(&light, &unit(2.0, 0.8, 0.0)), "the way is still broad here");
-        assert!(!from.may_see_through(&light, &unit(8.0, 0.8, 0.0)), "the way has narrowed");
+        assert!(
+            !from.may_see_through(&light, &unit(11.0, 0.0, 0.0)),
+            "behind the light"
+        );
+        assert!(
+            !from.may_see_through(&light, &unit(-1.5, 0.0, 0.0)),
+            "behind the surface"
+        );
+        assert!(
+            from.may_see_through(&light, &unit(2.0, 0.8, 0.0)),
+            "the way is still broad here"
+        );
+        assert!(
+            !from.may_see_through(&light, &unit(8.0, 0.8, 0.0)),
+            "the way has narrowed"
+        );
         let soft = Space::around(Vec3::new(10.0, 0.0, 0.0), Vec3::splat(0.5));
-        assert!(from.may_see_through(&soft, &unit(8.0, 0.8, 0.0)), "a soft light is broad");
+        assert!(
+            from.may_see_through(&soft, &unit(8.0, 0.8, 0.0)),
+            "a soft light is broad"
+        );
     }
 
     #[test]
     fn a_box_across_a_plane_is_on_both_sides() {
-        let flat = Flat { point: Vec3::ZERO, normal: Vec3::Y };
+        let flat = Flat {
+            point: Vec3::ZERO,
+            normal: Vec3::Y,
+        };
         assert_eq!(flat.sides(&unit(0.0, 3.0, 0.0)), Sides::FRONT);
         assert_eq!(flat.sides(&unit(0.0, -3.0, 0.0)), Sides::BACK);
         assert_eq!(flat.sides(&unit(0.0, 0.5, 0.0)), Sides::BOTH);
@@ -184,7 +271,10 @@ pub(super) mod tests {
         let space = span([-1.0, 2.0, -4.0], [3.0, 2.5, 0.0]);
         assert_eq!(space.grown(0.5), span([-1.5, 1.5, -4.5], [3.5, 3.0, 0.5]));
         assert_eq!(space.size(), 4.0);
-        assert_eq!([space.corners()[0], space.corners()[7]], [space.min, space.max]);
+        assert_eq!(
+            [space.corners()[0], space.corners()[7]],
+            [space.min, space.max]
+        );
         assert_eq!(space.distance(Vec3::new(6.0, 6.5, -1.0)), 5.0);
         assert_eq!(space.distance(Vec3::new(0.0, 2.0, -7.0)), 3.0);
         assert_eq!(space.distance(Vec3::new(0.0, 2.0, -2.0)), 0.0);
@@ -192,15 +282,28 @@ pub(super) mod tests {
 
     /// The boxes of a test with their axes changed about, and seen in a mirror.
     fn turned(boxes: [Space; 3], axis: usize, mirror: bool) -> [Space; 3] {
-        let turn = |v: Vec3| [Vec3::new(v.x, v.y, v.z), Vec3::new(v.z, v.x, v.y), Vec3::new(v.y, v.z, v.x)][axis];
+        let turn = |v: Vec3| {
+            [
+                Vec3::new(v.x, v.y, v.z),
+                Vec3::new(v.z, v.x, v.y),
+                Vec3::new(v.y, v.z, v.x),
+            ][axis]
+        };
         boxes.map(|Space { min, max }| {
             let [min, max] = if mirror { [-max, -min] } else { [min, max] };
-            Space { min: turn(min), max: turn(max) }
+            Space {
+                min: turn(min),
+                max: turn(max),
+            }
         })
     }
 
     /// That three boxes are apart from a gap on, however they lie.
-    fn have_margin(margin: f64, boxes: impl Fn(f64) -> [Space; 3], are_apart: impl Fn([Space; 3]) -> bool) {
+    fn have_margin(
+        margin: f64,
+        boxes: impl Fn(f64) -> [Space; 3],
+        are_apart: impl Fn([Space; 3]) -> bool,
+    ) {
         for (axis, mirror) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
             has_margin(margin, |gap| are_apart(turned(boxes(gap), axis, mirror)));
         }
@@ -210,35 +313,57 @@ pub(super) mod tests {
     fn boxes_are_apart_by_room_of_both() {
         let small = span([2.0, -1.0, -1.0], [3.0, 1.0, 1.0]);
         let boxes = |gap| [small, small, span([3.0 + gap, -2.0, -2.0], [8.0, 2.0, 2.0])];
-        have_margin(11.0 * ROOM, boxes, |[small, _, large]| small.is_apart_from(&large));
+        have_margin(11.0 * ROOM, boxes, |[small, _, large]| {
+            small.is_apart_from(&large)
+        });
         let [_, _, large] = boxes(11.0 * ROOM);
         assert!(!small.is_apart_from(&large), "in doubt they are not");
     }
 
     #[test]
     fn what_stands_beside_either_end_is_apart_by_room_of_both_boxes() {
-        let (near, far) = (span([-3.0, -1.0, -3.0], [3.0, 1.0, 3.0]), span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]));
+        let (near, far) = (
+            span([-3.0, -1.0, -3.0], [3.0, 1.0, 3.0]),
+            span([0.0, -10.0, 0.0], [0.0, -10.0, 0.0]),
+        );
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
         let hides = |[start, end, other]: [Space; 3]| start.may_see_through(&end, &other);
         // Of the start and the other: 3 and 7, twice, as both grow.
         have_margin(20.0 * ROOM, boxes, |boxes| !hides(boxes));
         // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
-        have_margin(30.0 * ROOM, boxes, |[start, end, other]| !hides([end, start, other]));
-        let [[start, end, _], [_, _, at_start], [_, _, at_end]] = [0.0, 20.0 * ROOM, 30.0 * ROOM].map(boxes);
-        assert!(hides([start, end, at_start]) && hides([end, start, at_end]), "in doubt it does");
+        have_margin(30.0 * ROOM, boxes, |[start, end, other]| {
+            !hides([end, start, other])
+        });
+        let [[start, end, _], [_, _, at_start], [_, _, at_end]] =
+            [0.0, 20.0 * ROOM, 30.0 * ROOM].map(boxes);
+        assert!(
+            hides([start, end, at_start]) && hides([end, start, at_end]),
+            "in doubt it does"
+        );
     }
 
     #[test]
     fn what_stands_beside_the_middle_of_the_way_is_apart_by_room_of_the_way_as_well() {
         let point = |at: f64| span([at, at, 0.0], [at, at, 0.0]);
-        let boxes = |gap| [point(0.0), point(1.0), span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0])];
+        let boxes = |gap| {
+            [
+                point(0.0),
+                point(1.0),
+                span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0]),
+            ]
+        };
         // Of size 3, the other takes room thrice, the end once, the share of the way once.
-        have_margin(11.0 * ROOM, boxes, |[start, end, other]| !start.may_see_through(&end, &other));
+        have_margin(11.0 * ROOM, boxes, |[start, end, other]| {
+            !start.may_see_through(&end, &other)
+        });
     }
 
     #[test]
     fn a_box_is_off_a_plane_by_room_of_both() {
-        let flat = Flat { point: Vec3::new(0.0, 5.0, -3.0), normal: Vec3::Z };
+        let flat = Flat {
+            point: Vec3::new(0.0, 5.0, -3.0),
+            normal: Vec3::Z,
+        };
         let above = |gap: f64| span([-2.0, -6.0, gap - 3.0], [2.0, 1.0, -1.0]);
         let below = |gap: f64| span([-2.0, -6.0, -5.0], [2.0, 1.0, -3.0 - gap]);
         has_margin(44.0 * ROOM, |gap| flat.sides(&above(gap)) == Sides::FRONT);

@@ -1,4 +1,5 @@
-//! Where things may show in the picture: boxes projected through the lens to rectangles of pixels, with a margin.
+//! Where things may show in the picture: boxes projected through the lens to rectangles of pixels,
+//! with a margin.
 
 use super::body::{Body, Extent};
 use super::space::{ROOM, Space};
@@ -53,18 +54,39 @@ impl Window {
         let normal = cross(camera.right / right, camera.up / up);
         let forward = camera.center - camera.eye;
         let distance = dot(normal, forward);
-        let radius = if pinhole { 0.0 } else { camera.lens.radius.get() / up };
+        let radius = if pinhole {
+            0.0
+        } else {
+            camera.lens.radius.get() / up
+        };
         let corner = |[x, y]: [f64; 2]| camera.eye + (camera.right * x + camera.up * y) * radius;
         let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(corner);
-        let lens = if radius > 0.0 { corners.to_vec() } else { vec![camera.eye] };
+        let lens = if radius > 0.0 {
+            corners.to_vec()
+        } else {
+            vec![camera.eye]
+        };
         let size = [camera.width.get(), camera.height.get()].map(f64::from);
-        let reach = camera.eye.abs().max(camera.center.abs()).max_element() + right * size[0] + up * size[1];
+        let reach = camera.eye.abs().max(camera.center.abs()).max_element()
+            + right * size[0]
+            + up * size[1];
         let blurred = 64.0 * U * reach > DOUBT * right.min(up) || U * reach > ROOM * distance.abs();
         let depth = normal / distance;
-        let far = lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
+        let far =
+            lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
         let lens_box = Space::of(lens.iter().copied());
         let (steepness, steps) = (depth.length(), [right, up]);
-        Self { camera: camera.clone(), depth, steepness, lens, lens_box, far, steps, size, blurred }
+        Self {
+            camera: camera.clone(),
+            depth,
+            steepness,
+            lens,
+            lens_box,
+            far,
+            steps,
+            size,
+            blurred,
+        }
     }
 
     /// The box of all points of the lens.
@@ -93,7 +115,9 @@ impl Window {
     fn project(&self, space: &Space) -> Shown {
         let size = space.size() + self.lens_box.size();
         let space = space.grown(ROOM * size);
-        let depths = space.corners().map(|corner| (corner - self.camera.eye).dot(self.depth));
+        let depths = space
+            .corners()
+            .map(|corner| (corner - self.camera.eye).dot(self.depth));
         let doubt = 64.0 * U * size * self.steepness;
         if depths.iter().all(|depth| *depth < -doubt) {
             return Shown::Nowhere;
@@ -116,11 +140,14 @@ impl Window {
         self.rectangle(low, high)
     }
 
-    /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on its error.
+    /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on
+    /// its error.
     fn place(&self, from: Vec3, point: Vec3, depth: f64, doubt: f64) -> ([f64; 2], f64) {
         /// The steps of a camera are at a right angle to within this.
         const RIGHT_ANGLE: f64 = 1e-9;
-        let Camera { center, right, up, .. } = &self.camera;
+        let Camera {
+            center, right, up, ..
+        } = &self.camera;
         let away = (point - from) / depth;
         let on_plane = (from - *center) + away;
         let [across_step, upward_step] = self.steps;
@@ -133,16 +160,31 @@ impl Window {
     }
 
     /// The pixels within one of a stretch of the picture.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the picture before")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the picture before"
+    )]
     fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Shown {
         let side = |axis: usize| {
-            let first = (low[axis] - 1.0 - DOUBT).floor().clamp(0.0, self.size[axis]);
-            let last = (high[axis] + 1.0 + DOUBT).ceil().clamp(0.0, self.size[axis]);
+            let first = (low[axis] - 1.0 - DOUBT)
+                .floor()
+                .clamp(0.0, self.size[axis]);
+            let last = (high[axis] + 1.0 + DOUBT)
+                .ceil()
+                .clamp(0.0, self.size[axis]);
             [first as u32, last as u32]
         };
-        let rect = Rect { x: side(0), y: side(1) };
+        let rect = Rect {
+            x: side(0),
+            y: side(1),
+        };
         let is_empty = rect.x[0] >= rect.x[1] || rect.y[0] >= rect.y[1];
-        if is_empty { Shown::Nowhere } else { Shown::In(rect) }
+        if is_empty {
+            Shown::Nowhere
+        } else {
+            Shown::In(rect)
+        }
     }
 }
 
@@ -165,14 +207,20 @@ mod tests {
             up: Vec3::Y * up,
             width: count(100),
             height: count(80),
-            lens: Lens { radius: NonNegative::new(radius).unwrap(), samples: count(9) },
+            lens: Lens {
+                radius: NonNegative::new(radius).unwrap(),
+                samples: count(9),
+            },
             projection: Projection::Perspective,
         }
     }
 
     /// Pixels of size 1 around the origin, seen from 100 in front.
     fn window(radius: f64) -> Window {
-        Window::new(&camera([0.0, 0.0, 100.0], [0.0; 3], [1.0; 2], radius), radius == 0.0)
+        Window::new(
+            &camera([0.0, 0.0, 100.0], [0.0; 3], [1.0; 2], radius),
+            radius == 0.0,
+        )
     }
 
     fn pinhole(eye: [f64; 3], center: [f64; 3], steps: [f64; 2]) -> Window {
@@ -181,12 +229,18 @@ mod tests {
 
     fn shown(window: &Window, center: Vec3, reach: f64) -> Shown {
         let space = Space::around(center, Vec3::splat(reach));
-        window.shown(&Body { extent: Extent::Within(space), form: Form::Other })
+        window.shown(&Body {
+            extent: Extent::Within(space),
+            form: Form::Other,
+        })
     }
 
     #[test]
     fn a_box_shows_in_its_pixels_and_one_more_on_each_side() {
-        let rect = Shown::In(Rect { x: [58, 64], y: [27, 33] });
+        let rect = Shown::In(Rect {
+            x: [58, 64],
+            y: [27, 33],
+        });
         assert_eq!(shown(&window(0.0), Vec3::new(11.0, 10.0, 0.0), 1.0), rect);
     }
 
@@ -219,12 +273,23 @@ mod tests {
     #[test]
     fn a_camera_is_measured() {
         let window = pinhole([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25]);
-        assert_eq!((window.depth, window.steepness, window.far), (Vec3::Z * -0.125, 0.125, 10.0));
+        assert_eq!(
+            (window.depth, window.steepness, window.far),
+            (Vec3::Z * -0.125, 0.125, 10.0)
+        );
         assert_eq!(window.lens(), span([3.0, 0.0, 4.0], [3.0, 0.0, 4.0]));
         // The radius counts in steps upward, the lens is as wide as pixels are.
-        let open = Window::new(&camera([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25], 0.75), false);
+        let open = Window::new(
+            &camera([3.0, 0.0, 4.0], [3.0, 0.0, -4.0], [0.5, 0.25], 0.75),
+            false,
+        );
         assert_eq!(open.lens(), span([1.5, -0.75, 4.0], [4.5, 0.75, 4.0]));
-        let corners = [[1.5, -0.75, 4.0], [4.5, -0.75, 4.0], [1.5, 0.75, 4.0], [4.5, 0.75, 4.0]];
+        let corners = [
+            [1.5, -0.75, 4.0],
+            [4.5, -0.75, 4.0],
+            [1.5, 0.75, 4.0],
+            [4.5, 0.75, 4.0],
+        ];
         assert_eq!(open.lens, corners.map(Vec3::from_array));
         assert_eq!(open.far, (4.5_f64 * 4.5 + 0.75 * 0.75 + 16.0).sqrt() + 5.0);
     }
@@ -236,17 +301,32 @@ mod tests {
         has_margin(0.25, |up| !steps([4.0, up]).blurred);
         has_margin(0.25, |right| !steps([right, 4.0]).blurred);
         // 30 aside, and the picture is 50 and 20 large.
-        has_margin(100.0 * U / ROOM, |z| !pinhole([30.0, 0.0, z], [30.0, 0.0, 0.0], [0.5, 0.25]).blurred);
-        has_margin(100.0 * U / ROOM, |z| !pinhole([0.0, 0.0, 0.0], [0.0, -30.0, z], [0.5, 0.25]).blurred);
+        has_margin(100.0 * U / ROOM, |z| {
+            !pinhole([30.0, 0.0, z], [30.0, 0.0, 0.0], [0.5, 0.25]).blurred
+        });
+        has_margin(100.0 * U / ROOM, |z| {
+            !pinhole([0.0, 0.0, 0.0], [0.0, -30.0, z], [0.5, 0.25]).blurred
+        });
     }
 
     #[test]
     fn a_point_shows_where_the_line_to_it_meets_the_picture() {
         let window = pinhole([1.0, 2.0, 100.0], [1.0, 2.0, 0.0], [0.5, 0.25]);
         assert_eq!(window.middle(Vec3::new(6.0, 4.5, 0.0)), Some([60.0, 30.0]));
-        assert_eq!(window.middle(Vec3::new(3.5, 3.25, 50.0)), Some([60.0, 30.0]));
-        assert_eq!(window.middle(Vec3::new(3.5, 3.25, 150.0)), None, "behind the eye");
-        assert_eq!(pinhole([1e16, 0.0, 100.0], [1e16, 0.0, 0.0], [1.0; 2]).middle(Vec3::X * 1e16), None, "blurred");
+        assert_eq!(
+            window.middle(Vec3::new(3.5, 3.25, 50.0)),
+            Some([60.0, 30.0])
+        );
+        assert_eq!(
+            window.middle(Vec3::new(3.5, 3.25, 150.0)),
+            None,
+            "behind the eye"
+        );
+        assert_eq!(
+            pinhole([1e16, 0.0, 100.0], [1e16, 0.0, 0.0], [1.0; 2]).middle(Vec3::X * 1e16),
+            None,
+            "blurred"
+        );
     }
 
     #[test]
@@ -257,21 +337,39 @@ mod tests {
         assert!(point(16.0 * 64.0 * 200.0 * U).is_none(), "in doubt");
         let shown = |low: f64, high: f64| {
             let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
-            beside(1e6).shown(&Body { extent, form: Form::Other })
+            beside(1e6).shown(&Body {
+                extent,
+                form: Form::Other,
+            })
         };
-        has_margin(200.0 * ROOM + 16.0 * 64.0 * 200.0 * U, |z| shown(-100.0, -z) != Shown::Anywhere);
-        has_margin(200.0 * ROOM + 64.0 * 200.0 * U, |z| shown(z, 100.0) == Shown::Nowhere);
-        assert_eq!(shown(200.0 * ROOM + 64.0 * 200.0 * U, 100.0), Shown::Anywhere, "in doubt");
+        has_margin(200.0 * ROOM + 16.0 * 64.0 * 200.0 * U, |z| {
+            shown(-100.0, -z) != Shown::Anywhere
+        });
+        has_margin(200.0 * ROOM + 64.0 * 200.0 * U, |z| {
+            shown(z, 100.0) == Shown::Nowhere
+        });
+        assert_eq!(
+            shown(200.0 * ROOM + 64.0 * 200.0 * U, 100.0),
+            Shown::Anywhere,
+            "in doubt"
+        );
     }
 
     #[test]
     fn the_place_of_a_point_has_its_rounding_and_that_of_the_steps() {
         let window = pinhole([0.0, 0.0, 100.0], [0.0; 3], [0.5, 0.25]);
         let from = Vec3::new(1.0, 2.0, 0.0);
-        let place = |away: [f64; 3], doubt: f64| window.place(from, from + Vec3::from_array(away) * 0.5, 0.5, doubt);
-        let is_near =
-            |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-5, "{found:e}, not {wanted:e}");
-        // Seen in the middle: what the depth is in doubt by, and the rounding of the way, 3, and of the camera, 100.
+        let place = |away: [f64; 3], doubt: f64| {
+            window.place(from, from + Vec3::from_array(away) * 0.5, 0.5, doubt)
+        };
+        let is_near = |found: f64, wanted: f64| {
+            assert!(
+                (found / wanted - 1.0).abs() < 1e-5,
+                "{found:e}, not {wanted:e}"
+            )
+        };
+        // Seen in the middle: what the depth is in doubt by, and the rounding of the way, 3, and of
+        // the camera, 100.
         let (at, error) = place([-1.0, -2.0, 2.0], 100.0 * U);
         assert_eq!(at, [50.0, 40.0]);
         is_near(error, ((200.0 + 16.0) * 3.0 + 16.0 * 100.0) * U / 0.25);
@@ -292,9 +390,29 @@ mod tests {
     #[test]
     fn a_stretch_of_the_picture_is_taken_with_a_pixel_and_the_doubt_on_each_side() {
         let window = window(0.0);
-        assert_eq!(window.rectangle([3.2, -5.0], [6.8, 200.0]), Shown::In(Rect { x: [1, 9], y: [0, 80] }));
-        assert_eq!(window.rectangle([3.3, 20.0], [6.7, 30.0]), Shown::In(Rect { x: [2, 8], y: [18, 32] }));
-        assert_eq!(window.rectangle([101.5, 20.0], [110.0, 30.0]), Shown::Nowhere, "beside");
-        assert_eq!(window.rectangle([20.0, -9.0], [30.0, -1.5]), Shown::Nowhere, "above");
+        assert_eq!(
+            window.rectangle([3.2, -5.0], [6.8, 200.0]),
+            Shown::In(Rect {
+                x: [1, 9],
+                y: [0, 80]
+            })
+        );
+        assert_eq!(
+            window.rectangle([3.3, 20.0], [6.7, 30.0]),
+            Shown::In(Rect {
+                x: [2, 8],
+                y: [18, 32]
+            })
+        );
+        assert_eq!(
+            window.rectangle([101.5, 20.0], [110.0, 30.0]),
+            Shown::Nowhere,
+            "beside"
+        );
+        assert_eq!(
+            window.rectangle([20.0, -9.0], [30.0, -1.5]),
+            Shown::Nowhere,
+            "above"
+        );
     }
 }

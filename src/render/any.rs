@@ -54,12 +54,13 @@ impl AnyWorld {
         each!(self, world => &world.scene)
     }
 
-    /// Shows another scene, which differs from the one before in its camera and settings alone, by the same rules. What was
-    /// built stays where the new plan wants it too.
+    /// Shows another scene, which differs from the one before in its camera and settings alone, by
+    /// the same rules. What was built stays where the new plan wants it too.
     pub fn change(&mut self, scene: ValidScene) {
         let old = each!(self, world => &world.plan);
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
-        let is_same = (plan.shapes, &plan.surfaces, &plan.constants) == (old.shapes, &old.surfaces, &old.constants);
+        let is_same = (plan.shapes, &plan.surfaces, &plan.constants)
+            == (old.shapes, &old.surfaces, &old.constants);
         if is_same {
             each!(self, world => (world.scene, world.plan) = (scene, plan));
         } else {
@@ -84,20 +85,32 @@ impl AnyWorld {
     ///
     /// `proceed` is called from all threads after each pixel.
     #[must_use]
-    pub fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
+    pub fn layers(
+        &self,
+        wanted: &[Aov],
+        crop: Crop,
+        proceed: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Layers> {
         let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
         if plan.rules == Rules::NONE {
             return each!(self, world => world.layers(wanted, crop, proceed));
         }
         // Rules keep the colours; only a plan without them keeps all that a layer may show.
-        Self::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE)).layers(wanted, crop, proceed)
+        Self::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE))
+            .layers(wanted, crop, proceed)
     }
 
-    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many each strand of the halves of
-    /// pixel i is to have at least. False if `proceed` said stop; the film is then of no use.
+    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many
+    /// each strand of the halves of pixel i is to have at least. False if `proceed` said stop;
+    /// the film is then of no use.
     ///
     /// `proceed` is called from all threads, after each pixel and within long ones.
-    pub fn grow(&self, film: &mut Growing, wanted: &(dyn Fn(usize) -> [u32; 2] + Sync), proceed: &Proceed<'_>) -> bool {
+    pub fn grow(
+        &self,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &Proceed<'_>,
+    ) -> bool {
         each!(self, world => world.grow(film, wanted, proceed))
     }
 }

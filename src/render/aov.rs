@@ -1,5 +1,6 @@
-//! Layers beside the colours, for denoisers and compositors: what the camera rays of a pixel meet first, in the mean over
-//! those that meet something. They are the very rays that the colours are made of.
+//! Layers beside the colours, for denoisers and compositors: what the camera rays of a pixel meet
+//! first, in the mean over those that meet something. They are the very rays that the colours are
+//! made of.
 
 use super::film::Crop;
 use super::frame::camera_rays;
@@ -19,13 +20,16 @@ use rayon::prelude::*;
 pub enum Aov {
     /// The base colour, maps included, linear, in [0, 1]; C·kd of Phong's model.
     Albedo,
-    /// The shading normal in the world, maps included, on the side of the viewer; shorter than 1 where normals differ.
+    /// The shading normal in the world, maps included, on the side of the viewer; shorter than 1
+    /// where normals differ.
     Normal,
-    /// The distance from the eye along the axis of view, in units of the scene; 1e10 where nothing is met.
+    /// The distance from the eye along the axis of view, in units of the scene; 1e10 where nothing
+    /// is met.
     Depth,
     /// The first texture coordinates, where there are some.
     Uv,
-    /// The number of the surface in the scene, from 1, that the first ray meets: whole, and exact below 2²⁴.
+    /// The number of the surface in the scene, from 1, that the first ray meets: whole, and exact
+    /// below 2²⁴.
     Instance,
     /// The place in the world.
     Position,
@@ -78,13 +82,26 @@ impl Sums {
     /// Adds what a ray in this direction met.
     pub(super) fn add(&mut self, direction: Vec3, first: Option<First>) {
         self.rays += 1;
-        let Some(First { albedo, normal, point, uv, surface }) = first else { return };
+        let Some(First {
+            albedo,
+            normal,
+            point,
+            uv,
+            surface,
+        }) = first
+        else {
+            return;
+        };
         if self.rays == 1 {
             self.instance = surface + 1;
         }
         self.hits += 1;
         self.albedo += albedo.clamp(Vec3::ZERO, Vec3::ONE);
-        self.normal += if normal.dot(direction) > 0.0 { -normal } else { normal };
+        self.normal += if normal.dot(direction) > 0.0 {
+            -normal
+        } else {
+            normal
+        };
         self.point += point;
         if let Some([u, v]) = uv {
             self.uv += Vec3::new(u, v, 0.0);
@@ -111,7 +128,11 @@ impl Sums {
 fn depth(camera: &Camera, point: Vec3) -> f64 {
     let [right, up] = [camera.right, camera.up].map(Vec3::normalize_or_zero);
     let normal = up.cross(right).normalize_or_zero();
-    let forward = if normal.dot(camera.center - camera.eye) < 0.0 { -normal } else { normal };
+    let forward = if normal.dot(camera.center - camera.eye) < 0.0 {
+        -normal
+    } else {
+        normal
+    };
     (point - camera.eye).dot(forward)
 }
 
@@ -148,7 +169,12 @@ impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
 
 impl<S: Geometry> World<S> {
     /// As [`super::AnyWorld::layers`], of what this world holds.
-    pub(super) fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &(dyn Fn() -> bool + Sync)) -> Option<Layers> {
+    pub(super) fn layers(
+        &self,
+        wanted: &[Aov],
+        crop: Crop,
+        proceed: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Layers> {
         match self.scene.settings().mode {
             Mode::Path(path) => self.layers_of_paths(path, wanted, crop, proceed),
             Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
@@ -160,11 +186,23 @@ impl<S: Geometry> World<S> {
     }
 
     /// Renders layers by what `eye` makes for each row.
-    #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest float, or to infinity")]
-    pub(super) fn layers_by<E: See>(&self, eye: impl Fn() -> E + Sync, wanted: &[Aov], crop: Crop) -> Option<Layers> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float, or to infinity"
+    )]
+    pub(super) fn layers_by<E: See>(
+        &self,
+        eye: impl Fn() -> E + Sync,
+        wanted: &[Aov],
+        crop: Crop,
+    ) -> Option<Layers> {
         let camera = self.scene.camera();
         let crop = crop.within(camera.width.get(), camera.height.get());
-        let names: Vec<_> = wanted.iter().flat_map(|aov| aov.channels()).copied().collect();
+        let names: Vec<_> = wanted
+            .iter()
+            .flat_map(|aov| aov.channels())
+            .copied()
+            .collect();
         let width = crop.width as usize * names.len();
         let mut values = vec![0.0_f32; width * crop.height as usize];
         let row = |(y, row): (u32, &mut [f32])| {
@@ -174,13 +212,20 @@ impl<S: Geometry> World<S> {
                 if !eye.see([x, y], &mut sums) {
                     return None;
                 }
-                let means = wanted.iter().map(|aov| (sums.values(*aov, camera), aov.channels().len()));
+                let means = wanted
+                    .iter()
+                    .map(|aov| (sums.values(*aov, camera), aov.channels().len()));
                 let means = means.flat_map(|(values, count)| values.into_iter().take(count));
-                pixel.iter_mut().zip(means).for_each(|(value, mean)| *value = mean as f32);
+                pixel
+                    .iter_mut()
+                    .zip(means)
+                    .for_each(|(value, mean)| *value = mean as f32);
             }
             Some(())
         };
-        let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(values.par_chunks_mut(width.max(1)));
+        let rows = (crop.y..crop.y + crop.height)
+            .into_par_iter()
+            .zip(values.par_chunks_mut(width.max(1)));
         rows.map(row).try_reduce(|| (), |(), ()| Some(()))?;
         Some(Layers { names, values })
     }

@@ -92,7 +92,11 @@ impl Geometry for Basic {
     }
 
     fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
-        if let Self::Triangle(triangle, _) = self { Some(*triangle.vertices()) } else { None }
+        if let Self::Triangle(triangle, _) = self {
+            Some(*triangle.vertices())
+        } else {
+            None
+        }
     }
 
     fn bounds(&self) -> Option<Bounds> {

@@ -14,14 +14,18 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box that holds nothing.
-    pub const EMPTY: Self = Self { min: Vec3::INFINITY, max: Vec3::NEG_INFINITY };
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
 
     /// The box of some points.
     #[must_use]
     pub fn of(points: &[Vec3]) -> Self {
-        points
-            .iter()
-            .fold(Self::EMPTY, |bounds, point| Self { min: bounds.min.min(*point), max: bounds.max.max(*point) })
+        points.iter().fold(Self::EMPTY, |bounds, point| Self {
+            min: bounds.min.min(*point),
+            max: bounds.max.max(*point),
+        })
     }
 
     /// The box around a sphere, rounded outward.
@@ -37,21 +41,30 @@ impl Bounds {
     /// The box around a disc with a unit normal, rounded outward.
     #[must_use]
     pub fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
-        let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
+        let reach =
+            |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
         let reach = Vec3::new(reach(normal.x), reach(normal.y), reach(normal.z));
         Self::around(center - reach, 0.0).union(Self::around(center + reach, 0.0))
     }
 
-    /// The box with all points nearer to it than a distance along an axis, rounded outward; the same box for 0.
+    /// The box with all points nearer to it than a distance along an axis, rounded outward; the
+    /// same box for 0.
     #[must_use]
     pub fn grown(self, by: f64) -> Self {
-        if by > 0.0 { Self::around(self.min, by).union(Self::around(self.max, by)) } else { self }
+        if by > 0.0 {
+            Self::around(self.min, by).union(Self::around(self.max, by))
+        } else {
+            self
+        }
     }
 
     /// The smallest box that holds both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
-        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
     }
 
     /// The middle.
@@ -79,7 +92,10 @@ impl Slabs {
     /// The slabs of a ray.
     #[must_use]
     pub(super) fn new(ray: &Ray) -> Self {
-        Self { origin: ray.origin, inverse: ray.direction.recip() }
+        Self {
+            origin: ray.origin,
+            inverse: ray.direction.recip(),
+        }
     }
 
     /// True for the axes along which the ray runs downwards.
@@ -90,9 +106,10 @@ impl Slabs {
 
     /// Whether the ray may meet the box before `t_max`, a root that may itself be rounded.
     ///
-    /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by 2γ₃, and comparisons are
-    /// written so that the NaN of a ray inside a slab's plane leaves the interval as it is. `t_max` grows by more, as a
-    /// root may be known less well than the ends of a slab: of surfaces at the same t none is passed over.
+    /// Conservative as in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by 2γ₃,
+    /// and comparisons are written so that the NaN of a ray inside a slab's plane leaves the
+    /// interval as it is. `t_max` grows by more, as a root may be known less well than the ends
+    /// of a slab: of surfaces at the same t none is passed over.
     #[must_use]
     #[inline]
     pub(super) fn meet(&self, bounds: &Bounds, t_max: f64) -> bool {
@@ -102,7 +119,11 @@ impl Slabs {
         for axis in 0..3 {
             let first = (bounds.min[axis] - self.origin[axis]) * self.inverse[axis];
             let second = (bounds.max[axis] - self.origin[axis]) * self.inverse[axis];
-            let (enter, leave) = if self.inverse[axis] < 0.0 { (second, first) } else { (first, second) };
+            let (enter, leave) = if self.inverse[axis] < 0.0 {
+                (second, first)
+            } else {
+                (first, second)
+            };
             let leave = leave * GROWN;
             if enter > near {
                 near = enter;
@@ -122,13 +143,20 @@ mod tests {
     use super::*;
     use rayon::prelude::*;
 
-    /// Corners anywhere, at one z, with the ray in the plane of a face of the box, and far from the origin.
-    const FAMILIES: [&str; 4] = ["generic", "flat box", "ray in the plane of a face", "at 1e6"];
+    /// Corners anywhere, at one z, with the ray in the plane of a face of the box, and far from the
+    /// origin.
+    const FAMILIES: [&str; 4] = [
+        "generic",
+        "flat box",
+        "ray in the plane of a face",
+        "at 1e6",
+    ];
 
     /// A triangle, and a ray that aims at its inside, at an edge, or at a corner by turns.
     fn aimed(family: usize, index: u64) -> (Triangle, Ray) {
         let key = Key::new([u32::try_from(family).unwrap(), 5], index);
-        let cube = |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
+        let cube =
+            |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
         let mut points = [cube(0), cube(3), cube(6), cube(9) * 4.0];
         match family {
             1 => points[..3].iter_mut().for_each(|point| point.z = 0.25),
@@ -136,7 +164,9 @@ mod tests {
                 points[0].y = points[1].y.max(points[2].y).max(points[0].y);
                 points[3].y = points[0].y;
             }
-            3 => points.iter_mut().for_each(|point| *point += Vec3::new(1e6, -1e6, 1e6)),
+            3 => points
+                .iter_mut()
+                .for_each(|point| *point += Vec3::new(1e6, -1e6, 1e6)),
             _ => {}
         }
         let [a, b, c, origin] = points;
@@ -146,20 +176,37 @@ mod tests {
             1 => a + (b - a) * u,
             _ => a,
         };
-        (Triangle::new([a, b, c]).unwrap(), Ray { origin, direction: target - origin })
+        (
+            Triangle::new([a, b, c]).unwrap(),
+            Ray {
+                origin,
+                direction: target - origin,
+            },
+        )
     }
 
     /// A box is met wherever its triangle is hit, even if nothing beyond that hit counts any more.
     #[test]
     fn no_box_is_missed_where_its_triangle_is_hit() {
-        let rays = std::env::var("RTC_RAYS").ok().and_then(|count| count.parse().ok()).unwrap_or(250_000_u64);
+        let rays = std::env::var("RTC_RAYS")
+            .ok()
+            .and_then(|count| count.parse().ok())
+            .unwrap_or(250_000_u64);
         for (family, name) in FAMILIES.into_iter().enumerate() {
             let judge = |index: u64| {
                 let (triangle, ray) = aimed(family, index);
-                let Some(t) = triangle.intersect(&ray, &Shear::new(&ray)) else { return (0, 0) };
-                (1, u64::from(!Slabs::new(&ray).meet(&Bounds::of(triangle.vertices()), t)))
+                let Some(t) = triangle.intersect(&ray, &Shear::new(&ray)) else {
+                    return (0, 0);
+                };
+                (
+                    1,
+                    u64::from(!Slabs::new(&ray).meet(&Bounds::of(triangle.vertices()), t)),
+                )
             };
-            let (hits, missed) = (0..rays).into_par_iter().map(judge).reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
+            let (hits, missed) = (0..rays)
+                .into_par_iter()
+                .map(judge)
+                .reduce(|| (0, 0), |a, b| (a.0 + b.0, a.1 + b.1));
             println!("| boxes missed | {name} | {hits} | {missed} |");
             assert!(hits > rays / 4 && missed == 0, "{name}: {missed} of {hits}");
         }

@@ -1,7 +1,7 @@
 //! A bounding volume hierarchy over boxes: it finds candidates and decides nothing about a hit.
 //!
-//! Built by the binned surface area heuristic (Wald, "On fast construction of SAH-based bounding volume hierarchies",
-//! 2007). A few boxes make a single leaf, which is the plain loop.
+//! Built by the binned surface area heuristic (Wald, "On fast construction of SAH-based bounding
+//! volume hierarchies", 2007). A few boxes make a single leaf, which is the plain loop.
 
 use super::bounds::{Bounds, Slabs};
 use super::ray::Ray;
@@ -22,7 +22,8 @@ const MAX_DEPTH: usize = 64;
 #[derive(Debug)]
 struct Node {
     bounds: Bounds,
-    /// The first entry of `order` for a leaf, the second child for an inner node; the first child follows the node.
+    /// The first entry of `order` for a leaf, the second child for an inner node; the first child
+    /// follows the node.
     link: u32,
     /// Entries of a leaf; 0 for an inner node.
     count: u32,
@@ -40,16 +41,29 @@ impl Bvh {
     /// Builds the hierarchy of the boxes given; an item is known by its index.
     #[must_use]
     pub(super) fn build(boxes: &[Bounds]) -> Self {
-        let items = (0_u32..).zip(boxes).map(|(index, bounds)| Item { index, bounds: *bounds }).collect::<Vec<_>>();
-        let mut builder = Builder { items, nodes: Vec::new() };
+        let items = (0_u32..)
+            .zip(boxes)
+            .map(|(index, bounds)| Item {
+                index,
+                bounds: *bounds,
+            })
+            .collect::<Vec<_>>();
+        let mut builder = Builder {
+            items,
+            nodes: Vec::new(),
+        };
         if !boxes.is_empty() {
             builder.node(0, boxes.len(), 0);
         }
-        Self { nodes: builder.nodes, order: builder.items.into_iter().map(|item| item.index).collect() }
+        Self {
+            nodes: builder.nodes,
+            order: builder.items.into_iter().map(|item| item.index).collect(),
+        }
     }
 
-    /// Calls `visit` with the items whose boxes the ray may meet before `t_max`, nearer boxes roughly first; `visit`
-    /// returns the new `t_max`, which ends the walk when it falls below 0.
+    /// Calls `visit` with the items whose boxes the ray may meet before `t_max`, nearer boxes
+    /// roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below
+    /// 0.
     #[inline]
     pub(super) fn walk(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32, f64) -> f64) {
         let mut visit_leaf = |node: &Node, mut t_max: f64| {
@@ -105,9 +119,16 @@ impl Builder {
     /// Builds the node over `items[start..end]` and what is below it.
     fn node(&mut self, start: usize, end: usize, depth: usize) {
         let items = &mut self.items[start..end];
-        let bounds = items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds));
+        let bounds = items
+            .iter()
+            .fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds));
         let here = self.nodes.len();
-        let leaf = Node { bounds, link: to_u32(start), count: to_u32(end - start), axis: 0 };
+        let leaf = Node {
+            bounds,
+            link: to_u32(start),
+            count: to_u32(end - start),
+            axis: 0,
+        };
         self.nodes.push(leaf);
         let few = if depth == 0 { LOOP } else { LEAF };
         if items.len() <= few {
@@ -122,12 +143,16 @@ impl Builder {
     }
 }
 
-/// Orders the items, at least two, into two groups and returns the axis and the size of the first, neither group empty:
-/// by the heuristic where it is asked for and finds a border, else in the middle. So many items are tested `at_once`.
+/// Orders the items, at least two, into two groups and returns the axis and the size of the first,
+/// neither group empty: by the heuristic where it is asked for and finds a border, else in the
+/// middle. So many items are tested `at_once`.
 pub(super) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (usize, usize) {
     let center = |bounds: Bounds, item: &Item| {
         let center = item.bounds.center();
-        Bounds { min: bounds.min.min(center), max: bounds.max.max(center) }
+        Bounds {
+            min: bounds.min.min(center),
+            max: bounds.max.max(center),
+        }
     };
     let spread = items.iter().fold(Bounds::EMPTY, center);
     let size = spread.max - spread.min;
@@ -138,21 +163,33 @@ pub(super) fn split(items: &mut [Item], at_once: u32, by_heuristic: bool) -> (us
     };
     if by_heuristic {
         let wide = (0..3).filter(|axis| size[*axis] > 0.0 && scale[*axis].is_finite());
-        let borders =
-            wide.filter_map(|axis| cheapest_border(items, at_once, |item| bin(item, axis)).map(|cut| (axis, cut)));
+        let borders = wide.filter_map(|axis| {
+            cheapest_border(items, at_once, |item| bin(item, axis)).map(|cut| (axis, cut))
+        });
         if let Some((axis, (border, _))) = borders.min_by(|a, b| a.1.1.total_cmp(&b.1.1)) {
             let first = partition(items, |item| bin(item, axis) < border);
             return (axis, first);
         }
     }
-    let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
+    let axis = (0..3)
+        .max_by(|a, b| size[*a].total_cmp(&size[*b]))
+        .unwrap_or(0);
     let middle = items.len() / 2;
-    items.sort_by(|a, b| a.bounds.center()[axis].total_cmp(&b.bounds.center()[axis]).then(a.index.cmp(&b.index)));
+    items.sort_by(|a, b| {
+        a.bounds.center()[axis]
+            .total_cmp(&b.bounds.center()[axis])
+            .then(a.index.cmp(&b.index))
+    });
     (axis, middle)
 }
 
-/// The border between bins with the least expected work on both sides, and that work, if any has items on both.
-fn cheapest_border(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -> Option<(usize, f64)> {
+/// The border between bins with the least expected work on both sides, and that work, if any has
+/// items on both.
+fn cheapest_border(
+    items: &[Item],
+    at_once: u32,
+    bin: impl Fn(&Item) -> usize,
+) -> Option<(usize, f64)> {
     let mut bins = [(Bounds::EMPTY, 0_u32); BINS];
     for item in items {
         let (bounds, count) = &mut bins[bin(item)];
@@ -161,14 +198,25 @@ fn cheapest_border(items: &[Item], at_once: u32, bin: impl Fn(&Item) -> usize) -
     }
     let add = |sum: &mut (Bounds, u32), bin: &(Bounds, u32)| {
         *sum = (sum.0.union(bin.0), sum.1 + bin.1);
-        Some(if sum.1 > 0 { sum.0.half_area() * f64::from(sum.1.div_ceil(at_once)) } else { f64::NAN })
+        Some(if sum.1 > 0 {
+            sum.0.half_area() * f64::from(sum.1.div_ceil(at_once))
+        } else {
+            f64::NAN
+        })
     };
     let mut above = [f64::NAN; BINS];
     let works = bins.iter().rev().scan((Bounds::EMPTY, 0), add);
-    above.iter_mut().rev().zip(works).for_each(|(above, work)| *above = work);
+    above
+        .iter_mut()
+        .rev()
+        .zip(works)
+        .for_each(|(above, work)| *above = work);
     let below = bins.iter().scan((Bounds::EMPTY, 0), add);
     let works = below.zip(&above[1..]).map(|(below, above)| below + above);
-    (1..BINS).zip(works).filter(|(_, work)| !work.is_nan()).min_by(|a, b| a.1.total_cmp(&b.1))
+    (1..BINS)
+        .zip(works)
+        .filter(|(_, work)| !work.is_nan())
+        .min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Moves the items that belong first to the front, keeping the order within both groups.

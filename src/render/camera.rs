@@ -5,8 +5,9 @@ use super::sampler::Key;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
 use crate::valid::{Camera, Lens, Projection};
 
-/// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1] from its left and
-/// upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y − place₁)·up`.
+/// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1]
+/// from its left and upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y −
+/// place₁)·up`.
 #[must_use]
 pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
     let across = f64::from(x) + place[0] - f64::from(camera.width.get()) / 2.0;
@@ -17,28 +18,39 @@ pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
 /// The ray from a point of the lens through a point of the image plane, with a unit direction.
 #[must_use]
 pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
-    Ray { origin, direction: (image_point - origin).normalize() }
+    Ray {
+        origin,
+        direction: (image_point - origin).normalize(),
+    }
 }
 
-/// The ray through a point of the image from a point of the lens: of an orthographic camera all of them run side by side.
+/// The ray through a point of the image from a point of the lens: of an orthographic camera all of
+/// them run side by side.
 #[must_use]
 pub(super) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
     match camera.projection {
         Projection::Perspective => camera_ray(lens_point, image_point),
-        Projection::Orthographic => camera_ray(lens_point + (image_point - camera.center), image_point),
+        Projection::Orthographic => {
+            camera_ray(lens_point + (image_point - camera.center), image_point)
+        }
     }
 }
 
 /// How many points of the lens a sub-sample takes: one where all points are the same.
 #[must_use]
 pub(super) fn lens_samples(lens: &Lens) -> u32 {
-    if lens.radius.get() == 0.0 { 1 } else { lens.samples.get() }
+    if lens.radius.get() == 0.0 {
+        1
+    } else {
+        lens.samples.get()
+    }
 }
 
-/// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ = k·π(3 − √5)`.
+/// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ =
+/// k·π(3 − √5)`.
 ///
-/// All points lie within R of the eye and each stands for the same area (Vogel, "A better way to construct the
-/// sunflower head", Mathematical Biosciences 44 (1979)).
+/// All points lie within R of the eye and each stands for the same area (Vogel, "A better way to
+/// construct the sunflower head", Mathematical Biosciences 44 (1979)).
 #[must_use]
 pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
     Twist::NONE.vogel(k, n, radius, pixel)
@@ -49,13 +61,17 @@ pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
 pub(super) struct Twist {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
-    /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is uniform.
+    /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is
+    /// uniform.
     shift: f64,
 }
 
 impl Twist {
     /// The plain spiral.
-    const NONE: Self = Self { rotation: 0, shift: 0.0 };
+    const NONE: Self = Self {
+        rotation: 0,
+        shift: 0.0,
+    };
 
     /// The twist of a sub-sample; that of seed 0 is none.
     #[must_use]
@@ -64,7 +80,10 @@ impl Twist {
             return Self::NONE;
         }
         let key = key.child(LENS).seeded(seed);
-        Self { rotation: key.bits(0), shift: key.uniform(1) }
+        Self {
+            rotation: key.bits(0),
+            shift: key.uniform(1),
+        }
     }
 
     fn vogel(self, k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
@@ -86,7 +105,11 @@ pub(super) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
     if radius == 0.0 {
         return camera.eye;
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a turn, below one")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of a turn, below one"
+    )]
     let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
     let r = radius * share.sqrt() / camera.up.length();
     camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)

@@ -1,10 +1,10 @@
 //! The capped cone: the stretch inside one nappe and the stretch between base and apex, intersected.
 //!
-//! The ray is first moved to the point nearest to the cone's middle, so that the terms of the quadratic have the size of
-//! the cone; each root is then refined by one Newton step on the distance ρ − g from the side.
-//!
-//! A flat cone turns an error in the height of a point into one radius/height times as large in g. So its heights are
-//! counted along the ray from where that meets the base: then g is right to within rounding, however flat it is.
+//! The ray is first moved to the point nearest to the cone's middle, so that the terms of the
+//! quadratic have the size of the cone; each root is then refined by one Newton step on the
+//! distance ρ − g from the side. A flat cone turns an error in the height of a point into one
+//! radius/height times as large in g, so its heights are counted along the ray from where that
+//! meets the base: then g is right to within rounding, however flat it is.
 
 use super::bounds::Bounds;
 use super::interval::{Interval, between_planes, roots};
@@ -31,7 +31,8 @@ enum Part {
     Apex,
 }
 
-/// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ − τ·t.
+/// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ −
+/// τ·t.
 struct Profile {
     w: Vec3,
     x: Vec3,
@@ -60,9 +61,15 @@ impl Profile {
             let t = self.refined(c / (2.0 * b));
             let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
             let below = if tau > 0.0 {
-                Interval { enter: before, leave: side(t) }
+                Interval {
+                    enter: before,
+                    leave: side(t),
+                }
             } else {
-                Interval { enter: side(t), leave: after }
+                Interval {
+                    enter: side(t),
+                    leave: after,
+                }
             };
             return (t.is_finite() && (b < 0.0) == (tau > 0.0)).then_some(below);
         }
@@ -73,11 +80,20 @@ impl Profile {
         let (first, second) = roots(a, b, c, discriminant);
         let (first, second) = (self.refined(first), self.refined(second));
         Some(if a > 0.0 {
-            Interval { enter: side(first), leave: side(second) }
+            Interval {
+                enter: side(first),
+                leave: side(second),
+            }
         } else if tau > 0.0 {
-            Interval { enter: side(f64::NEG_INFINITY), leave: side(first) }
+            Interval {
+                enter: side(f64::NEG_INFINITY),
+                leave: side(first),
+            }
         } else {
-            Interval { enter: side(second), leave: side(f64::INFINITY) }
+            Interval {
+                enter: side(second),
+                leave: side(f64::INFINITY),
+            }
         })
     }
 }
@@ -87,7 +103,12 @@ impl Cone {
     #[must_use]
     pub fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
         let height = dot(up, up).sqrt();
-        Self { base, axis: up / height, height, radius }
+        Self {
+            base,
+            axis: up / height,
+            height,
+            radius,
+        }
     }
 
     /// The first root above 0.
@@ -118,23 +139,44 @@ impl Cone {
         inside.and(ends)?.first_in_front()
     }
 
-    /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its base.
+    /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its
+    /// base.
     fn crossing_flat(&self, start: Vec3, d: Vec3, nearest: f64, tau: f64) -> Option<(f64, Part)> {
         let x = cross(d, self.axis);
         let at_base = -dot(self.axis, start) / dot(self.axis, d);
-        // A ray steeper than the side is moved to the base, any other to the point nearest to the middle: it is then
-        // never higher above the base than a few times the cone, if it hits that.
+        // A ray steeper than the side is moved to the base, any other to the point nearest to the
+        // middle: it is then never higher above the base than a few times the cone, if it
+        // hits that.
         let across = x.length();
         let moved = if tau.abs() > across { at_base } else { nearest };
-        // Steps are counted in the time that ρ or g takes to change by 1, so that neither leaves the range of f64.
+        // Steps are counted in the time that ρ or g takes to change by 1, so that neither leaves
+        // the range of f64.
         let pace = across.max(tau.abs());
         let (x, tau) = (x / pace, tau / pace);
         let base = (at_base - moved) * pace;
-        let profile = Profile { w: cross(start + d * moved, self.axis), x, sigma: self.radius + tau * base, tau };
+        let profile = Profile {
+            w: cross(start + d * moved, self.axis),
+            x,
+            sigma: self.radius + tau * base,
+            tau,
+        };
         let (base, apex) = ((base, Part::Base), (base + self.radius / tau, Part::Apex));
-        let ends =
-            if tau > 0.0 { Interval { enter: base, leave: apex } } else { Interval { enter: apex, leave: base } };
-        profile.inside()?.and(ends)?.map(|s| moved + s / pace).first_in_front()
+        let ends = if tau > 0.0 {
+            Interval {
+                enter: base,
+                leave: apex,
+            }
+        } else {
+            Interval {
+                enter: apex,
+                leave: base,
+            }
+        };
+        profile
+            .inside()?
+            .and(ends)?
+            .map(|s| moved + s / pace)
+            .first_in_front()
     }
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
@@ -144,7 +186,8 @@ impl Cone {
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();
-        // Once more: what rounding left along the axis would count height/radius times in the side of a needle.
+        // Once more: what rounding left along the axis would count height/radius times in the side
+        // of a needle.
         let radial = (radial - self.axis * dot(self.axis, radial)).normalize_or_zero();
         let (local, normal) = match part {
             Part::Base => (local - self.axis * along, -self.axis),
@@ -156,7 +199,13 @@ impl Cone {
                 (local - normal * off, normal)
             }
         };
-        Interaction::new(ray, self.base + local, normal, self.base, self.height + self.radius)
+        Interaction::new(
+            ray,
+            self.base + local,
+            normal,
+            self.base,
+            self.height + self.radius,
+        )
     }
 
     /// A box around the cone.
@@ -172,7 +221,8 @@ mod tests {
     use super::*;
     use crate::render::reflect;
 
-    /// 200 times as long as wide, seen from afar: mirrored rays don't meet the side that they leave.
+    /// 200 times as long as wide, seen from afar: mirrored rays don't meet the side that they
+    /// leave.
     #[test]
     fn a_needle_does_not_mirror_itself() {
         let up = Vec3::new(21.33, 5.0, -20.0);
@@ -182,12 +232,19 @@ mod tests {
         for k in 0..4000_i32 {
             let [along, across] = [0.618_034, 0.754_878].map(|step| (f64::from(k) * step).fract());
             let aside = Vec3::Y * (0.2 * (across - 0.5) * (1.0 - along));
-            let ray = Ray { origin: eye, direction: (cone.base + up * along + aside - eye).normalize() };
-            let Some(t) = cone.intersect(&ray) else { continue };
+            let ray = Ray {
+                origin: eye,
+                direction: (cone.base + up * along + aside - eye).normalize(),
+            };
+            let Some(t) = cone.intersect(&ray) else {
+                continue;
+            };
             let at = cone.interaction(&ray, t);
             let mirrored = reflect(ray.direction, at.normal);
             seen += 1;
-            again += i32::from(mirrored.dot(at.normal) > 0.0 && cone.intersect(&at.ray(mirrored)).is_some());
+            again += i32::from(
+                mirrored.dot(at.normal) > 0.0 && cone.intersect(&at.ray(mirrored)).is_some(),
+            );
         }
         assert!(seen > 2000 && again == 0, "{again} of {seen}");
     }

@@ -1,7 +1,9 @@
-//! The capped cylinder: the stretch inside the infinite cylinder and the stretch between its caps, intersected.
+//! The capped cylinder: the stretch inside the infinite cylinder and the stretch between its caps,
+//! intersected.
 //!
-//! The ray is first moved to the point nearest to the axis, so that the terms of the quadratic have the size of the
-//! radius and not of the distance from the eye; they are those of the cross products with the axis.
+//! The ray is first moved to the point nearest to the axis, so that the terms of the quadratic have
+//! the size of the radius and not of the distance from the eye; they are those of the cross
+//! products with the axis.
 
 use super::bounds::Bounds;
 use super::interval::{Interval, between_planes, roots};
@@ -26,10 +28,16 @@ enum Part {
 }
 
 impl Cylinder {
-    /// The cylinder over the disc around `base`, `height` along `direction`, which must not be zero.
+    /// The cylinder over the disc around `base`, `height` along `direction`, which must not be
+    /// zero.
     #[must_use]
     pub fn new(base: Vec3, direction: Vec3, height: f64, radius: f64) -> Self {
-        Self { base, axis: unit(direction).unwrap_or(Vec3::Z), height, radius }
+        Self {
+            base,
+            axis: unit(direction).unwrap_or(Vec3::Z),
+            height,
+            radius,
+        }
     }
 
     /// The first root above 0.
@@ -40,8 +48,16 @@ impl Cylinder {
 
     fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
         let f = ray.origin - self.base;
-        let caps = between_planes(self.axis, self.height, f, ray.direction, [Part::Base, Part::Top])?;
-        self.inside_side(f, ray.direction, &caps)?.and(caps)?.first_in_front()
+        let caps = between_planes(
+            self.axis,
+            self.height,
+            f,
+            ray.direction,
+            [Part::Base, Part::Top],
+        )?;
+        self.inside_side(f, ray.direction, &caps)?
+            .and(caps)?
+            .first_in_front()
     }
 
     /// The stretch inside the infinite cylinder, to be known well where it is between the caps.
@@ -50,11 +66,16 @@ impl Cylinder {
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
         let a = across.dot(across);
         if a == 0.0 {
-            let everywhere = Interval { enter: (f64::NEG_INFINITY, Part::Side), leave: (f64::INFINITY, Part::Side) };
+            let everywhere = Interval {
+                enter: (f64::NEG_INFINITY, Part::Side),
+                leave: (f64::INFINITY, Part::Side),
+            };
             return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
         }
         // Move the ray to the point nearest to the axis, but not beyond the caps.
-        let nearest = (-from_axis.dot(across) / a).max(caps.enter.0).min(caps.leave.0);
+        let nearest = (-from_axis.dot(across) / a)
+            .max(caps.enter.0)
+            .min(caps.leave.0);
         let from_axis = cross(f + d * nearest, self.axis);
         let b = -from_axis.dot(across);
         let foot = from_axis + across * (b / a);
@@ -66,7 +87,10 @@ impl Cylinder {
         let c = (length - self.radius) * (length + self.radius);
         let (enter, leave) = roots(a, b, c, a * inside);
         let (enter, leave) = (nearest + enter, nearest + leave);
-        Some(Interval { enter: (enter, Part::Side), leave: (leave, Part::Side) })
+        Some(Interval {
+            enter: (enter, Part::Side),
+            leave: (leave, Part::Side),
+        })
     }
 
     /// The point at `t`, moved onto the part that was hit.
@@ -83,7 +107,13 @@ impl Cylinder {
                 (self.axis * along + normal * self.radius, normal)
             }
         };
-        Interaction::new(ray, self.base + local, normal, self.base, self.height + self.radius)
+        Interaction::new(
+            ray,
+            self.base + local,
+            normal,
+            self.base,
+            self.height + self.radius,
+        )
     }
 
     /// A box around the cylinder.

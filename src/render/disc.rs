@@ -17,7 +17,11 @@ impl Disc {
     /// The disc around `center` at a right angle to `normal`, which must not be zero.
     #[must_use]
     pub fn new(center: Vec3, normal: Vec3, radius: f64) -> Self {
-        Self { plane: Plane::new(center, normal), center, radius }
+        Self {
+            plane: Plane::new(center, normal),
+            center,
+            radius,
+        }
     }
 
     /// The root above 0.

@@ -26,14 +26,19 @@ impl Job {
     /// The columns out of `xs` that are rendered of a row.
     pub(super) fn columns(&self, y: u32, xs: Range<u32>) -> impl Iterator<Item = u32> {
         let (tiles, stride, from) = (self.tiles, self.stride.get(), xs.start);
-        let wanted = move |tile: &u32| tiles.is_none_or(|tiles| tiles.contain([tile * Tiles::SIDE, y]));
+        let wanted =
+            move |tile: &u32| tiles.is_none_or(|tiles| tiles.contain([tile * Tiles::SIDE, y]));
         let runs = (xs.start / Tiles::SIDE..xs.end.div_ceil(Tiles::SIDE)).filter(wanted);
-        let run = move |tile: u32| (tile * Tiles::SIDE).max(xs.start)..((tile + 1) * Tiles::SIDE).min(xs.end);
-        runs.flat_map(run).filter(move |x| (x - from).is_multiple_of(stride))
+        let run = move |tile: u32| {
+            (tile * Tiles::SIDE).max(xs.start)..((tile + 1) * Tiles::SIDE).min(xs.end)
+        };
+        runs.flat_map(run)
+            .filter(move |x| (x - from).is_multiple_of(stride))
     }
 }
 
-/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any case.
+/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
+/// case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Behind {
     /// The surroundings of the scene; black if it has none.
@@ -43,13 +48,14 @@ pub enum Behind {
     Nothing,
 }
 
-/// Where each kind of sampling starts: 0 is the one of every render, any other number gives a picture that is
-/// independent of it but for what they show.
+/// Where each kind of sampling starts: 0 is the one of every render, any other number gives a
+/// picture that is independent of it but for what they show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Seeds {
     /// Of the places of sub-samples, where their pattern is random.
     pub pixel: u64,
-    /// Of the points of the lens: not 0 turns their spiral for each sub-sample, and spreads them without bias.
+    /// Of the points of the lens: not 0 turns their spiral for each sub-sample, and spreads them
+    /// without bias.
     pub lens: u64,
     /// Of soft lights and glossy lobes.
     pub path: u64,
@@ -66,7 +72,11 @@ pub struct Tiles {
 
 impl Seeds {
     /// Those of every render.
-    pub const NONE: Self = Self { pixel: 0, lens: 0, path: 0 };
+    pub const NONE: Self = Self {
+        pixel: 0,
+        lens: 0,
+        path: 0,
+    };
 }
 
 impl Tiles {
@@ -137,14 +147,20 @@ impl Crop {
     #[must_use]
     pub fn within(self, width: u32, height: u32) -> Self {
         let (x, y) = (self.x.min(width), self.y.min(height));
-        Self { x, y, width: self.width.min(width - x), height: self.height.min(height - y) }
+        Self {
+            x,
+            y,
+            width: self.width.min(width - x),
+            height: self.height.min(height - y),
+        }
     }
 }
 
 /// Which values a film holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
-    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the mean, coded by sRGB.
+    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the
+    /// mean, coded by sRGB.
     #[default]
     Display,
     /// The plain mean of the sub-samples.
@@ -181,7 +197,8 @@ impl Counts {
         self.mirror + self.refracted
     }
 
-    /// The share of the camera rays since an earlier count that hit something; 0 if there were none.
+    /// The share of the camera rays since an earlier count that hit something; 0 if there were
+    /// none.
     #[must_use]
     pub(super) fn coverage_since(&self, before: &Self) -> f32 {
         coverage(self.hits - before.hits, self.camera - before.camera)

@@ -16,30 +16,55 @@ use rayon::prelude::*;
 
 impl<S: Geometry> World<S> {
     /// Renders with the features `F`; `None` if `proceed` said stop.
-    pub(super) fn render_with<const F: u32>(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    pub(super) fn render_with<const F: u32>(
+        &self,
+        job: &Job,
+        proceed: &Proceed<'_>,
+    ) -> Option<Film> {
         let camera = self.scene.camera();
         let (width, height) = (camera.width.get(), camera.height.get());
-        let whole = Crop { x: 0, y: 0, width, height };
+        let whole = Crop {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        };
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         match self.scene.settings().mode {
             Mode::Zbuffer => {
-                let job = Job { tiles: None, ..*job };
+                let job = Job {
+                    tiles: None,
+                    ..*job
+                };
                 let depth = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.depth(pixel);
                 let (mut depths, coverage, counts) = self.rows(whole, &job, proceed, depth)?;
                 normalize_depths(&mut depths);
                 let image = cut(&depths, whole, crop);
                 let coverage = part(&coverage, whole, crop).copied().collect();
-                Some(Film { image, coverage, counts })
+                Some(Film {
+                    image,
+                    coverage,
+                    counts,
+                })
             }
             Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
                 let pixel = |tracer: &mut Tracer<'_, S, F>, pixel| tracer.pixel(pixel, job);
                 let (pixels, coverage, counts) = self.rows(crop, job, proceed, pixel)?;
-                Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
+                Some(Film {
+                    image: Image {
+                        width: crop.width,
+                        height: crop.height,
+                        pixels,
+                    },
+                    coverage,
+                    counts,
+                })
             }
         }
     }
 
-    /// The values and the coverage of all pixels of a rectangle, row by row, and the rays they took.
+    /// The values and the coverage of all pixels of a rectangle, row by row, and the rays they
+    /// took.
     fn rows<T: Send + Clone + Default, const F: u32>(
         &self,
         crop: Crop,
@@ -63,9 +88,15 @@ impl<S: Geometry> World<S> {
             Some(tracer.counts)
         };
         let width = (crop.width as usize).max(1);
-        let rows = (crop.y..crop.y + crop.height).into_par_iter().zip(pixels.par_chunks_mut(width));
-        let rows = rows.zip(coverage.par_chunks_mut(width)).step_by(job.stride.get() as usize);
-        let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
+        let rows = (crop.y..crop.y + crop.height)
+            .into_par_iter()
+            .zip(pixels.par_chunks_mut(width));
+        let rows = rows
+            .zip(coverage.par_chunks_mut(width))
+            .step_by(job.stride.get() as usize);
+        let counts = rows
+            .map(row)
+            .try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
         Some((pixels, coverage, counts))
     }
 }
@@ -81,15 +112,27 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return [0.0; 3];
         }
         let mut first = None;
-        let factor = if Self::can(Features::CAMERA) { scene.settings().supersampling.get() } else { 1 };
-        let points = if Self::can(Features::CAMERA) { lens_samples(&camera.lens) } else { 1 };
+        let factor = if Self::can(Features::CAMERA) {
+            scene.settings().supersampling.get()
+        } else {
+            1
+        };
+        let points = if Self::can(Features::CAMERA) {
+            lens_samples(&camera.lens)
+        } else {
+            1
+        };
         let mut sum = Vec3::ZERO;
         let mut sample = 0_u64;
         for j in 0..factor {
             for i in 0..factor {
                 let cell = u64::from(j) * u64::from(factor) + u64::from(i);
                 let key = Key::new(pixel, cell);
-                let pattern = if Self::can(Features::CAMERA) { scene.settings().pattern } else { Pattern::Grid };
+                let pattern = if Self::can(Features::CAMERA) {
+                    scene.settings().pattern
+                } else {
+                    Pattern::Grid
+                };
                 let place = place_in_pixel(pattern, [i, j], factor, key.seeded(job.seeds.pixel));
                 let target = image_point(camera, pixel, place);
                 let twist = Twist::new(job.seeds.lens, key);
@@ -107,7 +150,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     self.weightless = false;
                     self.counts.unnumbered += u64::from(radiance.is_nan());
                     self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
-                        plan.region.sight(pixel) == Sight::Uniform && first.is_some_and(|first| first != radiance)
+                        plan.region.sight(pixel) == Sight::Uniform
+                            && first.is_some_and(|first| first != radiance)
                     });
                     first = Some(radiance);
                     sum += match job.values {
@@ -119,9 +163,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             }
         }
         self.weightless = false;
-        self.verify(Effect::Surfaces, "a pixel that shows nothing shows something", |plan| {
-            plan.region.sight(pixel) == Sight::Nothing && self.counts.hits > hits
-        });
+        self.verify(
+            Effect::Surfaces,
+            "a pixel that shows nothing shows something",
+            |plan| plan.region.sight(pixel) == Sight::Nothing && self.counts.hits > hits,
+        );
         (sum / sample as f64).to_array()
     }
 
@@ -142,15 +188,18 @@ pub(super) fn camera_rays(scene: &ValidScene, pixel: [u32; 2]) -> impl Iterator<
     // The z-buffer asks the middle of each pixel, through the eye.
     let (factor, points, pattern) = match settings.mode {
         Mode::Zbuffer => (1, 1, Pattern::Grid),
-        Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
-            (settings.supersampling.get(), lens_samples(&camera.lens), settings.pattern)
-        }
+        Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => (
+            settings.supersampling.get(),
+            lens_samples(&camera.lens),
+            settings.pattern,
+        ),
     };
     let cells = (0..factor).flat_map(move |j| (0..factor).map(move |i| [i, j]));
     cells.flat_map(move |[i, j]| {
         let key = Key::new(pixel, u64::from(j) * u64::from(factor) + u64::from(i));
         let target = image_point(camera, pixel, place_in_pixel(pattern, [i, j], factor, key));
-        (0..points).map(move |k| ray_through(camera, lens_point(camera, k, Twist::new(0, key)), target))
+        (0..points)
+            .map(move |k| ray_through(camera, lens_point(camera, k, Twist::new(0, key)), target))
     })
 }
 
@@ -158,7 +207,9 @@ pub(super) fn camera_rays(scene: &ValidScene, pixel: [u32; 2]) -> impl Iterator<
 fn place_in_pixel(pattern: Pattern, cell: [u32; 2], factor: u32, key: Key) -> [f64; 2] {
     let key = key.child(PATTERN);
     let random = || [key.uniform(0), key.uniform(1)];
-    let within = |offset: [f64; 2]| [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(factor));
+    let within = |offset: [f64; 2]| {
+        [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(factor))
+    };
     match pattern {
         Pattern::Grid => within([0.5; 2]),
         Pattern::Jitter => within(random()),
@@ -182,12 +233,21 @@ fn normalize_depths(depths: &mut [Option<f64>]) {
 
 /// The pixels of `crop` out of those of `whole`, in grey; black where nothing was hit.
 fn cut(values: &[Option<f64>], whole: Crop, crop: Crop) -> Image {
-    let pixels = part(values, whole, crop).map(|value| [value.unwrap_or(0.0); 3]).collect();
-    Image { width: crop.width, height: crop.height, pixels }
+    let pixels = part(values, whole, crop)
+        .map(|value| [value.unwrap_or(0.0); 3])
+        .collect();
+    Image {
+        width: crop.width,
+        height: crop.height,
+        pixels,
+    }
 }
 
 /// The values of the pixels of `crop` out of those of `whole`.
 fn part<T>(values: &[T], whole: Crop, crop: Crop) -> impl Iterator<Item = &T> {
-    let rows = values.chunks(whole.width as usize).skip(crop.y as usize).take(crop.height as usize);
+    let rows = values
+        .chunks(whole.width as usize)
+        .skip(crop.y as usize)
+        .take(crop.height as usize);
     rows.flat_map(move |row| row.iter().skip(crop.x as usize).take(crop.width as usize))
 }

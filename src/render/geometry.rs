@@ -21,12 +21,13 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn prepare(shape: &valid::Shape, meshes: &[Arc<Self::Mesh>]) -> Option<Self>;
 
-    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray. Roots beyond `t_max`
-    /// may be left out.
+    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray.
+    /// Roots beyond `t_max` may be left out.
     #[must_use]
     fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
 
-    /// As [`Geometry::intersect`], but of roots as near as rounding can tell the one on the first part.
+    /// As [`Geometry::intersect`], but of roots as near as rounding can tell the one on the first
+    /// part.
     #[must_use]
     #[inline]
     fn nearest(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {

@@ -1,8 +1,8 @@
-//! How a thread comes on: it tells an observer after each pixel, and within long ones every few thousand steps of work,
-//! and is told whether to go on.
+//! How a thread comes on: it tells an observer after each pixel, and within long ones every few
+//! thousand steps of work, and is told whether to go on.
 //!
-//! A thread that is to stop gives its pixel up with whatever number it has; the film it belongs to is thrown away, so
-//! a picture that is finished knows nothing of this.
+//! A thread that is to stop gives its pixel up with whatever number it has; the film it belongs to
+//! is thrown away, so a picture that is finished knows nothing of this.
 
 use super::film::Counts;
 
@@ -40,7 +40,14 @@ pub(super) struct Heartbeat<'run> {
 
 impl<'run> Heartbeat<'run> {
     pub(super) fn new(proceed: &'run Proceed<'run>) -> Self {
-        Self { proceed, pixel: [0; 2], told: 0, left: EVERY, goes_on: true, open: 0 }
+        Self {
+            proceed,
+            pixel: [0; 2],
+            told: 0,
+            left: EVERY,
+            goes_on: true,
+            open: 0,
+        }
     }
 
     /// The pixel under way.
@@ -59,7 +66,8 @@ impl<'run> Heartbeat<'run> {
         self.open = open;
     }
 
-    /// Whether to go on; to be asked once a step of work: a path, a bounce, a sample, a point of a light.
+    /// Whether to go on; to be asked once a step of work: a path, a bounce, a sample, a point of a
+    /// light.
     #[inline]
     pub(super) fn goes_on(&mut self, counts: &Counts) -> bool {
         self.left -= 1;
@@ -74,7 +82,12 @@ impl<'run> Heartbeat<'run> {
     #[cold]
     fn ask(&mut self, counts: &Counts, is_done: bool) -> bool {
         let rays = counts.rays();
-        let step = Step { rays: rays - self.told, pixel: self.pixel, is_done, open: self.open };
+        let step = Step {
+            rays: rays - self.told,
+            pixel: self.pixel,
+            is_done,
+            open: self.open,
+        };
         self.told = rays;
         self.goes_on = self.goes_on && (self.proceed)(step);
         self.left = if self.goes_on { EVERY } else { 1 };
@@ -95,15 +108,30 @@ mod tests {
             !(step.pixel == [1, 0] && step.rays > 0)
         };
         let mut heartbeat = Heartbeat::new(&proceed);
-        let mut counts = Counts { camera: 3, ..Counts::default() };
+        let mut counts = Counts {
+            camera: 3,
+            ..Counts::default()
+        };
         assert!(heartbeat.goes_on(&counts) && heartbeat.done(&counts));
         heartbeat.begin([1, 0]);
         assert!((1..EVERY).all(|_| heartbeat.goes_on(&counts)));
         counts.shadow = 9;
-        assert!(!heartbeat.goes_on(&counts) && !heartbeat.goes_on(&counts) && !heartbeat.done(&counts));
+        assert!(
+            !heartbeat.goes_on(&counts) && !heartbeat.goes_on(&counts) && !heartbeat.done(&counts)
+        );
         let steps = [
-            Step { rays: 3, pixel: [0, 0], is_done: true, open: 0 },
-            Step { rays: 9, pixel: [1, 0], is_done: false, open: 0 },
+            Step {
+                rays: 3,
+                pixel: [0, 0],
+                is_done: true,
+                open: 0,
+            },
+            Step {
+                rays: 9,
+                pixel: [1, 0],
+                is_done: false,
+                open: 0,
+            },
         ];
         assert_eq!(*told.lock().unwrap(), steps);
     }

@@ -1,4 +1,5 @@
-//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and hierarchy.
+//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
+//! hierarchy.
 
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
@@ -17,7 +18,8 @@ pub struct PreparedMesh {
     triangles: Vec<Triangle>,
     /// The corners of each triangle, by their numbers in the mesh.
     corners: Shared<[u32; 3]>,
-    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their world.
+    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
+    /// world.
     hierarchy: OnceLock<Option<Wide>>,
 }
 
@@ -26,13 +28,26 @@ impl PreparedMesh {
     #[must_use]
     pub fn new(mesh: &Arc<Mesh>) -> Self {
         let prepared = |corners: &[u32; 3]| Triangle::new(mesh.corners(*corners));
-        let triangles = mesh.triangles.iter().filter_map(prepared).collect::<Vec<_>>();
+        let triangles = mesh
+            .triangles
+            .iter()
+            .filter_map(prepared)
+            .collect::<Vec<_>>();
         let all = &mesh.triangles;
         let corners = match triangles.len() == all.len() {
             true => all.clone(),
-            false => all.iter().copied().filter(|corners| prepared(corners).is_some()).collect(),
+            false => all
+                .iter()
+                .copied()
+                .filter(|corners| prepared(corners).is_some())
+                .collect(),
         };
-        Self { mesh: Arc::clone(mesh), triangles, corners, hierarchy: OnceLock::new() }
+        Self {
+            mesh: Arc::clone(mesh),
+            triangles,
+            corners,
+            hierarchy: OnceLock::new(),
+        }
     }
 
     /// The triangles that have an area.
@@ -43,7 +58,9 @@ impl PreparedMesh {
     /// The hierarchy of the triangles, if there are any.
     pub(super) fn hierarchy(&self) -> Option<&Wide> {
         let corners = |item: u32| *self.triangles[item as usize].vertices();
-        self.hierarchy.get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners)).as_ref()
+        self.hierarchy
+            .get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners))
+            .as_ref()
     }
 }
 
@@ -66,17 +83,34 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// The mesh placed by a map whose columns are the images of the axes, which span space, and of the origin.
+    /// The mesh placed by a map whose columns are the images of the axes, which span space, and of
+    /// the origin.
     #[must_use]
     pub fn new(mesh: &Arc<PreparedMesh>, [x, y, z, origin]: [Vec3; 4]) -> Self {
         let volume = cross(x, y).dot(z);
-        let inverse = [cross(y, z) / volume, cross(z, x) / volume, cross(x, y) / volume];
+        let inverse = [
+            cross(y, z) / volume,
+            cross(z, x) / volume,
+            cross(x, y) / volume,
+        ];
         let (axes, mirrors) = ([x, y, z], volume < 0.0);
         let sizes = axes.map(|axis| axis.abs().element_sum()).into();
         let (mesh, bounds) = (Arc::clone(mesh), Bounds::EMPTY);
-        let mut instance = Self { mesh, axes, origin, sizes, inverse, mirrors, bounds, blur: 0.0 };
+        let mut instance = Self {
+            mesh,
+            axes,
+            origin,
+            sizes,
+            inverse,
+            mirrors,
+            bounds,
+            blur: 0.0,
+        };
         let mesh = Arc::clone(&instance.mesh);
-        let corners = mesh.triangles.iter().flat_map(|triangle| triangle.vertices());
+        let corners = mesh
+            .triangles
+            .iter()
+            .flat_map(|triangle| triangle.vertices());
         for corner in corners {
             let point = instance.to_world(*corner);
             // The map rounds; the box must hold what the ray in object space may hit.
@@ -115,8 +149,17 @@ impl Instance {
     /// The ray in object space; its `t` are those of the world.
     #[inline]
     fn to_object(&self, ray: &Ray) -> Ray {
-        let rows = |v: Vec3| Vec3::new(self.inverse[0].dot(v), self.inverse[1].dot(v), self.inverse[2].dot(v));
-        Ray { origin: rows(ray.origin - self.origin), direction: rows(ray.direction) }
+        let rows = |v: Vec3| {
+            Vec3::new(
+                self.inverse[0].dot(v),
+                self.inverse[1].dot(v),
+                self.inverse[2].dot(v),
+            )
+        };
+        Ray {
+            origin: rows(ray.origin - self.origin),
+            direction: rows(ray.direction),
+        }
     }
 
     /// The smallest root above 0 that is not beyond `t_max`, and its triangle.
@@ -136,7 +179,8 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first triangle.
+    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first
+    /// triangle.
     #[must_use]
     pub(super) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
         let local = self.to_object(ray);
@@ -159,15 +203,20 @@ impl Instance {
     #[cold]
     fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
         let mut tie = Tie::new();
-        self.visit_roots(ray, t, &mut |t, part| tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part));
+        self.visit_roots(ray, t, &mut |t, part| {
+            tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part)
+        });
         tie.first()
     }
 
-    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little farther.
+    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little
+    /// farther.
     pub(super) fn visit_roots(&self, ray: &Ray, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
         let local = self.to_object(ray);
         let shear = Shear::new(&local);
-        let Some(hierarchy) = self.mesh.hierarchy() else { return };
+        let Some(hierarchy) = self.mesh.hierarchy() else {
+            return;
+        };
         hierarchy.walk::<true>(&local, t_max, |item| {
             if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
                 visit(t, item);
@@ -191,7 +240,13 @@ impl Instance {
         let point = self.to_world(local.point);
         let reach = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * self.sizes.dot(reach);
-        Interaction::new(ray, point, self.normal_to_world(local.normal), self.origin, extent)
+        Interaction::new(
+            ray,
+            point,
+            self.normal_to_world(local.normal),
+            self.origin,
+            extent,
+        )
     }
 
     /// Whether the mesh has texture coordinates.
@@ -206,7 +261,9 @@ impl Instance {
 
     /// The corners of triangle `part` in the world.
     pub(super) fn corners(&self, part: u32) -> [Vec3; 3] {
-        self.mesh.triangles[part as usize].vertices().map(|corner| self.to_world(corner))
+        self.mesh.triangles[part as usize]
+            .vertices()
+            .map(|corner| self.to_world(corner))
     }
 
     /// Whether the mesh has normals of its own.
@@ -221,11 +278,18 @@ impl Instance {
         let corners = self.mesh.corners[part as usize];
         let normals = at(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
-        let has_no_coordinates = mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
+        let has_no_coordinates =
+            mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
         let is_plain = mesh.colors.is_empty() && (asked == Asked::NONE || has_no_coordinates);
         let weights = match is_even && is_plain {
             true => [1.0, 0.0, 0.0],
-            false => triangle.weights(self.to_object(&Ray { origin: point, direction: Vec3::ZERO }).origin),
+            false => triangle.weights(
+                self.to_object(&Ray {
+                    origin: point,
+                    direction: Vec3::ZERO,
+                })
+                .origin,
+            ),
         };
         let unit = |normal| unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO);
         let normal = normals.map(|[a, b, c]| {
@@ -233,9 +297,21 @@ impl Instance {
             let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
             self.normal_to_world(if is_even { even } else { mean() })
         });
-        let uvs = if asked == Asked::NONE { None } else { at(&mesh.uvs, corners) };
-        let (tangent, side) = if asked.tangent { self.tangent(triangle, corners, uvs, weights) } else { (None, 1.0) };
-        let second_uvs = if asked.uv { at(&mesh.second_uvs, corners) } else { None };
+        let uvs = if asked == Asked::NONE {
+            None
+        } else {
+            at(&mesh.uvs, corners)
+        };
+        let (tangent, side) = if asked.tangent {
+            self.tangent(triangle, corners, uvs, weights)
+        } else {
+            (None, 1.0)
+        };
+        let second_uvs = if asked.uv {
+            at(&mesh.second_uvs, corners)
+        } else {
+            None
+        };
         Details {
             normal: normal.filter(|normal| *normal != Vec3::ZERO),
             uv: uvs.map(|uvs| interpolate(uvs, weights)),
@@ -255,7 +331,10 @@ impl Instance {
         weights: [f64; 3],
     ) -> (Option<Vec3>, f64) {
         let (tangent, side) = match at(&self.mesh.mesh.tangents, corners) {
-            None => (uvs.and_then(|uvs| triangle.tangent(uvs)), uvs.map_or(1.0, handedness)),
+            None => (
+                uvs.and_then(|uvs| triangle.tangent(uvs)),
+                uvs.map_or(1.0, handedness),
+            ),
             Some(tangents) => {
                 let [x, y, z, w] = blend(tangents, weights);
                 (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
@@ -287,10 +366,16 @@ pub struct Asked {
 
 impl Asked {
     /// Nothing more.
-    pub const NONE: Self = Self { uv: false, tangent: false };
+    pub const NONE: Self = Self {
+        uv: false,
+        tangent: false,
+    };
 
     /// All there is.
-    pub const ALL: Self = Self { uv: true, tangent: true };
+    pub const ALL: Self = Self {
+        uv: true,
+        tangent: true,
+    };
 }
 
 /// What a surface knows of a point beyond its geometry.
@@ -312,7 +397,14 @@ pub struct Details {
 
 impl Default for Details {
     fn default() -> Self {
-        Self { normal: None, uv: None, tangent: None, side: 1.0, second_uv: None, color: None }
+        Self {
+            normal: None,
+            uv: None,
+            tangent: None,
+            side: 1.0,
+            second_uv: None,
+            color: None,
+        }
     }
 }
 
@@ -325,7 +417,13 @@ fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
 /// What a column, which may be empty, says of three corners.
 #[inline]
 fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
-    (!column.is_empty()).then(|| [column.at(a as usize), column.at(b as usize), column.at(c as usize)])
+    (!column.is_empty()).then(|| {
+        [
+            column.at(a as usize),
+            column.at(b as usize),
+            column.at(c as usize),
+        ]
+    })
 }
 
 /// The mean with these weights of the corners.

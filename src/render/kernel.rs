@@ -32,10 +32,16 @@ pub const KERNELS: [Kernel; 12] = [
     kernel("phong", PHONG),
     kernel("phong, camera", PHONG.with(Features::CAMERA)),
     kernel("phong, shadows", PHONG.with(Features::SHADOW)),
-    kernel("diffuse, maps, camera", Features::LIGHT.with(Features::MAPS).with(Features::CAMERA)),
+    kernel(
+        "diffuse, maps, camera",
+        Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
+    ),
     kernel("whitted", WHITTED),
     kernel("whitted, camera", WHITTED.with(Features::CAMERA)),
-    kernel("whitted, maps, camera", WHITTED.with(Features::MAPS).with(Features::CAMERA)),
+    kernel(
+        "whitted, maps, camera",
+        WHITTED.with(Features::MAPS).with(Features::CAMERA),
+    ),
     kernel("everything", Features::EVERYTHING),
     kernel("naive", Features::EVERYTHING.with(Features::NAIVE)),
 ];
@@ -43,7 +49,8 @@ pub const KERNELS: [Kernel; 12] = [
 /// The few of them that are compiled for what is rarer: other arithmetics, and pictures that grow.
 const FEW: [usize; 4] = [1, 4, 10, 11];
 
-/// The index of the integrator with the fewest features among those that have all of `needed`; the first of equals.
+/// The index of the integrator with the fewest features among those that have all of `needed`; the
+/// first of equals.
 #[must_use]
 pub fn choose(needed: Features) -> usize {
     smallest(0..KERNELS.len(), needed)
@@ -56,11 +63,15 @@ pub(super) fn choose_of_few(needed: Features) -> usize {
 }
 
 fn smallest(kernels: impl IntoIterator<Item = usize>, needed: Features) -> usize {
-    let able = kernels.into_iter().filter(|index| KERNELS[*index].features.contains(needed));
-    able.min_by_key(|index| KERNELS[*index].features.count()).unwrap_or(KERNELS.len() - 1)
+    let able = kernels
+        .into_iter()
+        .filter(|index| KERNELS[*index].features.contains(needed));
+    able.min_by_key(|index| KERNELS[*index].features.count())
+        .unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of the integrator chosen, by its index; of those not listed the last.
+/// Calls a method of a world with the features of the integrator chosen, by its index; of those not
+/// listed the last.
 macro_rules! dispatch {
     ($chosen:expr; $($index:literal)*; $world:ident.$method:ident $arguments:tt) => {
         match $chosen {
@@ -104,9 +115,17 @@ mod tests {
             let needed = Features(needed);
             let chosen = KERNELS[choose(needed)].features;
             assert!(chosen.contains(needed), "{needed:?}: {chosen:?}");
-            let smaller = KERNELS.iter().filter(|kernel| kernel.features.contains(needed));
-            assert!(smaller.map(|kernel| kernel.features.count()).min() == Some(chosen.count()), "{needed:?}");
-            assert!(KERNELS[choose_of_few(needed)].features.contains(needed), "{needed:?}");
+            let smaller = KERNELS
+                .iter()
+                .filter(|kernel| kernel.features.contains(needed));
+            assert!(
+                smaller.map(|kernel| kernel.features.count()).min() == Some(chosen.count()),
+                "{needed:?}"
+            );
+            assert!(
+                KERNELS[choose_of_few(needed)].features.contains(needed),
+                "{needed:?}"
+            );
         }
     }
 }

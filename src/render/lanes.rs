@@ -1,8 +1,9 @@
-//! Four boxes or triangles against one ray at once, in single precision: what may be hit is never passed over.
+//! Four boxes or triangles against one ray at once, in single precision: what may be hit is never
+//! passed over.
 //!
-//! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever the scale of the
-//! scene. Rays are brought to the cube in f64; a bound on what rounding does to each widens every comparison. The hit
-//! itself is decided elsewhere, in f64.
+//! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever
+//! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
+//! each widens every comparison. The hit itself is decided elsewhere, in f64.
 
 use super::bounds::Bounds;
 use super::ray::Ray;
@@ -11,7 +12,8 @@ use crate::math::{Lanes, U, Vec3, ldexp};
 /// The unit round-off of f32, 2⁻²⁴.
 const ROUND: f64 = 0.5 * f32::EPSILON as f64;
 
-/// Directions are at least this steep to every axis; within the cube that moves no ray by more than [`FLOOR`].
+/// Directions are at least this steep to every axis; within the cube that moves no ray by more than
+/// [`FLOOR`].
 const STEEP: f64 = 1.0 / 1_099_511_627_776.0;
 
 /// The least distance that counts.
@@ -34,16 +36,32 @@ pub(super) type Boxes = [[Lanes; 2]; 3];
 pub(super) type Corners = [[Lanes; 3]; 3];
 
 impl Cube {
-    /// The cube around some boxes, not far larger than needed and finest where most of them are; `blur` bounds the error
-    /// of the corners of what is in them.
+    /// The cube around some boxes, not far larger than needed and finest where most of them are;
+    /// `blur` bounds the error of the corners of what is in them.
     pub(super) fn around(boxes: impl Iterator<Item = Bounds> + Clone, blur: f64) -> Self {
         let count = boxes.clone().count() as f64;
-        let center = boxes.clone().map(|bounds| bounds.center() / count).sum::<Vec3>();
-        let reach = |bounds: Bounds| (bounds.min - center).abs().max((bounds.max - center).abs()).max_element();
+        let center = boxes
+            .clone()
+            .map(|bounds| bounds.center() / count)
+            .sum::<Vec3>();
+        let reach = |bounds: Bounds| {
+            (bounds.min - center)
+                .abs()
+                .max((bounds.max - center).abs())
+                .max_element()
+        };
         let extent = boxes.map(reach).fold(0.0, f64::max);
-        let exponent = if extent > 0.0 { (libm::ilogb(extent) + 1).clamp(-900, 1000) } else { 0 };
+        let exponent = if extent > 0.0 {
+            (libm::ilogb(extent) + 1).clamp(-900, 1000)
+        } else {
+            0
+        };
         let scale = ldexp(1.0, -exponent);
-        Self { center, scale, blur: blur * scale }
+        Self {
+            center,
+            scale,
+            blur: blur * scale,
+        }
     }
 
     fn enter(&self, point: Vec3) -> Vec3 {
@@ -68,7 +86,10 @@ impl Cube {
         for (lane, triangle) in triangles.iter().enumerate() {
             for (places, corner) in places.iter_mut().zip(triangle) {
                 let corner = self.enter(*corner).as_vec3().to_array();
-                places.iter_mut().zip(corner).for_each(|(lanes, place)| lanes[lane] = place);
+                places
+                    .iter_mut()
+                    .zip(corner)
+                    .for_each(|(lanes, place)| lanes[lane] = place);
             }
         }
         places.map(|places| places.map(Lanes::from_array))
@@ -78,7 +99,11 @@ impl Cube {
 #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
 fn rounded_down(x: f64) -> f32 {
     let nearest = x as f32;
-    if f64::from(nearest) > x { nearest.next_down() } else { nearest }
+    if f64::from(nearest) > x {
+        nearest.next_down()
+    } else {
+        nearest
+    }
 }
 
 /// Why there is no beam.
@@ -90,8 +115,8 @@ pub(super) enum NoBeam {
     Untold,
 }
 
-/// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves along its main axis
-/// as fast as t.
+/// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves
+/// along its main axis as fast as t.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
     /// The axes with the main one last, and where it starts along them.
@@ -116,11 +141,18 @@ pub(super) struct Beam {
 impl Beam {
     /// The part of a ray that may be inside a cube.
     #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is meant; errors are bounded")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is meant; errors are bounded"
+    )]
     pub(super) fn new(cube: &Cube, ray: &Ray) -> Result<Self, NoBeam> {
         let size = ray.direction.abs();
         let speed = size.max_element();
-        let main = if size.x == speed { 0 } else { 2 - usize::from(size.y == speed) };
+        let main = if size.x == speed {
+            0
+        } else {
+            2 - usize::from(size.y == speed)
+        };
         let mut direction = ray.direction * speed.recip();
         direction[main] = 1.0_f64.copysign(ray.direction[main]);
         let far = cube.enter(ray.origin);
@@ -170,12 +202,17 @@ impl Beam {
 
     /// Which of four boxes the beam may meet before `limit`, as bits, and where.
     ///
-    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by more than the relative errors of both.
+    /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by more than the
+    /// relative errors of both.
     #[inline]
     pub(super) fn meet(&self, boxes: &Boxes, limit: f32) -> (u32, Lanes) {
         const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
-        let near = |axis: usize| (boxes[axis][self.down[axis] & 1] - self.near_origin[axis]) * self.inverse[axis];
-        let far = |axis: usize| (boxes[axis][!self.down[axis] & 1] - self.far_origin[axis]) * self.inverse[axis];
+        let near = |axis: usize| {
+            (boxes[axis][self.down[axis] & 1] - self.near_origin[axis]) * self.inverse[axis]
+        };
+        let far = |axis: usize| {
+            (boxes[axis][!self.down[axis] & 1] - self.far_origin[axis]) * self.inverse[axis]
+        };
         let enter = near(0).max(near(1)).max(near(2).max(Lanes::ZERO));
         let leave = far(0).min(far(1)).min(far(2)) * GROWN;
         (enter.cmple(leave.min(Lanes::splat(limit))).bitmask(), enter)
@@ -183,30 +220,38 @@ impl Beam {
 
     /// Which of four triangles the beam may hit before `limit`, as bits.
     ///
-    /// The signs of the edge functions, after the shear that turns the ray into the main axis, are those of exact
-    /// arithmetic where they exceed a bound on their error: a triangle with two sure signs that differ is missed.
+    /// The signs of the edge functions, after the shear that turns the ray into the main axis, are
+    /// those of exact arithmetic where they exceed a bound on their error: a triangle with two
+    /// sure signs that differ is missed.
     #[inline]
     pub(super) fn may_hit(&self, corners: &Corners, limit: f32) -> u32 {
         let error = Lanes::splat(self.error);
         let [x, y, z] = self.axes;
         let sheared = |corner: &[Lanes; 3]| {
             let along = (corner[z] - self.origin[2]) * self.main;
-            let across = |axis: usize, k: usize| (corner[axis] - self.origin[k]) - along * self.slopes[k];
+            let across =
+                |axis: usize, k: usize| (corner[axis] - self.origin[k]) - along * self.slopes[k];
             [across(x, 0), across(y, 1), along]
         };
-        let [a, b, c] = [sheared(&corners[0]), sheared(&corners[1]), sheared(&corners[2])];
+        let [a, b, c] = [
+            sheared(&corners[0]),
+            sheared(&corners[1]),
+            sheared(&corners[2]),
+        ];
         // The edge functions.
         let u = c[0] * b[1] - c[1] * b[0];
         let v = a[0] * c[1] - a[1] * c[0];
         let w = b[0] * a[1] - b[1] * a[0];
-        // Products of coordinates of size m with errors e: 4·m·e + 2·e², and 3 roundings of each product.
+        // Products of coordinates of size m with errors e: 4·m·e + 2·e², and 3 roundings of each
+        // product.
         let size_of = |corner: [Lanes; 3]| corner[0].abs().max(corner[1].abs());
         let size = size_of(a).max(size_of(b)).max(size_of(c)) + error;
         let bound = size * (size * (8.0 * f32::EPSILON) + error * 6.0);
         let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
         let outside = least.cmplt(-bound) & greatest.cmpgt(bound);
         let (nearest, farthest) = (a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2]));
-        let beyond = (nearest - error).cmpgt(Lanes::splat(limit)) | (farthest + error).cmplt(Lanes::ZERO);
+        let beyond =
+            (nearest - error).cmpgt(Lanes::splat(limit)) | (farthest + error).cmplt(Lanes::ZERO);
         !(outside | beyond).bitmask() & 0b1111
     }
 }

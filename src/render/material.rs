@@ -1,5 +1,5 @@
-//! Materials as a world uses them: a map that shows one value gives way to the value, where the surface has uv to look it
-//! up by.
+//! Materials as a world uses them: a map that shows one value gives way to the value, where the
+//! surface has uv to look it up by.
 
 use crate::plan::Plan;
 use crate::valid::{Maps, Phong, ValidScene};
@@ -14,7 +14,11 @@ pub(super) struct Materials<'plan> {
 
 impl<'plan> Materials<'plan> {
     pub(super) fn new(scene: &ValidScene, plan: &'plan Plan) -> Self {
-        Self { all: scene.materials().to_vec(), plan, simple: vec![None; scene.materials().len()] }
+        Self {
+            all: scene.materials().to_vec(),
+            plan,
+            simple: vec![None; scene.materials().len()],
+        }
     }
 
     /// The index of the material that stands for one of the scene.
@@ -33,7 +37,12 @@ impl<'plan> Materials<'plan> {
 
     /// The material with values for maps that show one, if it has such.
     fn simplified(&self, material: &Phong) -> Option<Phong> {
-        let Maps { color, specular, normal, bump } = **material.maps.as_ref()?;
+        let Maps {
+            color,
+            specular,
+            normal,
+            bump,
+        } = **material.maps.as_ref()?;
         let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
         let (new_color, scale) = (value(color), value(specular));
         if new_color.is_none() && scale.is_none() {
@@ -45,9 +54,15 @@ impl<'plan> Materials<'plan> {
             normal,
             bump,
         };
-        let is_empty = rest.color.is_none() && rest.specular.is_none() && normal.is_none() && bump.is_none();
+        let is_empty =
+            rest.color.is_none() && rest.specular.is_none() && normal.is_none() && bump.is_none();
         let ks = scale.map_or(material.ks, |scale| material.ks.times(scale.x));
         let maps = (!is_empty).then(|| Box::new(rest));
-        Some(Phong { color: new_color.unwrap_or(material.color), ks, maps, ..material.clone() })
+        Some(Phong {
+            color: new_color.unwrap_or(material.color),
+            ks,
+            maps,
+            ..material.clone()
+        })
     }
 }

@@ -1,5 +1,5 @@
-//! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on the threads:
-//! a pixel is a function of the scene and its coordinates alone.
+//! A proven scene becomes a world, the world a film. Nothing here can fail, and nothing depends on
+//! the threads: a pixel is a function of the scene and its coordinates alone.
 
 mod any;
 mod aov;
@@ -45,7 +45,9 @@ pub use any::{AnyWorld, render};
 pub use aov::Aov;
 pub use basic::Basic;
 pub use bounds::Bounds;
-pub use bsdf::{Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed};
+pub use bsdf::{
+    Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed,
+};
 pub use camera::{camera_ray, image_point, vogel};
 pub use cone::Cone;
 pub use cylinder::Cylinder;

@@ -10,8 +10,9 @@ pub fn reflect(d: Vec3, n: Vec3) -> Vec3 {
 
 /// Snell's law: the unit direction beyond the surface, or `None` for total internal reflection.
 ///
-/// `d` is a unit vector towards the surface, `n` the unit normal on the side `d` comes from. The sine comes from a cross
-/// product and the cosine from the factored difference of squares, so both keep their digits near the critical angle.
+/// `d` is a unit vector towards the surface, `n` the unit normal on the side `d` comes from. The
+/// sine comes from a cross product and the cosine from the factored difference of squares, so both
+/// keep their digits near the critical angle.
 #[must_use]
 pub fn refract(d: Vec3, n: Vec3, eta_from: f64, eta_to: f64) -> Option<Vec3> {
     let sine = eta_from * cross(d, n).length();

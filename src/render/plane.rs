@@ -1,4 +1,5 @@
-//! The plane: t from compensated dot products on the raw normal, so that no slope and no distance is cut off.
+//! The plane: t from compensated dot products on the raw normal, so that no slope and no distance
+//! is cut off.
 
 use super::ray::{Interaction, Ray};
 use crate::math::{Vec3, cross, dot, two_difference, unit_scale};
@@ -26,7 +27,11 @@ impl Normal {
     pub(super) fn new(vector: Vec3) -> Self {
         let raw = unit_scale(vector).map_or(vector, |(scaled, _)| scaled);
         let square = dot(raw, raw);
-        Self { raw, square, unit: raw / square.sqrt() }
+        Self {
+            raw,
+            square,
+            unit: raw / square.sqrt(),
+        }
     }
 
     /// That of a triangle, or `None` if its corners are in line.
@@ -49,7 +54,10 @@ impl Normal {
     #[must_use]
     #[inline]
     pub(super) fn through(self, anchor: Vec3) -> Plane {
-        Plane { anchor, normal: self }
+        Plane {
+            anchor,
+            normal: self,
+        }
     }
 }
 
@@ -66,7 +74,8 @@ impl Plane {
         self.normal.unit
     }
 
-    /// The parameter of the plane along the ray, of any sign, right to within 10 u; `None` for a parallel ray.
+    /// The parameter of the plane along the ray, of any sign, right to within 10 u; `None` for a
+    /// parallel ray.
     #[must_use]
     #[inline]
     pub fn parameter(&self, ray: &Ray) -> Option<f64> {

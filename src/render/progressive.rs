@@ -1,7 +1,9 @@
-//! A film that grows: in each pixel four strands of samples, independent of each other, two to each half of the pixel.
+//! A film that grows: in each pixel four strands of samples, independent of each other, two to each
+//! half of the pixel.
 //!
-//! The mean of the halves is the picture; how far the strands of a half are apart tells what that is worth. How many samples
-//! a half takes may hang on what the other half saw: neither is then biased by its own luck.
+//! The mean of the halves is the picture; how far the strands of a half are apart tells what that
+//! is worth. How many samples a half takes may hang on what the other half saw: neither is then
+//! biased by its own luck.
 
 use super::camera::{camera_ray, image_point, lens_at};
 use super::film::{Behind, Counts, Crop, Values, coverage};
@@ -23,7 +25,8 @@ use rayon::prelude::*;
 pub struct Strands {
     /// How the mean of the samples is shown; none where each is clamped to [0, 1].
     tone: Option<Tone>,
-    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the first half.
+    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the
+    /// first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],
@@ -49,11 +52,18 @@ pub struct Growing {
 }
 
 impl Growing {
-    /// A film without samples, of a part that lies within the picture. Another seed gives independent samples.
+    /// A film without samples, of a part that lies within the picture. Another seed gives
+    /// independent samples.
     #[must_use]
     pub fn new(crop: Crop, seed: u64) -> Self {
         let pixels = vec![Strands::default(); crop.width as usize * crop.height as usize];
-        Self { crop, seed, behind: Behind::default(), pixels, counts: Counts::default() }
+        Self {
+            crop,
+            seed,
+            behind: Behind::default(),
+            pixels,
+            counts: Counts::default(),
+        }
     }
 
     /// The part of the picture that it holds.
@@ -62,18 +72,28 @@ impl Growing {
         self.crop
     }
 
-    /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own; see [`super::AnyWorld::grow`].
+    /// Takes the samples that are wanted of each pixel, by tracers of which each row has its own;
+    /// see [`super::AnyWorld::grow`].
     pub(super) fn lengthen<'run, T: Sampling<'run>>(
         &mut self,
         tracer: impl Fn() -> T + Sync,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
     ) -> bool {
-        let Self { crop, seed, behind: _, pixels, counts } = self;
+        let Self {
+            crop,
+            seed,
+            behind: _,
+            pixels,
+            counts,
+        } = self;
         let (crop, seed, width) = (*crop, *seed, (crop.width as usize).max(1));
         let row = |(y, row): (usize, &mut [Strands])| {
             let mut tracer = tracer();
             for (i, (x, strands)) in (crop.x..).zip(row).enumerate() {
-                #[expect(clippy::cast_possible_truncation, reason = "a row of a picture whose height is a u32")]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    reason = "a row of a picture whose height is a u32"
+                )]
                 let pixel = [x, crop.y + y as u32];
                 strands.tone = T::TONE;
                 tracer.heartbeat().begin(pixel);
@@ -100,8 +120,16 @@ impl Growing {
     /// The picture so far; black where nothing was sampled.
     #[must_use]
     pub fn image(&self, values: Values) -> Image {
-        let pixels = self.pixels.iter().map(|pixel| pixel.mean(values).to_array()).collect();
-        Image { width: self.crop.width, height: self.crop.height, pixels }
+        let pixels = self
+            .pixels
+            .iter()
+            .map(|pixel| pixel.mean(values).to_array())
+            .collect();
+        Image {
+            width: self.crop.width,
+            height: self.crop.height,
+            pixels,
+        }
     }
 
     /// Of each pixel the share of the samples that met a surface.
@@ -124,10 +152,14 @@ impl Strands {
         self.counts[half]
     }
 
-    /// The variance of the mean of a half, from how far its strands are apart: the mean over the channels.
+    /// The variance of the mean of a half, from how far its strands are apart: the mean over the
+    /// channels.
     #[must_use]
     pub fn variance_of_half(&self, half: usize) -> f64 {
-        let (n, [a, b]) = (f64::from(self.counts[half].max(1)), [self.sums[2 * half], self.sums[2 * half + 1]]);
+        let (n, [a, b]) = (
+            f64::from(self.counts[half].max(1)),
+            [self.sums[2 * half], self.sums[2 * half + 1]],
+        );
         let apart = match self.tone {
             None => (a - b) / n,
             Some(tone) => shown(tone, a / n) - shown(tone, b / n),
@@ -145,7 +177,10 @@ impl Strands {
         match self.tone {
             None => variance,
             Some(tone) => {
-                let (mean, deviation) = (sum.element_sum() / (3.0 * n.max(1.0)), (variance / n.max(1.0)).sqrt());
+                let (mean, deviation) = (
+                    sum.element_sum() / (3.0 * n.max(1.0)),
+                    (variance / n.max(1.0)).sqrt(),
+                );
                 variance * slope(tone, mean, deviation)
             }
         }
@@ -174,7 +209,13 @@ impl Strands {
     }
 
     /// Takes the samples of a pixel that the strands lack of those wanted.
-    fn lengthen<'run>(&mut self, wanted: [u32; 2], tracer: &mut impl Sampling<'run>, pixel: [u32; 2], seed: u64) {
+    fn lengthen<'run>(
+        &mut self,
+        wanted: [u32; 2],
+        tracer: &mut impl Sampling<'run>,
+        pixel: [u32; 2],
+        seed: u64,
+    ) {
         for strand in 0..4_usize {
             let (half, before) = (strand / 2, tracer.counts().hits);
             let number = (seed << 2 | strand as u64).wrapping_add(1);
@@ -202,12 +243,14 @@ fn shown(tone: Tone, mean: Vec3) -> Vec3 {
     Vec3::from_array(tone.display(mean.to_array()))
 }
 
-/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the deviation given.
+/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the
+/// deviation given.
 fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
     if deviation == 0.0 {
         return 0.0;
     }
-    let [low, high] = [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
+    let [low, high] =
+        [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
     let slope = (high - low) / (2.0 * deviation);
     slope * slope
 }

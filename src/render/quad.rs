@@ -1,7 +1,8 @@
 //! The quadrilateral: two triangles if it is flat, else the bilinear patch between its corners.
 //!
-//! The patch is that of Reshetov, "Cool patches: a geometric approach to ray/bilinear patch intersections" (Ray Tracing
-//! Gems, 2019, ch. 8): the ray meets a line of constant u where a quadratic in u vanishes.
+//! The patch is that of Reshetov, "Cool patches: a geometric approach to ray/bilinear patch
+//! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
+//! quadratic in u vanishes.
 
 use super::bounds::Bounds;
 use super::ray::{Interaction, Ray};
@@ -17,7 +18,8 @@ pub enum Quad {
     Flat {
         /// The corners.
         vertices: [Vec3; 4],
-        /// Two triangles that share a diagonal, each with the numbers of its corners; `None` without an area.
+        /// Two triangles that share a diagonal, each with the numbers of its corners; `None`
+        /// without an area.
         halves: [Option<(Triangle, [usize; 3])>; 2],
     },
     /// A patch.
@@ -31,13 +33,21 @@ impl Quad {
         if !(valid::Quad { vertices }).is_flat() {
             return Self::Patch(Patch { vertices });
         }
-        let normal = |t: [usize; 3]| cross(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
+        let normal = |t: [usize; 3]| {
+            cross(
+                vertices[t[1]] - vertices[t[0]],
+                vertices[t[2]] - vertices[t[0]],
+            )
+        };
         // Split along the diagonal that lies inside: both halves then turn the same way.
         let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
         let inside = |split: &[[usize; 3]; 2]| normal(split[0]).dot(normal(split[1])) >= 0.0;
         let split = splits.into_iter().find(inside).unwrap_or(splits[0]);
         let half = |t: [usize; 3]| Some((Triangle::new(t.map(|k| vertices[k]))?, t));
-        Self::Flat { vertices, halves: split.map(half) }
+        Self::Flat {
+            vertices,
+            halves: split.map(half),
+        }
     }
 
     /// The smallest root above 0 and which half it is in.
@@ -45,9 +55,12 @@ impl Quad {
     pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<(f64, u32)> {
         match self {
             Self::Flat { halves, .. } => {
-                let hit = |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
+                let hit =
+                    |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
                 // Both lie in one plane: where both are hit they tie.
-                hit(&halves[0]).map(|t| (t, 0)).or_else(|| hit(&halves[1]).map(|t| (t, 1)))
+                hit(&halves[0])
+                    .map(|t| (t, 0))
+                    .or_else(|| hit(&halves[1]).map(|t| (t, 1)))
             }
             Self::Patch(patch) => patch.crossing(ray).map(|(t, _)| (t, 0)),
         }
@@ -58,8 +71,16 @@ impl Quad {
     pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
         match self {
             Self::Flat { halves, .. } => match (&halves[part as usize & 1], &halves[0]) {
-                (Some((triangle, _)), _) | (None, Some((triangle, _))) => triangle.interaction(ray, t),
-                (None, None) => Interaction::new(ray, ray.origin + ray.direction * t, Vec3::Z, Vec3::ZERO, 0.0),
+                (Some((triangle, _)), _) | (None, Some((triangle, _))) => {
+                    triangle.interaction(ray, t)
+                }
+                (None, None) => Interaction::new(
+                    ray,
+                    ray.origin + ray.direction * t,
+                    Vec3::Z,
+                    Vec3::ZERO,
+                    0.0,
+                ),
             },
             Self::Patch(patch) => patch.interaction(ray, t),
         }
@@ -69,10 +90,12 @@ impl Quad {
     pub(super) fn uv(&self, ray: &Ray, point: Vec3, part: u32) -> [f64; 2] {
         const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         match self {
-            Self::Flat { halves, .. } => halves[part as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
-                let weights = triangle.weights(point);
-                [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
-            }),
+            Self::Flat { halves, .. } => {
+                halves[part as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
+                    let weights = triangle.weights(point);
+                    [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
+                })
+            }
             Self::Patch(patch) => patch.crossing(ray).map_or([0.0; 2], |(_, uv)| uv),
         }
     }
@@ -80,7 +103,9 @@ impl Quad {
     /// A direction along the surface in which u grows, at this v.
     pub(super) fn tangent(&self, v: f64) -> Option<Vec3> {
         match self {
-            Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => across(*vertices, v).try_normalize(),
+            Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => {
+                across(*vertices, v).try_normalize()
+            }
         }
     }
 
@@ -90,7 +115,9 @@ impl Quad {
             Self::Flat { halves, .. } => halves
                 .iter()
                 .flatten()
-                .fold(Bounds::EMPTY, |bounds, (triangle, _)| bounds.union(Bounds::of(triangle.vertices()))),
+                .fold(Bounds::EMPTY, |bounds, (triangle, _)| {
+                    bounds.union(Bounds::of(triangle.vertices()))
+                }),
             Self::Patch(patch) => Bounds::of(&patch.vertices),
         }
     }
@@ -131,13 +158,16 @@ impl Patch {
             let (from, line) = (q00.lerp(q10, u), left.lerp(right, u));
             let normal = cross(d, line);
             let v = cross(normal, from).dot(d) / normal.dot(normal);
-            // Meet it with the tangent plane there: t then errs by no more than rounding of a point, even where the ray
-            // runs along the line.
+            // Meet it with the tangent plane there: t then errs by no more than rounding of a
+            // point, even where the ray runs along the line.
             let tangent_plane = cross(across(self.vertices, v), line);
             let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
         };
-        candidates.into_iter().filter_map(along).min_by(|first, second| first.0.total_cmp(&second.0))
+        candidates
+            .into_iter()
+            .filter_map(along)
+            .min_by(|first, second| first.0.total_cmp(&second.0))
     }
 
     fn at(&self, [u, v]: [f64; 2]) -> Vec3 {
@@ -151,15 +181,21 @@ impl Patch {
         [across(self.vertices, v), (q01 - q00).lerp(q11 - q10, u)]
     }
 
-    /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`. Where a ray grazes, t is
-    /// well known, but u and v err along the ray by the root of a rounding error.
+    /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`.
+    /// Where a ray grazes, t is well known, but u and v err along the ray by the root of a
+    /// rounding error.
     fn nearest(&self, point: Vec3, uv: [f64; 2]) -> [f64; 2] {
         let rest = point - self.at(uv);
         let [across, upward] = self.tangents(uv);
         let normal = cross(across, upward);
-        let step = [cross(rest, upward), cross(across, rest)].map(|area| area.dot(normal) / normal.dot(normal));
+        let step = [cross(rest, upward), cross(across, rest)]
+            .map(|area| area.dot(normal) / normal.dot(normal));
         let moved = [uv[0] + step[0], uv[1] + step[1]];
-        if moved.iter().all(|w| (0.0..=1.0).contains(w)) { moved } else { uv }
+        if moved.iter().all(|w| (0.0..=1.0).contains(w)) {
+            moved
+        } else {
+            uv
+        }
     }
 
     fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
@@ -169,7 +205,11 @@ impl Patch {
         let point = self.at([u, v]);
         let [across, upward] = self.tangents([u, v]);
         let normal = cross(across, upward).normalize_or(-ray.direction.normalize());
-        let extent = self.vertices.iter().map(|vertex| vertex.abs().element_sum()).sum::<f64>();
+        let extent = self
+            .vertices
+            .iter()
+            .map(|vertex| vertex.abs().element_sum())
+            .sum::<f64>();
         let reach = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
         Interaction::new(ray, point, normal, q00, extent + reach)
     }

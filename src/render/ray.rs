@@ -2,8 +2,8 @@
 
 use crate::math::{U, Vec3, ldexp, unit_scale};
 
-/// How far from a surface rays start, in units of its rounding error: enough for the error of the point, of the
-/// surface's own numbers, and of the sum that moves the point.
+/// How far from a surface rays start, in units of its rounding error: enough for the error of the
+/// point, of the surface's own numbers, and of the sum that moves the point.
 const OFFSET: f64 = 8.0;
 
 /// A half-line; `t` counts in lengths of `direction`, which need not be a unit vector.
@@ -16,10 +16,11 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// The ray with a direction whose square can be computed, and what one `t` of it is worth in `t` of `self`.
+    /// The ray with a direction whose square can be computed, and what one `t` of it is worth in
+    /// `t` of `self`.
     ///
-    /// Lengths from about 2^−64 to 2^64 stay as they are; others are brought to about 1 by a power of two, which rounds
-    /// nothing.
+    /// Lengths from about 2^−64 to 2^64 stay as they are; others are brought to about 1 by a power
+    /// of two, which rounds nothing.
     #[must_use]
     #[inline]
     pub fn tamed(self) -> (Self, f64) {
@@ -34,8 +35,9 @@ impl Ray {
         }
     }
 
-    /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶ times as far as the surface is
-    /// large, rounding may leave that no length: then the surface faces the ray.
+    /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶
+    /// times as far as the surface is large, rounding may leave that no length: then the
+    /// surface faces the ray.
     #[must_use]
     pub(super) fn outward(&self, out: Vec3) -> Vec3 {
         out.normalize_or(-self.direction.normalize())
@@ -56,30 +58,49 @@ pub struct Interaction {
 }
 
 impl Interaction {
-    /// The interaction at `point`, where `ray` meets a surface whose own numbers are about `anchor`, with the extra
-    /// `extent` that its size adds: the offset is 8 u·(Σ|nᵢ|(|pᵢ| + |aᵢ|) + extent).
+    /// The interaction at `point`, where `ray` meets a surface whose own numbers are about
+    /// `anchor`, with the extra `extent` that its size adds: the offset is 8 u·(Σ|nᵢ|(|pᵢ| +
+    /// |aᵢ|) + extent).
     #[must_use]
     pub fn new(ray: &Ray, point: Vec3, normal: Vec3, anchor: Vec3, extent: f64) -> Self {
         let size = normal.abs().dot(point.abs() + anchor.abs()) + extent;
         let back = -ray.direction / ray.direction.abs().element_sum();
-        Self { point, normal, offset: OFFSET * U * size, back }
+        Self {
+            point,
+            normal,
+            offset: OFFSET * U * size,
+            back,
+        }
     }
 
     /// A start for rays along `direction`, on the side of the surface the direction points to.
     ///
-    /// On the side the ray came from, the start also goes back along that ray, where it is known that nothing stands: so
-    /// a ray from the very edge of two mirrors starts on the inner side of both.
+    /// On the side the ray came from, the start also goes back along that ray, where it is known
+    /// that nothing stands: so a ray from the very edge of two mirrors starts on the inner side
+    /// of both.
     #[must_use]
     pub fn start(&self, direction: Vec3) -> Vec3 {
-        let side = if direction.dot(self.normal) < 0.0 { -self.offset } else { self.offset };
+        let side = if direction.dot(self.normal) < 0.0 {
+            -self.offset
+        } else {
+            self.offset
+        };
         let returns = (self.back.dot(self.normal) < 0.0) == (side < 0.0);
         let step = self.normal * side;
-        self.point + if returns { step + self.back * self.offset } else { step }
+        self.point
+            + if returns {
+                step + self.back * self.offset
+            } else {
+                step
+            }
     }
 
     /// The ray from this point along `direction`.
     #[must_use]
     pub fn ray(&self, direction: Vec3) -> Ray {
-        Ray { origin: self.start(direction), direction }
+        Ray {
+            origin: self.start(direction),
+            direction,
+        }
     }
 }

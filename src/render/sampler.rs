@@ -1,4 +1,5 @@
-//! Numbers for sampling, keyed by pixel, sample and the path so far: never by time or the order of use.
+//! Numbers for sampling, keyed by pixel, sample and the path so far: never by time or the order of
+//! use.
 
 use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
 
@@ -16,7 +17,11 @@ impl Key {
     /// The key with a seed mixed in; 0 changes nothing.
     #[must_use]
     pub(super) fn seeded(self, seed: u64) -> Self {
-        if seed == 0 { self } else { self.child(mix(seed)) }
+        if seed == 0 {
+            self
+        } else {
+            self.child(mix(seed))
+        }
     }
 
     /// The key of branch `branch` of the path.
@@ -38,7 +43,8 @@ impl Key {
     }
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+/// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// generators", 2014).
 pub(super) fn mix(x: u64) -> u64 {
     let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -50,7 +56,8 @@ pub(super) fn mix(x: u64) -> u64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscPoints {
     count: u32,
-    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points without bias.
+    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points
+    /// without bias.
     shift: f64,
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
@@ -61,7 +68,11 @@ impl DiscPoints {
     #[must_use]
     pub(super) fn new(count: u32, key: Key, spread: bool) -> Self {
         let shift = if spread { key.uniform(3) } else { 0.5 };
-        Self { count, shift, rotation: key.bits(2) }
+        Self {
+            count,
+            shift,
+            rotation: key.bits(2),
+        }
     }
 
     /// Point k.
@@ -75,8 +86,8 @@ impl DiscPoints {
 
 /// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.
 ///
-/// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles apart, and both are
-/// shifted by numbers of the key.
+/// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles
+/// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lobe {
     basis: Basis,
@@ -92,7 +103,13 @@ impl Lobe {
     #[must_use]
     pub(super) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
         let (shift, rotation) = (key.uniform(0), key.bits(1));
-        Self { basis: Basis::around(axis), exponent: 1.0 / (n.get() + 1.0), count, shift, rotation }
+        Self {
+            basis: Basis::around(axis),
+            exponent: 1.0 / (n.get() + 1.0),
+            count,
+            shift,
+            rotation,
+        }
     }
 
     /// Direction k, a unit vector.
@@ -102,21 +119,29 @@ impl Lobe {
         let cosine = pow(share, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
         let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
-        self.basis.to_world(Vec3::new(sine * x, sine * y, cosine)).normalize()
+        self.basis
+            .to_world(Vec3::new(sine * x, sine * y, cosine))
+            .normalize()
     }
 
     /// How many directions lie on the side of both normals, as long as the count goes on.
     #[must_use]
     pub(super) fn count_above(&self, normals: [Vec3; 2], mut goes_on: impl FnMut() -> bool) -> u32 {
-        let directions = (0..self.count).take_while(|_| goes_on()).map(|k| self.direction(k));
-        let above = directions.filter(|direction| is_above(*direction, normals)).count();
+        let directions = (0..self.count)
+            .take_while(|_| goes_on())
+            .map(|k| self.direction(k));
+        let above = directions
+            .filter(|direction| is_above(*direction, normals))
+            .count();
         u32::try_from(above).unwrap_or(self.count)
     }
 }
 
 /// Whether a direction lies on the side of both normals.
 pub(super) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
-    normals.into_iter().all(|normal| direction.dot(normal) > 0.0)
+    normals
+        .into_iter()
+        .all(|normal| direction.dot(normal) > 0.0)
 }
 
 #[cfg(test)]
@@ -126,23 +151,42 @@ mod tests {
     #[test]
     fn the_mean_cosine_of_a_lobe_is_that_of_its_density() {
         for n in [0.0, 1.0, 8.0, 64.0] {
-            let lobe = Lobe::new(Vec3::Z, NonNegative::new(n).unwrap(), 1 << 14, Key::new([3, 4], 5));
-            let mean = (0..lobe.count).map(|k| lobe.direction(k).z).sum::<f64>() / f64::from(lobe.count);
+            let lobe = Lobe::new(
+                Vec3::Z,
+                NonNegative::new(n).unwrap(),
+                1 << 14,
+                Key::new([3, 4], 5),
+            );
+            let mean =
+                (0..lobe.count).map(|k| lobe.direction(k).z).sum::<f64>() / f64::from(lobe.count);
             // ∫ cosⁿ⁺¹ / ∫ cosⁿ over the hemisphere.
-            assert!((mean - (n + 1.0) / (n + 2.0)).abs() < 1e-4, "n = {n}: {mean}");
+            assert!(
+                (mean - (n + 1.0) / (n + 2.0)).abs() < 1e-4,
+                "n = {n}: {mean}"
+            );
         }
     }
 
     #[test]
     fn directions_of_a_lobe_balance_around_its_axis() {
-        let lobe = Lobe::new(Vec3::X, NonNegative::new(8.0).unwrap(), 1 << 12, Key::new([0, 0], 1));
+        let lobe = Lobe::new(
+            Vec3::X,
+            NonNegative::new(8.0).unwrap(),
+            1 << 12,
+            Key::new([0, 0], 1),
+        );
         let sum = (0..lobe.count).map(|k| lobe.direction(k)).sum::<Vec3>() / f64::from(lobe.count);
         assert!(sum.y.abs() < 1e-3 && sum.z.abs() < 1e-3, "{sum}");
     }
 
     #[test]
     fn keys_of_neighbours_differ() {
-        let keys = [Key::new([0, 1], 0), Key::new([1, 0], 0), Key::new([0, 0], 1), Key::new([0, 0], 0).child(1)];
+        let keys = [
+            Key::new([0, 1], 0),
+            Key::new([1, 0], 0),
+            Key::new([0, 0], 1),
+            Key::new([0, 0], 0).child(1),
+        ];
         for (i, a) in keys.iter().enumerate() {
             assert!(keys[i + 1..].iter().all(|b| a != b));
         }

@@ -1,4 +1,5 @@
-//! Points spread evenly over pixel and lens together: Sobol's sequence in four dimensions, scrambled anew for each key.
+//! Points spread evenly over pixel and lens together: Sobol's sequence in four dimensions,
+//! scrambled anew for each key.
 //!
 //! Any number of first points is without bias; a power of two of them is stratified.
 
@@ -6,13 +7,17 @@ use super::sampler::Key;
 
 const DIMENSIONS: usize = 4;
 
-/// The direction numbers (Joe and Kuo, "Constructing Sobol sequences with better two-dimensional projections", SIAM
-/// Journal on Scientific Computing 30 (2008)).
-const DIRECTIONS: [[u32; 32]; DIMENSIONS] =
-    [directions(0, 0, [0; 3]), directions(1, 0, [1, 0, 0]), directions(2, 1, [1, 3, 0]), directions(3, 1, [1, 3, 1])];
+/// The direction numbers (Joe and Kuo, "Constructing Sobol sequences with better two-dimensional
+/// projections", SIAM Journal on Scientific Computing 30 (2008)).
+const DIRECTIONS: [[u32; 32]; DIMENSIONS] = [
+    directions(0, 0, [0; 3]),
+    directions(1, 0, [1, 0, 0]),
+    directions(2, 1, [1, 3, 0]),
+    directions(3, 1, [1, 3, 1]),
+];
 
-/// Those of the primitive polynomial of a degree with the inner coefficients given as bits; degree 0 is van der Corput's
-/// sequence.
+/// Those of the primitive polynomial of a degree with the inner coefficients given as bits; degree
+/// 0 is van der Corput's sequence.
 const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
     let mut v = [0; 32];
     let mut k = 0;
@@ -68,9 +73,13 @@ fn sobol(directions: &[u32; 32], index: u32) -> u32 {
     x
 }
 
-/// Owen's scrambling by a hash in which no bit depends on a lower one (Burley, "Practical hash-based Owen scrambling",
-/// Journal of Computer Graphics Techniques 9 (2020)), and a digital shift, which makes each point uniform by itself.
-#[expect(clippy::cast_possible_truncation, reason = "the halves of the seed are meant")]
+/// Owen's scrambling by a hash in which no bit depends on a lower one (Burley, "Practical
+/// hash-based Owen scrambling", Journal of Computer Graphics Techniques 9 (2020)), and a digital
+/// shift, which makes each point uniform by itself.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the halves of the seed are meant"
+)]
 fn scrambled(x: u32, seed: u64) -> u32 {
     let (shift, seed) = ((seed >> 32) as u32, seed as u32);
     let mut x = x.reverse_bits();
@@ -87,7 +96,9 @@ mod tests {
     use super::*;
 
     fn cell(x: f64, cells: usize) -> usize {
-        (0..cells).rfind(|i| x * cells as f64 >= *i as f64).unwrap_or(0)
+        (0..cells)
+            .rfind(|i| x * cells as f64 >= *i as f64)
+            .unwrap_or(0)
     }
 
     #[test]
@@ -120,8 +131,14 @@ mod tests {
                 sum
             });
             // Four deviations of a mean of 4096: 0.29/64 and 0.22/64.
-            assert!(sum[..4].iter().all(|mean| (mean - 0.5).abs() < 0.018), "{sum:?}");
-            assert!(sum[4..].iter().all(|mean| (mean - 0.25).abs() < 0.014), "{sum:?}");
+            assert!(
+                sum[..4].iter().all(|mean| (mean - 0.5).abs() < 0.018),
+                "{sum:?}"
+            );
+            assert!(
+                sum[4..].iter().all(|mean| (mean - 0.25).abs() < 0.014),
+                "{sum:?}"
+            );
         }
     }
 }

@@ -46,40 +46,57 @@ struct Incidence {
 }
 
 impl View<'_> {
-    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends that.
+    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
+    /// that.
     pub(super) fn geometric(&self) -> Vec3 {
         let normal = self.interaction.normal;
-        if self.to_viewer.dot(normal) < 0.0 { -normal } else { normal }
+        if self.to_viewer.dot(normal) < 0.0 {
+            -normal
+        } else {
+            normal
+        }
     }
 
-    /// Whether a place is on the viewer's side of the surface itself, by the sum that decides where a ray to it starts;
-    /// where both normals are one, the shading normal says so.
+    /// Whether a place is on the viewer's side of the surface itself, by the sum that decides where
+    /// a ray to it starts; where both normals are one, the shading normal says so.
     fn is_before(&self, place: Vec3) -> bool {
         let normal = self.geometric();
         normal == self.normal || normal.dot(place - self.interaction.point) > 0.0
     }
 
-    /// `None` if the light stands exactly at the point: it has no direction then, and adds its ambient term only.
+    /// `None` if the light stands exactly at the point: it has no direction then, and adds its
+    /// ambient term only.
     fn incidence(&self, light: Vec3) -> Option<Incidence> {
         let to_light = (light - self.interaction.point).try_normalize()?;
         let n_dot_l = self.normal.dot(to_light);
         let reflected = self.normal * (2.0 * n_dot_l) - to_light;
-        Some(Incidence { n_dot_l, r_dot_v: reflected.dot(self.to_viewer) })
+        Some(Incidence {
+            n_dot_l,
+            r_dot_v: reflected.dot(self.to_viewer),
+        })
     }
 }
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
-    /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a soft light.
+    /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
+    /// soft light.
     ///
-    /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands between, and where
-    /// N·L ≤ 0, with the shading or the geometric normal: the surface stands in its own light. So a closed mesh lets no
-    /// light in, whatever the normals of its corners.
+    /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands
+    /// between, and where N·L ≤ 0, with the shading or the geometric normal: the surface stands
+    /// in its own light. So a closed mesh lets no light in, whatever the normals of its
+    /// corners.
     #[must_use]
     pub(super) fn phong(&mut self, view: &View<'_>) -> Vec3 {
         let world = self.world;
         let samples = world.scene.settings().light_samples.get();
         let mut sum = Vec3::ZERO;
-        for (index, (light, plan)) in world.scene.lights().iter().zip(&world.plan.lights).enumerate() {
+        for (index, (light, plan)) in world
+            .scene
+            .lights()
+            .iter()
+            .zip(&world.plan.lights)
+            .enumerate()
+        {
             if !plan.kept {
                 continue;
             }
@@ -89,14 +106,19 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             let mut term = view.color * view.material.ka.get();
             let ambient = term;
             if Self::can(Features::LIGHT) && plan.direct {
-                let shadowed = Hidden { light: index, maybe: plan.shadowed[view.surface] };
+                let shadowed = Hidden {
+                    light: index,
+                    maybe: plan.shadowed[view.surface],
+                };
                 if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
                     term += self.direct(view, light.position, shadowed);
                 } else {
                     let key = view.key.child(index as u64);
                     let points = DiscPoints::new(samples, key, self.spread);
                     let points = on_soft_light(light, view.interaction.point, samples, points);
-                    let direct = points.map_while(|point| self.goes_on().then(|| self.direct(view, point, shadowed)));
+                    let direct = points.map_while(|point| {
+                        self.goes_on().then(|| self.direct(view, point, shadowed))
+                    });
                     term += direct.sum::<Vec3>() / f64::from(samples);
                 }
             }
@@ -113,12 +135,16 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// What one point of a light adds, for a light of colour 1.
     fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
         let diffuse = view.color * view.material.kd.get();
-        let shines = Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
+        let shines =
+            Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
         if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
             return Vec3::ZERO;
         }
-        let Some(incidence) = view.incidence(light) else { return Vec3::ZERO };
-        if self.scene().settings().shadows && !self.is_lit(view, light, incidence.n_dot_l, shadowed) {
+        let Some(incidence) = view.incidence(light) else {
+            return Vec3::ZERO;
+        };
+        if self.scene().settings().shadows && !self.is_lit(view, light, incidence.n_dot_l, shadowed)
+        {
             return Vec3::ZERO;
         }
         let mut term = view.color * (view.material.kd.get() * incidence.n_dot_l.max(0.0));
@@ -135,11 +161,15 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             return false;
         }
         let sees = !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(view, light);
-        self.verify(Effect::Shadows, "a shadow ray left out is blocked", |plan| {
-            let light = &plan.lights[shadowed.light];
-            let shows = view.ks > 0.0 || view.color * view.material.kd.get() != Vec3::ZERO;
-            faces && !sees && light.direct && !light.shadowed[view.surface] && shows
-        });
+        self.verify(
+            Effect::Shadows,
+            "a shadow ray left out is blocked",
+            |plan| {
+                let light = &plan.lights[shadowed.light];
+                let shows = view.ks > 0.0 || view.color * view.material.kd.get() != Vec3::ZERO;
+                faces && !sees && light.direct && !light.shadowed[view.surface] && shows
+            },
+        );
         faces && sees
     }
 
@@ -149,8 +179,9 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         !self.world.occluded(start, light)
     }
 
-    /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration" (SIGGRAPH 1998), in the
-    /// course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 + ks·max(0, R·V)ⁿ·c_l`.
+    /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"
+    /// (SIGGRAPH 1998), in the course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 +
+    /// ks·max(0, R·V)ⁿ·c_l`.
     #[must_use]
     pub(super) fn gooch(&mut self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
         let Gooch { b, y, alpha, beta } = *parameters;
@@ -160,12 +191,16 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             if !self.goes_on() {
                 break;
             }
-            let Some(incidence) = view.incidence(light.position) else { continue };
+            let Some(incidence) = view.incidence(light.position) else {
+                continue;
+            };
             let tone = light.color * view.color * kd;
             let cool = Vec3::new(0.0, 0.0, b) + tone * alpha;
             let warm = Vec3::new(y, y, 0.0) + tone * beta;
-            sum += cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
-            if Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs)) {
+            sum +=
+                cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
+            if Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs))
+            {
                 sum += light.color * (view.ks * highlight(incidence.r_dot_v, n));
             }
         }
@@ -174,7 +209,12 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 }
 
 /// The first points of the disc that a soft light shows to `from`.
-fn on_soft_light(light: &Light, from: Vec3, count: u32, points: DiscPoints) -> impl Iterator<Item = Vec3> {
+fn on_soft_light(
+    light: &Light,
+    from: Vec3,
+    count: u32,
+    points: DiscPoints,
+) -> impl Iterator<Item = Vec3> {
     let towards = (light.position - from).try_normalize().unwrap_or(Vec3::Z);
     let basis = Basis::around(towards);
     let (center, radius) = (light.position, light.radius.get());

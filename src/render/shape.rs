@@ -51,28 +51,55 @@ impl Geometry for Shape {
     /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
         Some(match shape {
-            valid::Shape::Sphere(valid::Sphere { center, radius, texture_from_world }) => {
-                let rows = texture_from_world.as_deref().copied().unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
-                Self::Sphere(Sphere { center: *center, radius: radius.get() }, rows)
+            valid::Shape::Sphere(valid::Sphere {
+                center,
+                radius,
+                texture_from_world,
+            }) => {
+                let rows =
+                    texture_from_world
+                        .as_deref()
+                        .copied()
+                        .unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
+                Self::Sphere(
+                    Sphere {
+                        center: *center,
+                        radius: radius.get(),
+                    },
+                    rows,
+                )
             }
-            valid::Shape::Plane(valid::Plane { center, normal }) => Self::Plane(Plane::new(*center, *normal)),
+            valid::Shape::Plane(valid::Plane { center, normal }) => {
+                Self::Plane(Plane::new(*center, *normal))
+            }
             valid::Shape::Triangle(valid::Triangle { vertices, uvs }) => {
                 Self::Triangle(Triangle::new(*vertices)?, uvs.as_deref().copied())
             }
             valid::Shape::Quad(quad) => Self::Quad(Box::new(Quad::new(quad.vertices))),
-            valid::Shape::Disc(valid::Disc { center, normal, radius }) => {
-                Self::Disc(Disc::new(*center, *normal, radius.get()))
+            valid::Shape::Disc(valid::Disc {
+                center,
+                normal,
+                radius,
+            }) => Self::Disc(Disc::new(*center, *normal, radius.get())),
+            valid::Shape::Cylinder(valid::Cylinder {
+                base,
+                axis,
+                height,
+                radius,
+            }) => Self::Cylinder(Cylinder::new(*base, *axis, height.get(), radius.get())),
+            valid::Shape::Cone(valid::Cone { base, up, radius }) => {
+                Self::Cone(Cone::new(*base, *up, radius.get()))
             }
-            valid::Shape::Cylinder(valid::Cylinder { base, axis, height, radius }) => {
-                Self::Cylinder(Cylinder::new(*base, *axis, height.get(), radius.get()))
-            }
-            valid::Shape::Cone(valid::Cone { base, up, radius }) => Self::Cone(Cone::new(*base, *up, radius.get())),
-            valid::Shape::Torus(valid::Torus { center, axis, major, minor }) => {
-                Self::Torus(Torus::new(*center, *axis, major.get(), minor.get()))
-            }
-            valid::Shape::Instance(instance) => {
-                Self::Instance(Box::new(Instance::new(&meshes[instance.mesh], instance.world_from_object)))
-            }
+            valid::Shape::Torus(valid::Torus {
+                center,
+                axis,
+                major,
+                minor,
+            }) => Self::Torus(Torus::new(*center, *axis, major.get(), minor.get())),
+            valid::Shape::Instance(instance) => Self::Instance(Box::new(Instance::new(
+                &meshes[instance.mesh],
+                instance.world_from_object,
+            ))),
         })
     }
 
@@ -132,7 +159,9 @@ impl Geometry for Shape {
             Self::Sphere(..) | Self::Quad(_) => true,
             Self::Triangle(_, uvs) => uvs.is_some(),
             Self::Instance(instance) => instance.has_uv(),
-            Self::Plane(_) | Self::Disc(_) | Self::Cylinder(_) | Self::Cone(_) | Self::Torus(_) => false,
+            Self::Plane(_) | Self::Disc(_) | Self::Cylinder(_) | Self::Cone(_) | Self::Torus(_) => {
+                false
+            }
         }
     }
 
@@ -156,7 +185,11 @@ impl Geometry for Shape {
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
             Self::Quad(quad) => {
                 let [u, v] = quad.uv(ray, at.point, part);
-                Details { uv: Some([u, v]), tangent: quad.tangent(v), ..Details::default() }
+                Details {
+                    uv: Some([u, v]),
+                    tangent: quad.tangent(v),
+                    ..Details::default()
+                }
             }
             Self::Instance(instance) => instance.details(at.point, part, asked),
             Self::Triangle(_, None)
@@ -197,12 +230,20 @@ impl Geometry for Shape {
     }
 
     fn blur(&self) -> f64 {
-        if let Self::Instance(instance) = self { instance.blur() } else { 0.0 }
+        if let Self::Instance(instance) = self {
+            instance.blur()
+        } else {
+            0.0
+        }
     }
 
     #[inline]
     fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
-        if let Self::Instance(instance) = self { instance.intersect_part(ray, part) } else { None }
+        if let Self::Instance(instance) = self {
+            instance.intersect_part(ray, part)
+        } else {
+            None
+        }
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -220,18 +261,31 @@ impl Geometry for Shape {
     }
 }
 
-/// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the texture.
+/// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the
+/// texture.
 pub(super) fn sphere_details([x, y, z]: [Vec3; 3], direction: Vec3) -> Details {
     let d = Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction));
     let turns = atan2(d.y, d.x) / TAU;
     let u = if turns < 0.0 { turns + 1.0 } else { turns };
     let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
     let tangent = (y * d.x - x * d.y).try_normalize();
-    Details { uv: Some([u, v]), tangent, ..Details::default() }
+    Details {
+        uv: Some([u, v]),
+        tangent,
+        ..Details::default()
+    }
 }
 
 /// uv between those of the corners.
-pub(super) fn triangle_details(triangle: &Triangle, uvs: [[f64; 2]; 3], at: &Interaction) -> Details {
+pub(super) fn triangle_details(
+    triangle: &Triangle,
+    uvs: [[f64; 2]; 3],
+    at: &Interaction,
+) -> Details {
     let uv = Some(interpolate(uvs, triangle.weights(at.point)));
-    Details { uv, tangent: triangle.tangent(uvs), ..Details::default() }
+    Details {
+        uv,
+        tangent: triangle.tangent(uvs),
+        ..Details::default()
+    }
 }

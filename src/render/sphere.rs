@@ -1,8 +1,9 @@
 //! The sphere: one f64 test for nearly all rays, and double-double for those it can't decide.
 //!
-//! The test is that of Haines, Günther, Akenine-Möller, "Precision improvements for ray/sphere intersection" (Ray
-//! Tracing Gems, 2019, ch. 7): the discriminant from the foot of the perpendicular, the roots from the stable quadratic.
-//! Where its first-order error bound says that the sign or the root reported is in doubt, it is computed again.
+//! The test is that of Haines, Günther, Akenine-Möller, "Precision improvements for ray/sphere
+//! intersection" (Ray Tracing Gems, 2019, ch. 7): the discriminant from the foot of the
+//! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
+//! the sign or the root reported is in doubt, it is computed again.
 
 use super::ray::{Interaction, Ray};
 use crate::math::{Double, U, Vec3};
@@ -10,7 +11,8 @@ use crate::math::{Double, U, Vec3};
 /// A root is computed again when rounding may have been amplified by more than this.
 const AMPLIFIED: f64 = 48.0;
 
-/// From a squared distance this many times the squared radius the first root is measured from the foot.
+/// From a squared distance this many times the squared radius the first root is measured from the
+/// foot.
 const FAR: f64 = 4.0;
 
 /// A sphere ready to be hit.
@@ -34,7 +36,8 @@ impl Sphere {
         let a = d.dot(d);
         let b = -f.dot(d);
 
-        // Leave spheres behind the origin: both roots have the sign of `b` where `c` is surely above 0.
+        // Leave spheres behind the origin: both roots have the sign of `b` where `c` is surely
+        // above 0.
         if b < 0.0 && f2 > r2 * (1.0 + 32.0 * U) {
             return None;
         }
@@ -53,13 +56,18 @@ impl Sphere {
             return self.intersect_precisely(ray);
         }
 
-        // Compute the roots without cancellation, from afar as a step back from the foot, and pick the first in front.
+        // Compute the roots without cancellation, from afar as a step back from the foot, and pick
+        // the first in front.
         let c = f2 - r2;
         let a_discriminant = a * discriminant;
         let root = a_discriminant.sqrt();
         let q = if b >= 0.0 { b + root } else { b - root };
         let (quotient, other) = (c / q, q / a);
-        let (near, far) = if b >= 0.0 { (quotient, other) } else { (other, quotient) };
+        let (near, far) = if b >= 0.0 {
+            (quotient, other)
+        } else {
+            (other, quotient)
+        };
         let from_afar = f2 > FAR * r2;
         let t = match (from_afar, near > 0.0) {
             (true, _) => nearest - (foot.dot(d) + root) / a,
@@ -74,7 +82,11 @@ impl Sphere {
         let is_quotient = (near > 0.0) == (b >= 0.0);
         let cancelled = is_quotient && f2 + r2 > AMPLIFIED * c.abs();
         let amplified = r2 * (r2 + f2) * a * a > AMPLIFIED * AMPLIFIED * a_discriminant * q * q;
-        if cancelled || amplified { self.intersect_precisely(ray) } else { Some(t) }
+        if cancelled || amplified {
+            self.intersect_precisely(ray)
+        } else {
+            Some(t)
+        }
     }
 
     /// As [`Self::intersect`] in double-double: right to within 1 u.
@@ -101,21 +113,34 @@ impl Sphere {
         let q = if forward { b + root } else { b - root };
         let quotient = (c / q).rounded();
         let other = (q / a).rounded();
-        let (near, far) = if forward { (quotient, other) } else { (other, quotient) };
+        let (near, far) = if forward {
+            (quotient, other)
+        } else {
+            (other, quotient)
+        };
         let t = if near > 0.0 { near } else { far };
         (t > 0.0).then_some(t)
     }
 
-    /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds less.
+    /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds
+    /// less.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let step = ray.direction * t;
         let local = (ray.origin - self.center) + step;
         let length = local.length();
-        let normal = if length > 0.0 { local / length } else { ray.outward(local) };
+        let normal = if length > 0.0 {
+            local / length
+        } else {
+            ray.outward(local)
+        };
         let along_ray = (ray.origin.abs() + step.abs()).element_sum();
         let along_radius = self.center.abs().element_sum() + self.radius;
-        let point = if along_ray < along_radius { ray.origin + step } else { self.center + normal * self.radius };
+        let point = if along_ray < along_radius {
+            ray.origin + step
+        } else {
+            self.center + normal * self.radius
+        };
         Interaction::new(ray, point, normal, self.center, self.radius)
     }
 }

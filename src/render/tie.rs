@@ -1,19 +1,24 @@
-//! Ties: where surfaces lie in one place to within rounding, the first of them is seen, in whatever order they are found.
+//! Ties: where surfaces lie in one place to within rounding, the first of them is seen, in whatever
+//! order they are found.
 //!
-//! Each hit has an interval of t that rounding may have moved it in. Of all hits whose interval meets that of the hit with
-//! the least upper end, that of the lowest key counts: a set that no order changes.
+//! Each hit has an interval of t that rounding may have moved it in. Of all hits whose interval
+//! meets that of the hit with the least upper end, that of the lowest key counts: a set that no
+//! order changes.
 
 use super::ray::{Interaction, Ray};
 use crate::math::U;
 
-/// The half of an interval at most, as a share of t: where a ray all but runs along a surface its error knows no bound.
+/// The half of an interval at most, as a share of t: where a ray all but runs along a surface its
+/// error knows no bound.
 const WIDEST: f64 = 1.0 / 8_388_608.0;
 
-/// Intervals whose middles are farther apart, as a share, do not meet; walks of hierarchies look farther than that.
+/// Intervals whose middles are farther apart, as a share, do not meet; walks of hierarchies look
+/// farther than that.
 pub(super) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 
-/// How far rounding may have moved a root, to either side: as much as it may move the root of a plane, and by what it moves
-/// the surface along its normal, which is half of what rays keep off it.
+/// How far rounding may have moved a root, to either side: as much as it may move the root of a
+/// plane, and by what it moves the surface along its normal, which is half of what rays keep off
+/// it.
 pub(super) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
     const ROOT: f64 = 10.0 * U;
     let slope = ray.direction.dot(at.normal).abs();
@@ -33,14 +38,22 @@ impl<K: Copy + Ord> Nearest<K> {
     /// None yet, of those up to `t_max`; `none` is above all keys.
     #[inline]
     pub(super) fn up_to(t_max: f64, none: K) -> Self {
-        Self { t: t_max, key: none, next: f64::INFINITY }
+        Self {
+            t: t_max,
+            key: none,
+            next: f64::INFINITY,
+        }
     }
 
     /// Adds a hit.
     #[inline]
     pub(super) fn add(&mut self, t: f64, key: K) {
         if t < self.t || (t == self.t && key < self.key) {
-            *self = Self { t, key, next: self.t };
+            *self = Self {
+                t,
+                key,
+                next: self.t,
+            };
         } else if t < self.next {
             self.next = t;
         }
@@ -69,7 +82,10 @@ pub(super) struct Tie<K> {
 impl<K: Copy + Ord> Tie<K> {
     /// None yet.
     pub(super) fn new() -> Self {
-        Self { hits: Vec::new(), bound: f64::INFINITY }
+        Self {
+            hits: Vec::new(),
+            bound: f64::INFINITY,
+        }
     }
 
     /// Adds a hit with its error.
@@ -80,8 +96,12 @@ impl<K: Copy + Ord> Tie<K> {
 
     /// The hit that counts.
     pub(super) fn first(self) -> Option<(f64, K)> {
-        let near = self.hits.into_iter().filter(|(t, error, _)| t - error <= self.bound);
-        near.min_by_key(|(_, _, key)| *key).map(|(t, _, key)| (t, key))
+        let near = self
+            .hits
+            .into_iter()
+            .filter(|(t, error, _)| t - error <= self.bound);
+        near.min_by_key(|(_, _, key)| *key)
+            .map(|(t, _, key)| (t, key))
     }
 }
 
@@ -91,7 +111,9 @@ mod tests {
 
     /// All orders of some hits.
     fn orders(hits: &[(f64, f64, u32)]) -> Vec<Vec<(f64, f64, u32)>> {
-        let Some((last, rest)) = hits.split_last() else { return vec![Vec::new()] };
+        let Some((last, rest)) = hits.split_last() else {
+            return vec![Vec::new()];
+        };
         let insert = |order: Vec<(f64, f64, u32)>| {
             (0..=order.len()).map(move |place| {
                 let mut order = order.clone();
@@ -108,7 +130,9 @@ mod tests {
         let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
         for order in orders(&hits) {
             let mut tie = Tie::new();
-            order.iter().for_each(|(t, error, key)| tie.add(*t, *error, *key));
+            order
+                .iter()
+                .for_each(|(t, error, key)| tie.add(*t, *error, *key));
             assert_eq!(tie.first(), Some((4.0, 1)), "{order:?}");
         }
     }
@@ -116,8 +140,11 @@ mod tests {
     #[test]
     fn the_nearest_knows_of_a_tie_in_any_order() {
         let next = 1.0 + 2.0 * WIDEST;
-        for (hits, tied) in [([1.0, next, 9.0], true), ([1.0, 1.0 + 4.0 * WIDEST, 9.0], false), ([9.0, 1.0, 1.0], true)]
-        {
+        for (hits, tied) in [
+            ([1.0, next, 9.0], true),
+            ([1.0, 1.0 + 4.0 * WIDEST, 9.0], false),
+            ([9.0, 1.0, 1.0], true),
+        ] {
             let hits = [(hits[0], 0.0, 0), (hits[1], 0.0, 1), (hits[2], 0.0, 2)];
             for order in orders(&hits) {
                 let mut nearest = Nearest::up_to(f64::INFINITY, u32::MAX);

@@ -1,9 +1,11 @@
-//! The torus: critical points of its quartic bracket the roots, and the signed distance decides and refines them.
+//! The torus: critical points of its quartic bracket the roots, and the signed distance decides and
+//! refines them.
 //!
-//! The ray is moved to the point nearest to the centre and measured in units of the torus, so the quartic never sees
-//! the distance of the eye. Between two critical points the quartic is monotone and has one root or none. Its value
-//! near a root is a difference of large terms; the signed distance √((ρ − R)² + z²) − r has the same sign and keeps its
-//! digits, so every decision is taken on it.
+//! The ray is moved to the point nearest to the centre and measured in units of the torus, so the
+//! quartic never sees the distance of the eye. Between two critical points the quartic is monotone
+//! and has one root or none. Its value near a root is a difference of large terms; the signed
+//! distance √((ρ − R)² + z²) − r has the same sign and keeps its digits, so every decision is taken
+//! on it.
 
 use super::bounds::Bounds;
 use super::plane::Normal;
@@ -30,8 +32,8 @@ pub struct Torus {
 
 /// A ray near the torus, in units of about its outer radius, as seen from the axis.
 struct Line {
-    /// Of the point nearest to the centre: the square of its distance, its height along the axis, and its cross product with
-    /// the axis, as long as it is off the axis.
+    /// Of the point nearest to the centre: the square of its distance, its height along the axis,
+    /// and its cross product with the axis, as long as it is off the axis.
     square: f64,
     height: f64,
     off: Vec3,
@@ -43,8 +45,8 @@ struct Line {
 }
 
 impl Line {
-    /// The signed distance of the point at `s` from the surface, from the factored difference of squares: its digits
-    /// survive where the ray only grazes.
+    /// The signed distance of the point at `s` from the surface, from the factored difference of
+    /// squares: its digits survive where the ray only grazes.
     fn distance(&self, s: f64) -> f64 {
         let z = (self.height + self.rise * s).abs();
         let off = ((self.off + self.turn * s).length() - self.major).abs();
@@ -53,8 +55,8 @@ impl Line {
         square / ((off * off + z * z).sqrt() + self.minor)
     }
 
-    /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no square term, as
-    /// a step has length 1 and is at a right angle to the way from the centre.
+    /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no
+    /// square term, as a step has length 1 and is at a right angle to the way from the centre.
     fn derivative(&self) -> (f64, f64) {
         // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
         let (w, x) = (self.off, self.turn);
@@ -63,8 +65,8 @@ impl Line {
         (k - square * x.dot(x), -square * w.dot(x))
     }
 
-    /// The first `s` in `(low, high)` at which the distance changes sign from that at `low`, in brackets of the
-    /// quartic's critical points.
+    /// The first `s` in `(low, high)` at which the distance changes sign from that at `low`, in
+    /// brackets of the quartic's critical points.
     fn first_root(&self, low: f64, high: f64) -> Option<f64> {
         let (linear, constant) = self.derivative();
         let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
@@ -82,10 +84,12 @@ impl Line {
         None
     }
 
-    /// The root between two points given with their distances, which have opposite signs: steps of inverse quadratic
-    /// interpolation where the last three points let it, else bisection. Chandrupatla, "A new hybrid quadratic/bisection
-    /// algorithm for finding the zero of a nonlinear function without using derivatives" (Advances in Engineering Software
-    /// 28, 1997). It ends where the distance is no more than its rounding error, or the bracket has no middle.
+    /// The root between two points given with their distances, which have opposite signs: steps of
+    /// inverse quadratic interpolation where the last three points let it, else bisection.
+    /// Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
+    /// nonlinear function without using derivatives" (Advances in Engineering Software
+    /// 28, 1997). It ends where the distance is no more than its rounding error, or the bracket has
+    /// no middle.
     fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
         let mut before;
         let mut share = 0.5;
@@ -98,7 +102,11 @@ impl Line {
                 (before, other) = (other, last);
             }
             last = there;
-            let best = if last.1.abs() < other.1.abs() { last } else { other };
+            let best = if last.1.abs() < other.1.abs() {
+                last
+            } else {
+                other
+            };
             let finest = ROUNDING / (other.0 - last.0).abs();
             if best.1.abs() <= ROUNDING || finest > 0.5 {
                 return best.0;
@@ -109,8 +117,9 @@ impl Line {
     }
 }
 
-/// Where to look next between two points of opposite signs, as the share of the way from the last to the other: where the
-/// parabola through both and the point before has its root, if it is safe to ask, else in the middle.
+/// Where to look next between two points of opposite signs, as the share of the way from the last
+/// to the other: where the parabola through both and the point before has its root, if it is safe
+/// to ask, else in the middle.
 fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     let along = (last.0 - other.0) / (before.0 - other.0);
     let up = (last.1 - other.1) / (before.1 - other.1);
@@ -119,15 +128,22 @@ fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
         return 0.5;
     }
     let linear = last.1 / (other.1 - last.1) * before.1 / (other.1 - before.1);
-    let bend = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1) * other.1 / (before.1 - other.1);
+    let bend = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1) * other.1
+        / (before.1 - other.1);
     linear + bend
 }
 
-/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is asked for.
+/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
+/// asked for.
 fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
     // Bracket by the extremes of the cubic.
     let spread = (-linear / 3.0).max(0.0).sqrt();
-    let borders = [low, (-spread).clamp(low, high), spread.clamp(low, high), high];
+    let borders = [
+        low,
+        (-spread).clamp(low, high),
+        spread.clamp(low, high),
+        high,
+    ];
     (0..3).filter_map(move |k| cubic_root(linear, constant, borders[k], borders[k + 1]))
 }
 
@@ -149,7 +165,11 @@ fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64>
         }
         // A Newton step, or half the bracket where it leaves it.
         let newton = at - height / (3.0 * at * at + linear);
-        let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
+        let next = if newton > a && newton < b {
+            newton
+        } else {
+            0.5 * (a + b)
+        };
         if next == at || next <= a || next >= b {
             break;
         }
@@ -162,7 +182,12 @@ impl Torus {
     /// The torus around the line through `center` along `axis`, which must not be zero.
     #[must_use]
     pub fn new(center: Vec3, axis: Vec3, major: f64, minor: f64) -> Self {
-        Self { center, axis: Normal::new(axis).unit(), major, minor }
+        Self {
+            center,
+            axis: Normal::new(axis).unit(),
+            major,
+            minor,
+        }
     }
 
     /// The first root above 0.

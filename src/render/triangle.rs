@@ -1,14 +1,16 @@
 //! The triangle: watertight by construction.
 //!
-//! Whether a ray hits is decided as in Woop, Benthin, Wald, "Watertight ray/triangle intersection" (JCGT 2, 2013), with
-//! Kahan's products for the edge functions: two triangles compute the same value with opposite sign for a shared edge,
-//! and zero counts as inside, so no ray slips between. Where it hits is the plane's question.
+//! Whether a ray hits is decided as in Woop, Benthin, Wald, "Watertight ray/triangle intersection"
+//! (JCGT 2, 2013), with Kahan's products for the edge functions: two triangles compute the same
+//! value with opposite sign for a shared edge, and zero counts as inside, so no ray slips between.
+//! Where it hits is the plane's question.
 
 use super::plane::Normal;
 use super::ray::{Interaction, Ray};
 use crate::math::{U, Vec3, difference_of_products};
 
-/// The change of coordinates that turns a ray's direction into the z axis: a permutation and a shear.
+/// The change of coordinates that turns a ray's direction into the z axis: a permutation and a
+/// shear.
 #[derive(Clone, Copy, Debug)]
 pub struct Shear {
     axes: [usize; 3],
@@ -24,7 +26,11 @@ impl Shear {
         let d = ray.direction;
         let axes = axes_before(d);
         let z = axes[2];
-        Self { axes, x: d[axes[0]] / d[z], y: d[axes[1]] / d[z] }
+        Self {
+            axes,
+            x: d[axes[0]] / d[z],
+            y: d[axes[1]] / d[z],
+        }
     }
 
     #[inline]
@@ -81,7 +87,10 @@ impl Triangle {
     /// The triangle, or `None` if its corners are in line.
     #[must_use]
     pub fn new(vertices: [Vec3; 3]) -> Option<Self> {
-        Some(Self { vertices, normal: Normal::of(vertices)? })
+        Some(Self {
+            vertices,
+            normal: Normal::of(vertices)?,
+        })
     }
 
     /// The corners.
@@ -95,18 +104,29 @@ impl Triangle {
     #[inline]
     pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
         let [a, b, c] = &self.vertices;
-        let (a, b, c) = (shear.apply(*a - ray.origin), shear.apply(*b - ray.origin), shear.apply(*c - ray.origin));
+        let (a, b, c) = (
+            shear.apply(*a - ray.origin),
+            shear.apply(*b - ray.origin),
+            shear.apply(*c - ray.origin),
+        );
         let met = match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
             (Some(u), Some(v), Some(w)) if u == v && v == w => true,
-            (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => false,
+            (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => {
+                false
+            }
             _ => meets(a, b, c),
         };
-        if met { self.normal.through(self.vertices[0]).intersect(ray) } else { None }
+        if met {
+            self.normal.through(self.vertices[0]).intersect(ray)
+        } else {
+            None
+        }
     }
 
     /// The weights of the corners at a point of the triangle; they sum to 1.
     ///
-    /// Areas keep their ratios as seen along an axis: that nearest to the normal shows most of them.
+    /// Areas keep their ratios as seen along an axis: that nearest to the normal shows most of
+    /// them.
     #[must_use]
     pub fn weights(&self, point: Vec3) -> [f64; 3] {
         let [a, b, c] = self.vertices;
@@ -118,7 +138,8 @@ impl Triangle {
         [1.0 - second - third, second, third]
     }
 
-    /// The direction in which u grows and v stays, if the texture coordinates of the corners have one.
+    /// The direction in which u grows and v stays, if the texture coordinates of the corners have
+    /// one.
     #[must_use]
     pub fn tangent(&self, uvs: [[f64; 2]; 3]) -> Option<Vec3> {
         let [a, b, c] = self.vertices;

@@ -1,5 +1,6 @@
-//! The integrator of the course: local shading plus mirror and refracted rays (Whitted, "An improved illumination model
-//! for shaded display", CACM 23 (1980)), as a loop with a throughput: a long path takes no call stack.
+//! The integrator of the course: local shading plus mirror and refracted rays (Whitted, "An
+//! improved illumination model for shaded display", CACM 23 (1980)), as a loop with a throughput: a
+//! long path takes no call stack.
 
 use super::film::Counts;
 use super::geometry::Geometry;
@@ -52,13 +53,15 @@ struct Fan {
     path: Path,
 }
 
-/// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps its memory.
+/// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
+/// its memory.
 pub(super) struct Tracer<'world, S, const F: u32> {
     pub(super) world: &'world World<S>,
     pending: Vec<Pending>,
     /// Tells of the pixel under way, and whether to go on with it.
     pub(super) heartbeat: Heartbeat<'world>,
-    /// Whether the path under way counts 0 times: then nothing it meets says anything about a plan.
+    /// Whether the path under way counts 0 times: then nothing it meets says anything about a
+    /// plan.
     pub(super) weightless: bool,
     /// Whether points of soft lights are spread without bias, however few they are.
     pub(super) spread: bool,
@@ -71,7 +74,14 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     #[must_use]
     pub(super) fn new(world: &'world World<S>, proceed: &'world Proceed<'world>) -> Self {
         let (heartbeat, counts) = (Heartbeat::new(proceed), Counts::default());
-        Self { world, pending: Vec::new(), heartbeat, weightless: false, spread: false, counts }
+        Self {
+            world,
+            pending: Vec::new(),
+            heartbeat,
+            weightless: false,
+            spread: false,
+            counts,
+        }
     }
 
     /// Whether to go on: false from when the observer said stop, and nothing counts any more.
@@ -100,7 +110,12 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// Reports a fault of the plan under validation, if there is one and `is_fault` finds it.
-    pub(super) fn verify(&self, effect: Effect, what: &'static str, is_fault: impl FnOnce(&Plan) -> bool) {
+    pub(super) fn verify(
+        &self,
+        effect: Effect,
+        what: &'static str,
+        is_fault: impl FnOnce(&Plan) -> bool,
+    ) {
         if Self::can(Features::NAIVE)
             && !self.weightless
             && let Some(verify) = &self.world.verify
@@ -116,10 +131,18 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
         self.weightless = false;
-        let first = Path { ray, beta: 1.0, bounces_left: depth, key, kind: Kind::Mirrored };
+        let first = Path {
+            ray,
+            beta: 1.0,
+            bounces_left: depth,
+            key,
+            kind: Kind::Mirrored,
+        };
         if let Some(view) = self.view(&first.ray, first.key) {
             self.counts.hits += 1;
-            self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| !plan.surfaces[view.surface]);
+            self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| {
+                !plan.surfaces[view.surface]
+            });
             sum += self.local(&view);
             if Self::can(Features::BOUNCE) {
                 self.branch(&first, &view);
@@ -145,9 +168,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
             bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
         });
-        self.verify(Effect::Surfaces, "a bounce meets a surface left out", |plan| {
-            bounces <= plan.max_depth && !plan.surfaces[view.surface]
-        });
+        self.verify(
+            Effect::Surfaces,
+            "a bounce meets a surface left out",
+            |plan| bounces <= plan.max_depth && !plan.surfaces[view.surface],
+        );
     }
 
     /// The distance along a camera ray to what it sees.
@@ -160,7 +185,9 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// What a ray sees, with the maps of its material applied.
     fn view(&self, ray: &Ray, key: Key) -> Option<View<'world>> {
-        self.world.nearest(ray).map(|hit| self.view_of(ray, hit, key))
+        self.world
+            .nearest(ray)
+            .map(|hit| self.view_of(ray, hit, key))
     }
 
     /// What a ray sees at a hit.
@@ -178,8 +205,12 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             surface: surface.index,
             key,
         };
-        if Self::can(Features::MAPS) && (material.maps.is_some() || surface.shape.has_shading_normals()) {
-            let details = surface.shape.details(ray, &interaction, hit.part, Asked::ALL);
+        if Self::can(Features::MAPS)
+            && (material.maps.is_some() || surface.shape.has_shading_normals())
+        {
+            let details = surface
+                .shape
+                .details(ray, &interaction, hit.part, Asked::ALL);
             self.apply_maps(&mut view, &details);
         }
         if ray.direction.dot(interaction.normal) > 0.0 {
@@ -188,18 +219,26 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         view
     }
 
-    /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps its own.
+    /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
+    /// its own.
     fn apply_maps(&self, view: &mut View<'_>, details: &Details) {
         let scene = self.scene();
         view.normal = details.normal.unwrap_or(view.normal);
-        let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else { return };
+        let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else {
+            return;
+        };
         if let Some(map) = maps.color {
             view.color = self.texture(map, uv);
         }
         if let Some(map) = maps.specular {
             view.ks *= self.texture(map, uv).x.max(0.0);
         }
-        let Some(frame) = details.tangent.and_then(|tangent| Frame::new(view.normal, tangent)) else { return };
+        let Some(frame) = details
+            .tangent
+            .and_then(|tangent| Frame::new(view.normal, tangent))
+        else {
+            return;
+        };
         if let Some(map) = maps.normal {
             view.normal = frame.mapped(scene, map, uv);
         } else if let Some(bump) = maps.bump {
@@ -234,28 +273,60 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         let mirror = mirror_direction(direction, view);
         self.put_off_mirror(path, view, mirror, mirror_weight);
         if let Some(refracted) = refracted {
-            self.put_off(path, &view.interaction, refracted, view.material.kt.get(), Kind::Refracted);
+            self.put_off(
+                path,
+                &view.interaction,
+                refracted,
+                view.material.kt.get(),
+                Kind::Refracted,
+            );
         }
     }
 
     fn put_off_mirror(&mut self, path: &Path, view: &View<'_>, mirror: Vec3, weight: f64) {
-        let Phong { n, glossy_samples, .. } = view.material;
+        let Phong {
+            n, glossy_samples, ..
+        } = view.material;
         if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
             self.put_off(path, &view.interaction, mirror, weight, Kind::Mirrored);
             return;
         }
         let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
         // With shadows no light comes through a surface that mirrors.
-        let geometric = if self.scene().settings().shadows { view.geometric() } else { view.normal };
+        let geometric = if self.scene().settings().shadows {
+            view.geometric()
+        } else {
+            view.normal
+        };
         let normals = [view.normal, geometric];
         let above = lobe.count_above(normals, || self.goes_on());
-        let ray = Ray { direction: mirror, ..path.ray };
-        let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored) else { return };
-        let fan = Fan { lobe, from: view.interaction, normals, next: 0, count: glossy_samples.get(), path };
+        let ray = Ray {
+            direction: mirror,
+            ..path.ray
+        };
+        let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored)
+        else {
+            return;
+        };
+        let fan = Fan {
+            lobe,
+            from: view.interaction,
+            normals,
+            next: 0,
+            count: glossy_samples.get(),
+            path,
+        };
         self.pending.push(Pending::Lobe(Box::new(fan)));
     }
 
-    fn put_off(&mut self, path: &Path, from: &Interaction, direction: Vec3, weight: f64, kind: Kind) {
+    fn put_off(
+        &mut self,
+        path: &Path,
+        from: &Interaction,
+        direction: Vec3,
+        weight: f64,
+        kind: Kind,
+    ) {
         let path = self.next(path, weight, from.ray(direction), kind);
         self.pending.extend(path.map(Pending::Path));
     }
@@ -265,7 +336,13 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         let beta = (path.beta * weight).min(f64::MAX);
         let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
         let key = path.key.child(kind as u64);
-        goes_on.then(|| Path { ray, beta, bounces_left: path.bounces_left - 1, key, kind })
+        goes_on.then(|| Path {
+            ray,
+            beta,
+            bounces_left: path.bounces_left - 1,
+            key,
+            kind,
+        })
     }
 
     /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
@@ -278,7 +355,9 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             match self.pending.pop()? {
                 Pending::Path(path) => break path,
                 Pending::Lobe(mut fan) => {
-                    let Some(path) = fan.take(|| self.goes_on()) else { continue };
+                    let Some(path) = fan.take(|| self.goes_on()) else {
+                        continue;
+                    };
                     self.pending.push(Pending::Lobe(fan));
                     break path;
                 }
@@ -301,32 +380,47 @@ impl Fan {
             let direction = self.lobe.direction(k);
             if is_above(direction, self.normals) {
                 let key = self.path.key.child(u64::from(k));
-                return Some(Path { ray: self.from.ray(direction), key, ..self.path });
+                return Some(Path {
+                    ray: self.from.ray(direction),
+                    key,
+                    ..self.path
+                });
             }
         }
         None
     }
 }
 
-/// The mirror direction at the shading normal, or at the geometric one where that would lead into the surface.
+/// The mirror direction at the shading normal, or at the geometric one where that would lead into
+/// the surface.
 fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
     let mirror = reflect(direction, view.normal);
-    let leads_inside = mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
-    if leads_inside { reflect(direction, view.interaction.normal) } else { mirror }
+    let leads_inside =
+        mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
+    if leads_inside {
+        reflect(direction, view.interaction.normal)
+    } else {
+        mirror
+    }
 }
 
 /// The refracted direction, if the material lets light through and the angle does.
 ///
-/// The geometric normal decides where the shading normal can't: where it is turned away from the ray, or totally reflects
-/// what its mirror then sends into the surface. With `sided` it also does where the shading normal would keep on this side
-/// of the surface what is to go through. So an eta of 1 bends no ray, whatever the shading normal.
+/// The geometric normal decides where the shading normal can't: where it is turned away from the
+/// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
+/// where the shading normal would keep on this side of the surface what is to go through. So an eta
+/// of 1 bends no ray, whatever the shading normal.
 fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
     let Phong { kt, eta, .. } = view.material;
     if kt.get() == 0.0 {
         return None;
     }
     let enters = direction.dot(view.interaction.normal) <= 0.0;
-    let (from, to) = if enters { (1.0, eta.get()) } else { (eta.get(), 1.0) };
+    let (from, to) = if enters {
+        (1.0, eta.get())
+    } else {
+        (eta.get(), 1.0)
+    };
     let (shading, geometric) = (view.normal, view.geometric());
     if direction.dot(shading) < 0.0 {
         match refract(direction, shading, from, to) {

@@ -1,7 +1,8 @@
 //! A hierarchy over triangles, four wide: it finds candidates and decides nothing about a hit.
 //!
-//! A binary hierarchy by the surface area heuristic whose nodes hold their grandchildren, as in Dammertz, Hanika,
-//! Keller, "Shallow bounding volume hierarchies" (2008); both boxes and triangles are tested four at a time.
+//! A binary hierarchy by the surface area heuristic whose nodes hold their grandchildren, as in
+//! Dammertz, Hanika, Keller, "Shallow bounding volume hierarchies" (2008); both boxes and triangles
+//! are tested four at a time.
 
 use super::bounds::Bounds;
 use super::bvh::{Item, split, to_u32};
@@ -16,10 +17,12 @@ const WIDTH: usize = 4;
 /// Below this depth the heuristic chooses; above it the middle, which needs at most 16 more.
 const HEURISTIC_DEPTH: usize = 16;
 
-/// What a walk has left for later, with where the ray enters it: each level leaves at most three children.
+/// What a walk has left for later, with where the ray enters it: each level leaves at most three
+/// children.
 type Open = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
 
-/// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in it.
+/// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
+/// it.
 const LEAF: u32 = 1 << 31;
 
 /// Where a leaf has no triangle.
@@ -48,16 +51,30 @@ pub(super) struct Wide {
 }
 
 impl Wide {
-    /// Builds the hierarchy of some triangles, each known by its index, and corners that may be wrong by `blur`; `None`
-    /// if there is none.
-    pub(super) fn build(count: usize, blur: f64, corners: impl Fn(u32) -> [Vec3; 3]) -> Option<Self> {
+    /// Builds the hierarchy of some triangles, each known by its index, and corners that may be
+    /// wrong by `blur`; `None` if there is none.
+    pub(super) fn build(
+        count: usize,
+        blur: f64,
+        corners: impl Fn(u32) -> [Vec3; 3],
+    ) -> Option<Self> {
         let bounds = |index| Bounds::of(&corners(index)).grown(blur);
-        let mut items = (0..to_u32(count)).map(|index| Item { index, bounds: bounds(index) }).collect::<Vec<_>>();
+        let mut items = (0..to_u32(count))
+            .map(|index| Item {
+                index,
+                bounds: bounds(index),
+            })
+            .collect::<Vec<_>>();
         if items.is_empty() {
             return None;
         }
         let cube = Cube::around(items.iter().map(|item| item.bounds), blur);
-        let mut wide = Self { cube, nodes: Vec::new(), leaves: Vec::new(), root: 0 };
+        let mut wide = Self {
+            cube,
+            nodes: Vec::new(),
+            leaves: Vec::new(),
+            root: 0,
+        };
         wide.root = wide.add(&mut items, &corners, 0);
         wide.nodes.shrink_to_fit();
         wide.leaves.shrink_to_fit();
@@ -65,7 +82,12 @@ impl Wide {
     }
 
     /// Adds what is needed for some items and returns the link to it.
-    fn add(&mut self, items: &mut [Item], corners: &impl Fn(u32) -> [Vec3; 3], depth: usize) -> u32 {
+    fn add(
+        &mut self,
+        items: &mut [Item],
+        corners: &impl Fn(u32) -> [Vec3; 3],
+        depth: usize,
+    ) -> u32 {
         if items.len() <= WIDTH {
             return self.add_leaf(items, corners);
         }
@@ -79,7 +101,10 @@ impl Wide {
         }
         let boxes = parts.iter().map(|part| whole(part)).collect::<Vec<_>>();
         let here = self.nodes.len();
-        self.nodes.push(Node { boxes: self.cube.boxes(&boxes), links: [LEAF; WIDTH] });
+        self.nodes.push(Node {
+            boxes: self.cube.boxes(&boxes),
+            links: [LEAF; WIDTH],
+        });
         for (child, part) in parts.into_iter().enumerate() {
             self.nodes[here].links[child] = self.add(part, corners, depth + 1);
         }
@@ -87,23 +112,42 @@ impl Wide {
     }
 
     fn add_leaf(&mut self, items: &[Item], corners: &impl Fn(u32) -> [Vec3; 3]) -> u32 {
-        let triangles = items.iter().map(|item| corners(item.index)).collect::<Vec<_>>();
+        let triangles = items
+            .iter()
+            .map(|item| corners(item.index))
+            .collect::<Vec<_>>();
         let mut indices = [NONE; WIDTH];
-        indices.iter_mut().zip(items).for_each(|(index, item)| *index = item.index);
+        indices
+            .iter_mut()
+            .zip(items)
+            .for_each(|(index, item)| *index = item.index);
         let link = LEAF | to_u32(self.leaves.len()) << 2 | to_u32(items.len() - 1);
-        self.leaves.push(Leaf { corners: self.cube.corners(&triangles), items: indices });
+        self.leaves.push(Leaf {
+            corners: self.cube.corners(&triangles),
+            items: indices,
+        });
         link
     }
 
-    /// Calls `visit` with the triangles that the ray may hit before `t_max`, or, if not `CULL`, with all whose boxes it
-    /// may meet, nearer ones roughly first; `visit` returns the new `t_max`, which ends the walk when it falls below 0.
+    /// Calls `visit` with the triangles that the ray may hit before `t_max`, or, if not `CULL`,
+    /// with all whose boxes it may meet, nearer ones roughly first; `visit` returns the new
+    /// `t_max`, which ends the walk when it falls below 0.
     #[inline]
-    pub(super) fn walk<const CULL: bool>(&self, ray: &Ray, mut t_max: f64, mut visit: impl FnMut(u32) -> f64) {
+    pub(super) fn walk<const CULL: bool>(
+        &self,
+        ray: &Ray,
+        mut t_max: f64,
+        mut visit: impl FnMut(u32) -> f64,
+    ) {
         let beam = match Beam::new(&self.cube, ray) {
             Ok(beam) => beam,
             Err(NoBeam::Missed) => return,
             Err(NoBeam::Untold) => {
-                let mut items = self.leaves.iter().flat_map(|leaf| leaf.items).filter(|item| *item != NONE);
+                let mut items = self
+                    .leaves
+                    .iter()
+                    .flat_map(|leaf| leaf.items)
+                    .filter(|item| *item != NONE);
                 while t_max >= 0.0
                     && let Some(item) = items.next()
                 {
@@ -126,10 +170,15 @@ impl Wide {
             } else {
                 let leaf = &self.leaves[((link & !LEAF) >> 2) as usize];
                 let all = 0b1111 >> (3 - (link & 3));
-                let mut candidates = if CULL { all & beam.may_hit(&leaf.corners, limit) } else { all };
+                let mut candidates = if CULL {
+                    all & beam.may_hit(&leaf.corners, limit)
+                } else {
+                    all
+                };
                 if candidates != 0 {
                     while candidates != 0 {
-                        t_max = visit(leaf.items[candidates.trailing_zeros() as usize & (WIDTH - 1)]);
+                        t_max =
+                            visit(leaf.items[candidates.trailing_zeros() as usize & (WIDTH - 1)]);
                         if t_max < 0.0 {
                             return;
                         }
@@ -140,7 +189,9 @@ impl Wide {
             }
             // The last one left for later that may still count.
             loop {
-                let Some((near, next)) = open.pop() else { return };
+                let Some((near, next)) = open.pop() else {
+                    return;
+                };
                 if near <= limit {
                     link = next;
                     break;
@@ -169,12 +220,20 @@ fn nearest(open: &mut Open, mut met: u32, enter: &[f32; WIDTH], links: &[u32; WI
 }
 
 fn whole(items: &[Item]) -> Bounds {
-    items.iter().fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds))
+    items
+        .iter()
+        .fold(Bounds::EMPTY, |bounds, item| bounds.union(item.bounds))
 }
 
 /// The part to be split next: that of the largest area, or, deep down, of the most items.
 fn largest(parts: &[&mut [Item]], depth: usize) -> Option<usize> {
-    let weight = |part: &[Item]| if depth < HEURISTIC_DEPTH { whole(part).half_area() } else { part.len() as f64 };
+    let weight = |part: &[Item]| {
+        if depth < HEURISTIC_DEPTH {
+            whole(part).half_area()
+        } else {
+            part.len() as f64
+        }
+    };
     let able = (0..parts.len()).filter(|part| parts[*part].len() > WIDTH);
     able.max_by(|a, b| weight(parts[*a]).total_cmp(&weight(parts[*b])))
 }
@@ -189,7 +248,8 @@ mod tests {
     /// Triangles in each hierarchy.
     const COUNT: u32 = 96;
 
-    /// How triangles and rays are made: the scale and the place of all, how far the eye is, and what is special.
+    /// How triangles and rays are made: the scale and the place of all, how far the eye is, and
+    /// what is special.
     const FAMILIES: [(&str, f64, f64, f64); 8] = [
         ("generic", 1.0, 0.0, 3.0),
         ("tiny", 1e-57, 0.0, 3.0),
@@ -205,10 +265,18 @@ mod tests {
         let (name, scale, place, _) = FAMILIES[family];
         let one = |index: u64| {
             let key = Key::new([u32::try_from(family).unwrap(), 7], index);
-            let cube = |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
+            let cube = |k: u64| {
+                Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0
+            };
             let (a, width) = (cube(0), if name == "slivers" { 1e-7 } else { 0.3 });
             let corners = [a, a + cube(3) * 0.3, a + cube(3) * 0.1 + cube(6) * width];
-            let flat = |p: Vec3| if name == "in one plane" { p.with_z(0.25) } else { p };
+            let flat = |p: Vec3| {
+                if name == "in one plane" {
+                    p.with_z(0.25)
+                } else {
+                    p
+                }
+            };
             Triangle::new(corners.map(|p| flat(p) * scale + Vec3::splat(place)))
         };
         (0_u64..).filter_map(one).take(COUNT as usize).collect()
@@ -220,19 +288,33 @@ mod tests {
         let key = Key::new([u32::try_from(family).unwrap(), 11], index);
         let [a, b, c] = *triangles[(index / 3) as usize % triangles.len()].vertices();
         let (u, v) = (key.uniform(0), key.uniform(1));
-        let target = [a + (b - a) * (u * v) + (c - a) * (u * (1.0 - v)), a + (b - a) * u, a][(index % 3) as usize];
-        let away = (Vec3::new(key.uniform(2), key.uniform(3), key.uniform(4)) * 2.0 - 1.0) * (distance * scale);
+        let target = [
+            a + (b - a) * (u * v) + (c - a) * (u * (1.0 - v)),
+            a + (b - a) * u,
+            a,
+        ][(index % 3) as usize];
+        let away = (Vec3::new(key.uniform(2), key.uniform(3), key.uniform(4)) * 2.0 - 1.0)
+            * (distance * scale);
         if name == "along the axes" {
             let direction = [Vec3::X, Vec3::NEG_Y, Vec3::Z][(index / 5) as usize % 3];
-            return Ray { origin: target - direction * 4.0, direction };
+            return Ray {
+                origin: target - direction * 4.0,
+                direction,
+            };
         }
         let origin = Vec3::splat(place) + away;
-        Ray { origin, direction: target - origin }
+        Ray {
+            origin,
+            direction: target - origin,
+        }
     }
 
     #[test]
     fn whatever_is_hit_is_visited_and_little_else() {
-        let rays = std::env::var("RTC_RAYS").ok().and_then(|count| count.parse().ok()).unwrap_or(20_000_u64);
+        let rays = std::env::var("RTC_RAYS")
+            .ok()
+            .and_then(|count| count.parse().ok())
+            .unwrap_or(20_000_u64);
         for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
             let all = triangles(family);
             let wide = Wide::build(all.len(), 0.0, |item| *all[item as usize].vertices()).unwrap();
@@ -241,7 +323,9 @@ mod tests {
                 let shear = Shear::new(&ray);
                 let (mut hits, mut missed, mut visits) = (0, 0, 0);
                 for (item, triangle) in (0..).zip(&all) {
-                    let Some(t) = triangle.intersect(&ray, &shear) else { continue };
+                    let Some(t) = triangle.intersect(&ray, &shear) else {
+                        continue;
+                    };
                     let (mut culled, mut boxed) = (false, false);
                     // Even if nothing beyond that hit counts any more.
                     wide.walk::<true>(&ray, t, |other| {
@@ -257,10 +341,14 @@ mod tests {
                 [hits, missed, visits]
             };
             let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-            let [hits, missed, visits] = (0..rays).into_par_iter().map(judge).reduce(|| [0; 3], add);
+            let [hits, missed, visits] =
+                (0..rays).into_par_iter().map(judge).reduce(|| [0; 3], add);
             println!("| triangles passed over | {name} | {hits} | {missed} | {visits} visits |");
             assert!(hits > rays / 4 && missed == 0, "{name}: {missed} of {hits}");
-            assert!(name == "slivers" || visits < 16 * hits, "{name}: {visits} visits for {hits} hits");
+            assert!(
+                name == "slivers" || visits < 16 * hits,
+                "{name}: {visits} visits for {hits} hits"
+            );
         }
     }
 
@@ -283,8 +371,27 @@ mod tests {
         once.dedup();
         assert_eq!(once, visited(ray, f64::INFINITY));
         // What the arithmetic can't tell is not decided here.
-        assert_eq!(visited(Ray { direction: Vec3::ZERO, ..ray }, 1.0), (0..COUNT).collect::<Vec<_>>());
-        assert_eq!(visited(Ray { direction: Vec3::ZERO, ..ray }, -1.0).len(), 1);
+        assert_eq!(
+            visited(
+                Ray {
+                    direction: Vec3::ZERO,
+                    ..ray
+                },
+                1.0
+            ),
+            (0..COUNT).collect::<Vec<_>>()
+        );
+        assert_eq!(
+            visited(
+                Ray {
+                    direction: Vec3::ZERO,
+                    ..ray
+                },
+                -1.0
+            )
+            .len(),
+            1
+        );
         assert!(Wide::build(0, 0.0, |_| [Vec3::ZERO; 3]).is_none());
     }
 
@@ -293,7 +400,13 @@ mod tests {
     fn equal_triangles_build_a_hierarchy_that_ends() {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         let wide = Wide::build(5000, 0.0, |_| corners).unwrap();
-        let (mut visits, ray) = (0, Ray { origin: Vec3::new(0.2, 0.2, 1.0), direction: Vec3::NEG_Z });
+        let (mut visits, ray) = (
+            0,
+            Ray {
+                origin: Vec3::new(0.2, 0.2, 1.0),
+                direction: Vec3::NEG_Z,
+            },
+        );
         wide.walk::<true>(&ray, f64::INFINITY, |_| {
             visits += 1;
             f64::INFINITY

@@ -1,4 +1,5 @@
-//! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of it.
+//! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of
+//! it.
 
 use super::bvh::Bvh;
 use super::geometry::Geometry;
@@ -67,22 +68,36 @@ const OVER: f64 = -1.0;
 /// The part of no surface.
 pub(super) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
-/// A mesh that stands several times is merged into the world if all its triangles are no more than this.
+/// A mesh that stands several times is merged into the world if all its triangles are no more than
+/// this.
 const MERGED: usize = 1 << 18;
 
 impl<S: Geometry> World<S> {
     /// Prepares a scene: planes of shapes, the BVH.
     #[must_use]
     pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
-        let meshes = scene.meshes().iter().map(|mesh| Arc::new(S::prepare_mesh(mesh))).collect::<Vec<_>>();
+        let meshes = scene
+            .meshes()
+            .iter()
+            .map(|mesh| Arc::new(S::prepare_mesh(mesh)))
+            .collect::<Vec<_>>();
         let mut materials = Materials::new(scene, plan);
         let surface = |(index, surface): (usize, &valid::Surface)| {
             let shape = S::prepare(&surface.shape, &meshes)?;
-            Some(Surface { material: materials.of(surface.material, shape.has_uv()), shape, index })
+            Some(Surface {
+                material: materials.of(surface.material, shape.has_uv()),
+                shape,
+                index,
+            })
         };
-        let planned = scene.surfaces().iter().enumerate().filter(|(index, _)| plan.surfaces[*index]);
+        let planned = scene
+            .surfaces()
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| plan.surfaces[*index]);
         let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
-        let (mut unbounded, mut bounded, mut boxes, mut apart) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (mut unbounded, mut bounded, mut boxes, mut apart) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let merges = merging(scene);
         for (index, surface) in (0_u32..).zip(&surfaces) {
             match surface.shape.bounds() {
@@ -96,18 +111,28 @@ impl<S: Geometry> World<S> {
         }
         let (bvh, merged) = (Bvh::build(&boxes), Merged::new(&surfaces, &apart));
         let (scene, plan, materials) = (scene.clone(), plan.clone(), materials.all);
-        Self { scene, plan, materials, surfaces, verify: None, unbounded, bounded, bvh, merged }
+        Self {
+            scene,
+            plan,
+            materials,
+            surfaces,
+            verify: None,
+            unbounded,
+            bounded,
+            bvh,
+            merged,
+        }
     }
 
-    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first surface and its first part.
-    /// Rays that are none hit nothing.
+    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first
+    /// surface and its first part. Rays that are none hit nothing.
     #[must_use]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
         self.nearest_from(ray, NOWHERE)
     }
 
-    /// As [`World::nearest`], for a ray that starts at a part of a surface: if that is a merged triangle, it is flat, so
-    /// the ray can't come back to it.
+    /// As [`World::nearest`], for a ray that starts at a part of a surface: if that is a merged
+    /// triangle, it is flat, so the ray can't come back to it.
     pub(super) fn nearest_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
         // A NaN passes every slab test, so such a ray would visit all there is.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
@@ -132,7 +157,11 @@ impl<S: Geometry> World<S> {
             _ if nearest.is_tied() => self.settle(&ray, from, nearest.t)?,
             key => (nearest.t, key),
         };
-        Some(Hit { t: t * unit, surface, part })
+        Some(Hit {
+            t: t * unit,
+            surface,
+            part,
+        })
     }
 
     /// The nearest hit on what is not merged; beyond all if there is none.
@@ -145,7 +174,11 @@ impl<S: Geometry> World<S> {
         let shear = Shear::new(ray);
         let mut visit = |surface: u32| {
             let surface = surface as usize;
-            if let Some((t, part)) = self.surfaces[surface].shape.nearest(ray, &shear, nearest.reach()) {
+            if let Some((t, part)) =
+                self.surfaces[surface]
+                    .shape
+                    .nearest(ray, &shear, nearest.reach())
+            {
                 nearest.add(t, (surface, part));
             }
             nearest.t
@@ -153,7 +186,9 @@ impl<S: Geometry> World<S> {
         for surface in &self.unbounded {
             visit(*surface);
         }
-        self.bvh.walk(ray, f64::INFINITY, |item, _| visit(self.bounded[item as usize]));
+        self.bvh.walk(ray, f64::INFINITY, |item, _| {
+            visit(self.bounded[item as usize])
+        });
         nearest
     }
 
@@ -163,7 +198,11 @@ impl<S: Geometry> World<S> {
     fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
         let (mut tie, shear) = (Tie::new(), Shear::new(ray));
         let mut add = |t: f64, surface: usize, part: u32| {
-            tie.add(t, self.surfaces[surface].shape.error(ray, t, part), (surface, part));
+            tie.add(
+                t,
+                self.surfaces[surface].shape.error(ray, t, part),
+                (surface, part),
+            );
         };
         let mut visit = |surface: u32| {
             let surface = surface as usize;
@@ -198,8 +237,8 @@ impl<S: Geometry> World<S> {
 
     /// Whether anything lies strictly between `from` and `to`; both ends may lie on surfaces.
     ///
-    /// `from` should be a start of rays, off its own surface. What lies within the rounding error of `to` does not count:
-    /// a light on a surface is not hidden by it.
+    /// `from` should be a start of rays, off its own surface. What lies within the rounding error
+    /// of `to` does not count: a light on a surface is not hidden by it.
     #[must_use]
     pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
         segment(from, to).is_some_and(|(ray, t_max)| self.any(&ray, t_max))
@@ -210,10 +249,16 @@ impl<S: Geometry> World<S> {
         self.passing(ray, t_max, NOWHERE, |_| 0.0) == 0.0
     }
 
-    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no more is asked once that
-    /// is 0. Only triangles of meshes that are [`World::is_merged`] are asked about: all else lets nothing pass. The ray
-    /// starts at the part of a surface given.
-    pub(super) fn passing(&self, ray: &Ray, t_max: f64, from: (usize, u32), mut pass: impl FnMut(Hit) -> f64) -> f64 {
+    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no
+    /// more is asked once that is 0. Only triangles of meshes that are [`World::is_merged`] are
+    /// asked about: all else lets nothing pass. The ray starts at the part of a surface given.
+    pub(super) fn passing(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        from: (usize, u32),
+        mut pass: impl FnMut(Hit) -> f64,
+    ) -> f64 {
         let (ray, unit) = ray.tamed();
         let t_max = t_max / unit;
         if self.is_blocked_apart(&ray, t_max) {
@@ -228,7 +273,11 @@ impl<S: Geometry> World<S> {
                     && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
                     && t < t_max
                 {
-                    share *= pass(Hit { t: t * unit, surface, part });
+                    share *= pass(Hit {
+                        t: t * unit,
+                        surface,
+                        part,
+                    });
                 }
                 if share > 0.0 { t_max } else { OVER }
             });
@@ -243,7 +292,9 @@ impl<S: Geometry> World<S> {
         }
         let shear = Shear::new(ray);
         let hits = |surface: u32| {
-            let hit = self.surfaces[surface as usize].shape.intersect(ray, &shear, t_max);
+            let hit = self.surfaces[surface as usize]
+                .shape
+                .intersect(ray, &shear, t_max);
             hit.is_some_and(|(t, _)| t < t_max)
         };
         if self.unbounded.iter().any(|surface| hits(*surface)) {
@@ -261,12 +312,14 @@ impl<S: Geometry> World<S> {
     pub(super) fn is_merged(&self, surface: usize) -> bool {
         let parts = self.merged.as_ref().map_or(&[][..], |merged| &merged.parts);
         let first = parts.partition_point(|[other, _]| (*other as usize) < surface);
-        parts.get(first).is_some_and(|[other, _]| *other as usize == surface)
+        parts
+            .get(first)
+            .is_some_and(|[other, _]| *other as usize == surface)
     }
 }
 
-/// The ray from one point to another, and the t before which nothing belongs to the other; `None` if they are as good as
-/// one.
+/// The ray from one point to another, and the t before which nothing belongs to the other; `None`
+/// if they are as good as one.
 pub(super) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
     /// The end of the segment is known to this many units of its size.
     const END: f64 = 16.0 * crate::math::U;
@@ -274,16 +327,33 @@ pub(super) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
     let size = (from.abs() + to.abs()).element_sum();
     let length = direction.length();
     let t_max = 1.0 - END * (1.0 + size / length);
-    (t_max > 0.0).then_some((Ray { origin: from, direction }, t_max))
+    (t_max > 0.0).then_some((
+        Ray {
+            origin: from,
+            direction,
+        },
+        t_max,
+    ))
 }
 
 impl Merged {
     /// Those of the surfaces with these indices.
     fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
         let shape = |surface: u32| &surfaces[surface as usize].shape;
-        let parts_of = |surface: u32| (0..).take(shape(surface).triangles()).map(move |part| [surface, part]);
-        let parts = indices.iter().copied().flat_map(parts_of).collect::<Vec<_>>();
-        let blur = indices.iter().map(|surface| shape(*surface).blur()).fold(0.0, f64::max);
+        let parts_of = |surface: u32| {
+            (0..)
+                .take(shape(surface).triangles())
+                .map(move |part| [surface, part])
+        };
+        let parts = indices
+            .iter()
+            .copied()
+            .flat_map(parts_of)
+            .collect::<Vec<_>>();
+        let blur = indices
+            .iter()
+            .map(|surface| shape(*surface).blur())
+            .fold(0.0, f64::max);
         let corners = |item: u32| {
             let [surface, part] = parts[item as usize];
             shape(surface).corners(part).unwrap_or_default()
@@ -297,9 +367,23 @@ impl Merged {
 fn merging(scene: &ValidScene) -> Vec<bool> {
     let mut uses = vec![0_usize; scene.meshes().len()];
     let mesh = |surface: &valid::Surface| {
-        if let valid::Shape::Instance(instance) = &surface.shape { Some(instance.mesh) } else { None }
+        if let valid::Shape::Instance(instance) = &surface.shape {
+            Some(instance.mesh)
+        } else {
+            None
+        }
     };
-    scene.surfaces().iter().filter_map(mesh).for_each(|mesh| uses[mesh] += 1);
-    let merges = |mesh: usize| uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED;
-    scene.surfaces().iter().map(|surface| mesh(surface).is_some_and(merges)).collect()
+    scene
+        .surfaces()
+        .iter()
+        .filter_map(mesh)
+        .for_each(|mesh| uses[mesh] += 1);
+    let merges = |mesh: usize| {
+        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED
+    };
+    scene
+        .surfaces()
+        .iter()
+        .map(|surface| mesh(surface).is_some_and(merges))
+        .collect()
 }

@@ -1,7 +1,8 @@
-//! What one run may take of the machine: a limit for each resource, charged before memory is taken or work is done.
+//! What one run may take of the machine: a limit for each resource, charged before memory is taken
+//! or work is done.
 //!
-//! Most limits grow with the bytes read, so that a large file may be large and a small one may not. All files of a run
-//! draw on one budget, which the [`super::SourceMap`] holds.
+//! Most limits grow with the bytes read, so that a large file may be large and a small one may not.
+//! All files of a run draw on one budget, which the [`super::SourceMap`] holds.
 
 use std::fmt::{self, Write as _};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -81,7 +82,13 @@ const TABLE: [Row; COUNT] = [
         per_kib: 0,
         text: "findings kept; further ones are counted",
     },
-    Row { resource: Resource::Rays, name: "rays", base: 1 << 32, per_kib: 0, text: "rays of a picture" },
+    Row {
+        resource: Resource::Rays,
+        name: "rays",
+        base: 1 << 32,
+        per_kib: 0,
+        text: "rays of a picture",
+    },
 ];
 
 const COUNT: usize = 7;
@@ -112,7 +119,9 @@ pub struct Limits {
 
 impl Limits {
     /// No limits at all.
-    pub const NONE: Self = Self { asked: [Some(u64::MAX); COUNT] };
+    pub const NONE: Self = Self {
+        asked: [Some(u64::MAX); COUNT],
+    };
 
     /// Sets one limit.
     pub fn set(&mut self, resource: Resource, limit: u64) {
@@ -141,17 +150,30 @@ pub struct Exceeded {
 
 impl fmt::Display for Exceeded {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { resource, total, limit } = *self;
+        let Self {
+            resource,
+            total,
+            limit,
+        } = *self;
         match resource {
             Resource::Memory => {
-                write!(f, "it would take {} of memory, and the limit is {}", Size(total), Size(limit))
+                write!(
+                    f,
+                    "it would take {} of memory, and the limit is {}",
+                    Size(total),
+                    Size(limit)
+                )
             }
             Resource::Pixels
             | Resource::Vertices
             | Resource::Surfaces
             | Resource::Nodes
             | Resource::Findings
-            | Resource::Rays => write!(f, "it would make {total} {}, and the limit is {limit}", resource.name()),
+            | Resource::Rays => write!(
+                f,
+                "it would make {total} {}, and the limit is {limit}",
+                resource.name()
+            ),
         }
     }
 }
@@ -160,7 +182,10 @@ impl Exceeded {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> String {
-        format!("`--limit {}=…` sets another limit, `--allow-huge` lifts all of them", self.resource.name())
+        format!(
+            "`--limit {}=…` sets another limit, `--allow-huge` lifts all of them",
+            self.resource.name()
+        )
     }
 }
 
@@ -188,7 +213,10 @@ impl Budget {
     /// A budget of which nothing is spent.
     #[must_use]
     pub fn new(limits: Limits) -> Self {
-        Self { limits, ..Self::default() }
+        Self {
+            limits,
+            ..Self::default()
+        }
     }
 
     /// Takes down that so many bytes were read; most limits grow by it.
@@ -204,7 +232,11 @@ impl Budget {
         let limit = self.limit(resource);
         let spend = |spent: u64| spent.checked_add(amount).filter(|total| *total <= limit);
         let spent = self.spent[resource as usize].fetch_update(Relaxed, Relaxed, spend);
-        spent.map(|_| ()).map_err(|spent| Exceeded { resource, total: spent.saturating_add(amount), limit })
+        spent.map(|_| ()).map_err(|spent| Exceeded {
+            resource,
+            total: spent.saturating_add(amount),
+            limit,
+        })
     }
 
     /// Whether so much of a resource is left; nothing is charged.
@@ -213,8 +245,18 @@ impl Budget {
     /// If there is not so much left.
     pub fn has(&self, resource: Resource, amount: u64) -> Result<(), Exceeded> {
         let limit = self.limit(resource);
-        let total = self.spent[resource as usize].load(Relaxed).saturating_add(amount);
-        if total <= limit { Ok(()) } else { Err(Exceeded { resource, total, limit }) }
+        let total = self.spent[resource as usize]
+            .load(Relaxed)
+            .saturating_add(amount);
+        if total <= limit {
+            Ok(())
+        } else {
+            Err(Exceeded {
+                resource,
+                total,
+                limit,
+            })
+        }
     }
 
     /// How much of a resource may be taken in all, by what was read so far.
@@ -226,7 +268,8 @@ impl Budget {
     /// How much of a resource is left.
     #[must_use]
     pub fn left(&self, resource: Resource) -> u64 {
-        self.limit(resource).saturating_sub(self.spent[resource as usize].load(Relaxed))
+        self.limit(resource)
+            .saturating_sub(self.spent[resource as usize].load(Relaxed))
     }
 }
 
@@ -244,8 +287,19 @@ and `GiB` may follow the number), `--allow-huge` lifts all of them.
 | --- | ---: | ---: | --- |
 "
     .to_owned();
-    for Row { resource: _, name, base, per_kib, text } in TABLE {
-        let more = if per_kib == 0 { String::new() } else { per_kib.to_string() };
+    for Row {
+        resource: _,
+        name,
+        base,
+        per_kib,
+        text,
+    } in TABLE
+    {
+        let more = if per_kib == 0 {
+            String::new()
+        } else {
+            per_kib.to_string()
+        };
         // Writing to a string does not fail.
         let _ = writeln!(page, "| `{name}` | {base} | {more} | {text} |");
     }
@@ -258,7 +312,12 @@ mod tests {
 
     #[test]
     fn the_table_is_in_the_order_of_the_resources() {
-        assert!(TABLE.iter().enumerate().all(|(index, row)| row.resource as usize == index));
+        assert!(
+            TABLE
+                .iter()
+                .enumerate()
+                .all(|(index, row)| row.resource as usize == index)
+        );
     }
 
     #[test]
@@ -268,8 +327,18 @@ mod tests {
         let refused = budget.charge(Resource::Surfaces, 64).unwrap_err();
         assert_eq!((refused.total, refused.limit), ((1 << 20) + 64, 1 << 20));
         budget.read(1024);
-        assert_eq!((budget.charge(Resource::Surfaces, 64), budget.left(Resource::Surfaces)), (Ok(()), 0));
-        assert!(Budget::new(Limits::NONE).charge(Resource::Memory, u64::MAX).is_ok());
+        assert_eq!(
+            (
+                budget.charge(Resource::Surfaces, 64),
+                budget.left(Resource::Surfaces)
+            ),
+            (Ok(()), 0)
+        );
+        assert!(
+            Budget::new(Limits::NONE)
+                .charge(Resource::Memory, u64::MAX)
+                .is_ok()
+        );
     }
 
     #[test]
@@ -278,7 +347,13 @@ mod tests {
         limits.set(Resource::Memory, 1 << 21);
         let budget = Budget::new(limits);
         budget.read(1 << 20);
-        let refused = budget.charge(Resource::Memory, (2 << 20) + 1).unwrap_err().to_string();
-        assert_eq!(refused, "it would take 3 MiB of memory, and the limit is 2 MiB");
+        let refused = budget
+            .charge(Resource::Memory, (2 << 20) + 1)
+            .unwrap_err()
+            .to_string();
+        assert_eq!(
+            refused,
+            "it would take 3 MiB of memory, and the limit is 2 MiB"
+        );
     }
 }

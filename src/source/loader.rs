@@ -1,7 +1,8 @@
-//! The one file that reads: a file or standard input, within a limit of size, most often into the source map.
+//! The one file that reads: a file or standard input, within a limit of size, most often into the
+//! source map.
 //!
-//! What the user names is opened as it is. What a scene names is opened first, and judged by what was opened: a path can
-//! lead elsewhere the next time it is followed.
+//! What the user names is opened as it is. What a scene names is opened first, and judged by what
+//! was opened: a path can lead elsewhere the next time it is followed.
 
 use super::{FileId, Found, SourceMap};
 use std::fmt;
@@ -51,11 +52,17 @@ impl Loader {
     ///
     /// # Errors
     /// What the reader says, or that there is too much of it.
-    pub fn reader(&self, name: &str, reader: impl Read, map: &mut SourceMap) -> Result<FileId, LoadError> {
+    pub fn reader(
+        &self,
+        name: &str,
+        reader: impl Read,
+        map: &mut SourceMap,
+    ) -> Result<FileId, LoadError> {
         Ok(map.add(name, all(reader, 0, MAX_BYTES)?))
     }
 
-    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found. The map only notes it.
+    /// Reads a file that was found, of at most `limit` bytes: what was opened when it was found.
+    /// The map only notes it.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
@@ -64,11 +71,15 @@ impl Loader {
         found.opened().bytes(limit)
     }
 
-    /// Reads the file at `path`, which the user names, of at most `limit` bytes. The map only notes it.
+    /// Reads the file at `path`, which the user names, of at most `limit` bytes. The map only notes
+    /// it.
     ///
     /// # Errors
     /// What the system says, or that the file is too large.
-    #[expect(clippy::disallowed_methods, reason = "this is the one place that reads")]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "this is the one place that reads"
+    )]
     pub fn bytes(&self, path: &Path, limit: u64, map: &SourceMap) -> Result<Vec<u8>, LoadError> {
         map.note(path);
         whole(&File::open(path).map_err(LoadError::Io)?, limit)
@@ -145,9 +156,11 @@ impl Opened {
                 (&*file).rewind().map_err(LoadError::Io)?;
                 whole(file, limit)
             }
-            Err(error) => {
-                Err(LoadError::Io(error.raw_os_error().map_or(error.kind().into(), io::Error::from_raw_os_error)))
-            }
+            Err(error) => Err(LoadError::Io(
+                error
+                    .raw_os_error()
+                    .map_or(error.kind().into(), io::Error::from_raw_os_error),
+            )),
         }
     }
 }
@@ -197,8 +210,13 @@ fn whole(file: &File, limit: u64) -> Result<Vec<u8>, LoadError> {
 /// All there is to read, most likely `expected` bytes.
 fn all(reader: impl Read, expected: usize, limit: u64) -> Result<Vec<u8>, LoadError> {
     let mut bytes = Vec::new();
-    bytes.try_reserve_exact(expected).map_err(|_| LoadError::Io(std::io::ErrorKind::OutOfMemory.into()))?;
-    reader.take(limit + 1).read_to_end(&mut bytes).map_err(LoadError::Io)?;
+    bytes
+        .try_reserve_exact(expected)
+        .map_err(|_| LoadError::Io(std::io::ErrorKind::OutOfMemory.into()))?;
+    reader
+        .take(limit + 1)
+        .read_to_end(&mut bytes)
+        .map_err(LoadError::Io)?;
     if bytes.len() as u64 > limit {
         return Err(LoadError::TooLarge { limit });
     }

@@ -31,7 +31,11 @@ impl Span {
     /// The smallest span that holds both; `other` must lie in the same file.
     #[must_use]
     pub fn to(self, other: Span) -> Self {
-        Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
+        Self {
+            file: self.file,
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
     }
 }
 
@@ -49,7 +53,8 @@ struct SourceFile {
     /// The folder it was read from, unless it came through a stream.
     folder: Option<Folder>,
     bytes: Vec<u8>,
-    /// Found when a line is first asked for: most files are never pointed at, and some are large and binary.
+    /// Found when a line is first asked for: most files are never pointed at, and some are large
+    /// and binary.
     line_starts: OnceLock<Vec<u32>>,
 }
 
@@ -66,7 +71,10 @@ impl SourceMap {
     /// An empty map of a run with these limits.
     #[must_use]
     pub fn with_limits(limits: Limits) -> Self {
-        Self { budget: Budget::new(limits), ..Self::default() }
+        Self {
+            budget: Budget::new(limits),
+            ..Self::default()
+        }
     }
 
     /// What the run may still take of the machine. The bytes of the files of the map count as read.
@@ -78,7 +86,10 @@ impl SourceMap {
     /// Notes that a file is read.
     pub(super) fn note(&self, path: &Path) {
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        self.read.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
+        self.read
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .insert(path);
     }
 
     /// Whether the file at a path was read, by whatever name.
@@ -114,10 +125,18 @@ impl SourceMap {
     }
 
     fn push(&mut self, name: String, folder: Option<Folder>, bytes: Vec<u8>) -> FileId {
-        assert!(u32::try_from(bytes.len()).is_ok(), "the loader refuses files of 4 GiB and more");
+        assert!(
+            u32::try_from(bytes.len()).is_ok(),
+            "the loader refuses files of 4 GiB and more"
+        );
         self.budget.read(bytes.len());
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(SourceFile { name, folder, bytes, line_starts: OnceLock::new() });
+        self.files.push(SourceFile {
+            name,
+            folder,
+            bytes,
+            line_starts: OnceLock::new(),
+        });
         id
     }
 
@@ -163,15 +182,25 @@ impl SourceMap {
         let start = starts.get(line - 1).copied().unwrap_or(0);
         let span = Span::new(file, start, offset);
         let column = self.slice(span).chars().count() + 1;
-        LineColumn { line: to_u32(line), column: to_u32(column) }
+        LineColumn {
+            line: to_u32(line),
+            column: to_u32(column),
+        }
     }
 
-    /// The byte range of the lines `first..=last` (from 1), line ends included; clipped to the file.
+    /// The byte range of the lines `first..=last` (from 1), line ends included; clipped to the
+    /// file.
     #[must_use]
     pub fn lines(&self, file: FileId, first: u32, last: u32) -> Span {
         let source = self.file(file);
         let end = to_u32(source.bytes.len());
-        let at = |line: u32| source.line_starts().get(line as usize).copied().unwrap_or(end);
+        let at = |line: u32| {
+            source
+                .line_starts()
+                .get(line as usize)
+                .copied()
+                .unwrap_or(end)
+        };
         Span::new(file, at(first.saturating_sub(1)), at(last))
     }
 
@@ -183,7 +212,8 @@ impl SourceMap {
 impl SourceFile {
     fn line_starts(&self) -> &[u32] {
         let newlines = || memchr::memchr_iter(b'\n', &self.bytes).map(|index| to_u32(index + 1));
-        self.line_starts.get_or_init(|| std::iter::once(0).chain(newlines()).collect())
+        self.line_starts
+            .get_or_init(|| std::iter::once(0).chain(newlines()).collect())
     }
 }
 

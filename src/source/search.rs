@@ -1,9 +1,11 @@
-//! Where a file lies that a scene names: only below the scene's folder, its parent, or a folder the user allows.
+//! Where a file lies that a scene names: only below the scene's folder, its parent, or a folder the
+//! user allows.
 //!
-//! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the longest tail of it that
-//! exists below those folders is taken instead. So is, last, a name that differs in case only. A file is opened before
-//! it is judged, and only regular files are found. The parent is not the scene's own: what it lends is shown by its name
-//! and its first bytes to be what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
+//! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the
+//! longest tail of it that exists below those folders is taken instead. So is, last, a name that
+//! differs in case only. A file is opened before it is judged, and only regular files are found.
+//! The parent is not the scene's own: what it lends is shown by its name and its first bytes to be
+//! what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
 
 use super::loader::{Identity, Opened};
 use std::fs;
@@ -70,44 +72,78 @@ pub enum Missing {
 }
 
 impl Folder {
-    /// The folder that the user writes so; `None` if there is none. Nothing stands for the current one.
+    /// The folder that the user writes so; `None` if there is none. Nothing stands for the current
+    /// one.
     #[must_use]
     pub fn new(shown: &Path) -> Option<Self> {
-        let path = if shown.as_os_str().is_empty() { Path::new(".") } else { shown };
-        Some(Self { shown: shown.to_owned(), resolved: fs::canonicalize(path).ok()? })
+        let path = if shown.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            shown
+        };
+        Some(Self {
+            shown: shown.to_owned(),
+            resolved: fs::canonicalize(path).ok()?,
+        })
     }
 
     /// A folder free of links, shown by the first of these names that leads there.
     fn named(resolved: &Path, names: impl IntoIterator<Item = PathBuf>) -> Self {
         let leads_there = |folder: &Self| folder.resolved == resolved;
-        let folder = names.into_iter().find_map(|name| Self::new(&name).filter(leads_there));
-        folder.unwrap_or_else(|| Self { shown: resolved.to_owned(), resolved: resolved.to_owned() })
+        let folder = names
+            .into_iter()
+            .find_map(|name| Self::new(&name).filter(leads_there));
+        folder.unwrap_or_else(|| Self {
+            shown: resolved.to_owned(),
+            resolved: resolved.to_owned(),
+        })
     }
 
     fn parent(&self) -> Option<Self> {
-        let lexical = self.shown.parent().filter(|_| !self.shown.ends_with("..")).map(Path::to_owned);
-        Some(Self::named(self.resolved.parent()?, lexical.into_iter().chain([self.shown.join("..")])))
+        let lexical = self
+            .shown
+            .parent()
+            .filter(|_| !self.shown.ends_with(".."))
+            .map(Path::to_owned);
+        Some(Self::named(
+            self.resolved.parent()?,
+            lexical.into_iter().chain([self.shown.join("..")]),
+        ))
     }
 
     /// Whether it may lend files to scenes in a folder within; `home` is that of the user.
     fn lends(&self, home: Option<&Path>) -> bool {
         let path = &self.resolved;
-        let names = path.components().filter(|part| matches!(part, Component::Normal(_))).count();
+        let names = path
+            .components()
+            .filter(|part| matches!(part, Component::Normal(_)))
+            .count();
         let of_system = OF_THE_SYSTEM.iter().any(|folder| path.starts_with(folder));
-        let is_home = home == Some(path) || OF_HOMES.iter().any(|homes| path.parent() == Some(Path::new(homes)));
+        let is_home = home == Some(path)
+            || OF_HOMES
+                .iter()
+                .any(|homes| path.parent() == Some(Path::new(homes)));
         names >= 2 && !of_system && !is_home
     }
 }
 
 impl Found {
     fn new(opened: Opened, shown: PathBuf, elsewhere: bool) -> Self {
-        Self { path: opened.path().to_owned(), shown, elsewhere, opened }
+        Self {
+            path: opened.path().to_owned(),
+            shown,
+            elsewhere,
+            opened,
+        }
     }
 
     /// The folder it lies in.
     #[must_use]
     pub fn folder(&self) -> Option<Folder> {
-        Some(Folder::named(self.path.parent()?, self.shown.parent().map(Path::to_owned)))
+        Some(Folder::named(
+            self.path.parent()?,
+            self.shown.parent().map(Path::to_owned),
+        ))
     }
 
     /// What tells it from other files; `None` if it can't be read.
@@ -179,14 +215,20 @@ impl Search {
     pub fn new(folder: Option<&Folder>, allowed: Option<&Path>) -> Self {
         let given = allowed.and_then(Folder::new);
         let allowed = given.as_ref().map(|folder| folder.resolved.clone());
-        Self { folders: folder.cloned().into_iter().chain(given).collect(), has_parent: false, allowed }
+        Self {
+            folders: folder.cloned().into_iter().chain(given).collect(),
+            has_parent: false,
+            allowed,
+        }
     }
 
-    /// Looks last in the parent of the scene's `folder` too, unless that is `home` or lends nothing for another reason.
+    /// Looks last in the parent of the scene's `folder` too, unless that is `home` or lends nothing
+    /// for another reason.
     #[must_use]
     pub fn with_parent(mut self, folder: Option<&Folder>, home: Option<&Path>) -> Self {
         let home = home.and_then(|home| fs::canonicalize(home).ok());
-        let lends = |parent: &Folder| parent.lends(home.as_deref()) || self.is_allowed(&parent.resolved);
+        let lends =
+            |parent: &Folder| parent.lends(home.as_deref()) || self.is_allowed(&parent.resolved);
         let parent = folder.and_then(Folder::parent).filter(lends);
         self.has_parent = parent.is_some();
         self.folders.extend(parent);
@@ -198,7 +240,9 @@ impl Search {
     /// # Errors
     /// Why there is none, with the places that were looked at.
     pub fn find(&self, written: &str, kind: &Kind) -> Result<Found, Missing> {
-        let Some(scene) = self.folders.first() else { return Err(Missing::NoFolder) };
+        let Some(scene) = self.folders.first() else {
+            return Err(Missing::NoFolder);
+        };
         let name = Name::new(written);
         let mut outside = name.leads_out();
         if let Some(opened) = self.climb(scene, &name) {
@@ -219,12 +263,20 @@ impl Search {
             }
         }
         let places = 0..self.folders.len();
-        let other_case = name.tails().find_map(|tail| places.clone().find_map(|at| self.other_case(at, &tail, kind)));
-        other_case.ok_or(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
+        let other_case = name.tails().find_map(|tail| {
+            places
+                .clone()
+                .find_map(|at| self.other_case(at, &tail, kind))
+        });
+        other_case.ok_or(if outside {
+            Missing::Outside(looked)
+        } else {
+            Missing::Absent(looked)
+        })
     }
 
-    /// The file at exactly the path `written`, relative and with `/` between components, below the folder of the scene
-    /// or the one the user allows.
+    /// The file at exactly the path `written`, relative and with `/` between components, below the
+    /// folder of the scene or the one the user allows.
     ///
     /// # Errors
     /// Why there is none, with the places that were looked at.
@@ -238,7 +290,10 @@ impl Search {
             return Err(Missing::Outside(Vec::new()));
         }
         let (mut looked, mut outside) = (Vec::new(), false);
-        for (folder, shown) in self.folders[..own].iter().map(|folder| (folder, folder.shown.join(written))) {
+        for (folder, shown) in self.folders[..own]
+            .iter()
+            .map(|folder| (folder, folder.shown.join(written)))
+        {
             match self.within(folder, Path::new(written)) {
                 At::File(opened) => return Ok(Found::new(opened, shown, false)),
                 At::Withheld => outside = true,
@@ -246,16 +301,24 @@ impl Search {
             }
             looked.push(shown);
         }
-        Err(if outside { Missing::Outside(looked) } else { Missing::Absent(looked) })
+        Err(if outside {
+            Missing::Outside(looked)
+        } else {
+            Missing::Absent(looked)
+        })
     }
 
     fn is_allowed(&self, path: &Path) -> bool {
-        self.allowed.as_ref().is_some_and(|allowed| path.starts_with(allowed))
+        self.allowed
+            .as_ref()
+            .is_some_and(|allowed| path.starts_with(allowed))
     }
 
     /// The file at a name with `..` in front, which only the folder the user allows can hold.
     fn climb(&self, scene: &Folder, name: &Name) -> Option<Opened> {
-        self.allowed.as_ref().filter(|_| name.climbs > 0 && !name.is_absolute)?;
+        self.allowed
+            .as_ref()
+            .filter(|_| name.climbs > 0 && !name.is_absolute)?;
         let above = scene.resolved.ancestors().nth(name.climbs)?;
         let opened = Opened::at(&above.join(name.components.iter().collect::<PathBuf>()))?;
         self.is_allowed(opened.path()).then_some(opened)
@@ -266,20 +329,33 @@ impl Search {
         let folder = &self.folders[place];
         match self.within(folder, tail) {
             At::File(opened) if self.has_parent && place + 1 == self.folders.len() => {
-                let is_lent = self.is_allowed(opened.path()) || kind.is_lent(&opened, &folder.resolved);
-                if is_lent { At::File(opened) } else { At::Withheld }
+                let is_lent =
+                    self.is_allowed(opened.path()) || kind.is_lent(&opened, &folder.resolved);
+                if is_lent {
+                    At::File(opened)
+                } else {
+                    At::Withheld
+                }
             }
             at @ (At::File(_) | At::Withheld | At::Nothing) => at,
         }
     }
 
     fn within(&self, folder: &Folder, tail: &Path) -> At {
-        let Some(opened) = Opened::at(&folder.resolved.join(tail)) else { return At::Nothing };
-        let is_inside = opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path());
-        if is_inside { At::File(opened) } else { At::Withheld }
+        let Some(opened) = Opened::at(&folder.resolved.join(tail)) else {
+            return At::Nothing;
+        };
+        let is_inside =
+            opened.path().starts_with(&folder.resolved) || self.is_allowed(opened.path());
+        if is_inside {
+            At::File(opened)
+        } else {
+            At::Withheld
+        }
     }
 
-    /// The file whose last component differs from that of `tail` in case only; the first by name, if there are more.
+    /// The file whose last component differs from that of `tail` in case only; the first by name,
+    /// if there are more.
     fn other_case(&self, place: usize, tail: &Path, kind: &Kind) -> Option<Found> {
         let folder = &self.folders[place];
         let wanted = tail.file_name()?.to_str()?.to_lowercase();
@@ -298,11 +374,18 @@ impl Search {
 }
 
 impl Kind {
-    /// Whether a file below a folder is of this kind, by its name and its first bytes, and not hidden there.
+    /// Whether a file below a folder is of this kind, by its name and its first bytes, and not
+    /// hidden there.
     fn is_lent(&self, opened: &Opened, folder: &Path) -> bool {
-        let extension = opened.path().extension().and_then(|extension| extension.to_str()).map(str::to_lowercase);
+        let extension = opened
+            .path()
+            .extension()
+            .and_then(|extension| extension.to_str())
+            .map(str::to_lowercase);
         let below = opened.path().strip_prefix(folder).unwrap_or(opened.path());
-        let is_hidden = below.components().any(|part| part.as_os_str().as_encoded_bytes().starts_with(b"."));
+        let is_hidden = below
+            .components()
+            .any(|part| part.as_os_str().as_encoded_bytes().starts_with(b"."));
         !is_hidden
             && extension.is_some_and(|extension| self.extensions.contains(&extension.as_str()))
             && (self.begins)(&opened.head())

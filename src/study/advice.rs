@@ -10,8 +10,17 @@ const ENOUGH: f64 = 0.5;
 
 /// One sentence a line; the first is the one to follow.
 pub(super) fn advice(study: &Study) -> Vec<String> {
-    let front: Vec<_> = study.rows.iter().filter(|row| row.front).map(|row| steady(study, row)).collect();
-    let Some(chosen) = front.iter().position(|row| row.errors.rmse <= ENOUGH).or(front.len().checked_sub(1)) else {
+    let front: Vec<_> = study
+        .rows
+        .iter()
+        .filter(|row| row.front)
+        .map(|row| steady(study, row))
+        .collect();
+    let Some(chosen) = front
+        .iter()
+        .position(|row| row.errors.rmse <= ENOUGH)
+        .or(front.len().checked_sub(1))
+    else {
         return Vec::new();
     };
     let mut lines = vec![best(study, &front[chosen..])];
@@ -28,27 +37,47 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
     lines
 }
 
-/// The row, or the one by the robust arithmetic if that of the row is not clearly cheaper: the few rounds of a row may say
-/// so by chance.
+/// The row, or the one by the robust arithmetic if that of the row is not clearly cheaper: the few
+/// rounds of a row may say so by chance.
 fn steady<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
     /// A ratio that is clearly below 1.
     const CLEAR: f64 = 0.95;
-    let robust = Setting { precision: Arithmetic::Robust, ..row.setting };
-    let cost = study.precision.iter().find(|cost| cost.arithmetic == row.setting.precision);
+    let robust = Setting {
+        precision: Arithmetic::Robust,
+        ..row.setting
+    };
+    let cost = study
+        .precision
+        .iter()
+        .find(|cost| cost.arithmetic == row.setting.precision);
     let is_clear = cost.is_some_and(|cost| cost.ratio.high < CLEAR);
-    study.rows.iter().find(|row| !is_clear && row.setting == robust).unwrap_or(row)
+    study
+        .rows
+        .iter()
+        .find(|row| !is_clear && row.setting == robust)
+        .unwrap_or(row)
 }
 
 /// The row chosen, and what better ones would cost.
 fn best(study: &Study, rows: &[&Row]) -> String {
     let (chosen, better) = (rows[0], &rows[1..]);
     let words = |row: &Row| row.setting.words(&study.used());
-    let line = format!("{}: {} for {}", words(chosen), error(chosen), seconds(chosen.seconds.value));
-    let half = better.iter().find(|row| row.errors.rmse <= 0.5 * chosen.errors.rmse);
+    let line = format!(
+        "{}: {} for {}",
+        words(chosen),
+        error(chosen),
+        seconds(chosen.seconds.value)
+    );
+    let half = better
+        .iter()
+        .find(|row| row.errors.rmse <= 0.5 * chosen.errors.rmse);
     match half {
         Some(half) => {
             let times = half.seconds.value / chosen.seconds.value;
-            format!("{line}; {} halves the error for {times:.1}× the time.", words(half))
+            format!(
+                "{line}; {} halves the error for {times:.1}× the time.",
+                words(half)
+            )
         }
         None => format!("{line}."),
     }
@@ -57,17 +86,23 @@ fn best(study: &Study, rows: &[&Row]) -> String {
 fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
     let words = own.setting.words(&study.used());
     if own.front {
-        let bargain = |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * own.errors.rmse;
+        let bargain =
+            |row: &&&Row| row.ratio.value <= 1.05 && row.errors.rmse <= 0.8 * own.errors.rmse;
         let line = format!("The scene's own setting, {words}, is on the front");
         return match front.iter().rfind(bargain) {
             Some(row) => format!("{line}, but {}.", instead(study, row, own)),
             None => line + ".",
         };
     }
-    let better = front.iter().rfind(|row| row.seconds.value <= own.seconds.high);
+    let better = front
+        .iter()
+        .rfind(|row| row.seconds.value <= own.seconds.high);
     let better = better.or(front.first());
     match better {
-        Some(row) => format!("The scene's own setting, {words}, is off the front: {}.", instead(study, row, own)),
+        Some(row) => format!(
+            "The scene's own setting, {words}, is off the front: {}.",
+            instead(study, row, own)
+        ),
         None => format!("The scene's own setting is {words}."),
     }
 }
@@ -78,14 +113,22 @@ fn instead(study: &Study, row: &Row, own: &Row) -> String {
     if digits(row.errors.rmse) == digits(own.errors.rmse) {
         return format!("{words} has the same error for {times:.2}× the time");
     }
-    format!("{words} has {} instead of {} for {times:.2}× the time", error(row), digits(own.errors.rmse))
+    format!(
+        "{words} has {} instead of {} for {times:.2}× the time",
+        error(row),
+        digits(own.errors.rmse)
+    )
 }
 
 /// As "error 0.4 grey levels".
 fn error(row: &Row) -> String {
     match row.errors.rmse {
         0.0 => "no error".to_owned(),
-        rmse => format!("error {}{} grey levels", if row.judged { "" } else { "≤ " }, digits(rmse)),
+        rmse => format!(
+            "error {}{} grey levels",
+            if row.judged { "" } else { "≤ " },
+            digits(rmse)
+        ),
     }
 }
 
@@ -118,7 +161,9 @@ mod tests {
     #[test]
     fn numbers_have_the_digits_that_matter() {
         assert_eq!(
-            [0.0, 0.000_12, 0.0123, 0.456, 4.56, 45.6, 456.7].map(digits).join(" "),
+            [0.0, 0.000_12, 0.0123, 0.456, 4.56, 45.6, 456.7]
+                .map(digits)
+                .join(" "),
             "0 1e-4 0.012 0.46 4.56 45.6 457"
         );
         let words = [0.0123, 1.234, 75.0, 600.0, 9000.0].map(seconds).join(", ");

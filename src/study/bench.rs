@@ -22,11 +22,17 @@ pub(super) struct Time {
 
 impl Time {
     pub(super) fn plus(self, other: Self) -> Self {
-        Self { cpu: self.cpu + other.cpu, wall: self.wall + other.wall }
+        Self {
+            cpu: self.cpu + other.cpu,
+            wall: self.wall + other.wall,
+        }
     }
 
     pub(super) fn over(self, count: f64) -> Self {
-        Self { cpu: self.cpu / count, wall: self.wall / count }
+        Self {
+            cpu: self.cpu / count,
+            wall: self.wall / count,
+        }
     }
 }
 
@@ -35,8 +41,15 @@ impl Clock<'_> {
     fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {
         let (cpu, wall) = ((self.cpu)(), (self.wall)());
         let done = work();
-        let since = |clock: &dyn Fn() -> Duration, start| clock().saturating_sub(start).as_secs_f64();
-        (done, Time { cpu: since(self.cpu, cpu), wall: since(self.wall, wall) })
+        let since =
+            |clock: &dyn Fn() -> Duration, start| clock().saturating_sub(start).as_secs_f64();
+        (
+            done,
+            Time {
+                cpu: since(self.cpu, cpu),
+                wall: since(self.wall, wall),
+            },
+        )
     }
 }
 
@@ -51,14 +64,23 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them after each pixel
-    /// and within long ones.
+    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them
+    /// after each pixel and within long ones.
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn new(threads: usize, clock: Clock<'a>, proceed: &'a Proceed<'a>) -> Result<Self, ThreadPoolBuildError> {
+    pub fn new(
+        threads: usize,
+        clock: Clock<'a>,
+        proceed: &'a Proceed<'a>,
+    ) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
-        Ok(Self { clock, proceed, wide: pool(threads)?, narrow: pool(1)? })
+        Ok(Self {
+            clock,
+            proceed,
+            wide: pool(threads)?,
+            narrow: pool(1)?,
+        })
     }
 
     /// Whether to go on after a step of a render.

@@ -1,4 +1,5 @@
-//! What each effect of a scene costs: the scene without it, in the same setting, beside the scene with it.
+//! What each effect of a scene costs: the scene without it, in the same setting, beside the scene
+//! with it.
 
 use super::knob::Setting;
 use super::metrics::rmse;
@@ -30,10 +31,16 @@ type Without = (&'static str, fn(&mut Scene));
 
 const EFFECTS: [Without; 6] = [
     ("shadows", |scene| scene.settings.shadows = false),
-    ("mirrors and refraction", |scene| scene.settings.max_depth = 0),
+    ("mirrors and refraction", |scene| {
+        scene.settings.max_depth = 0
+    }),
     ("depth of field", |scene| scene.camera.lens.radius = 0.0),
-    ("highlights and mirrors", |scene| phongs(scene).for_each(|phong| phong.ks = 0.0)),
-    ("soft lights", |scene| scene.lights.iter_mut().for_each(without_radius)),
+    ("highlights and mirrors", |scene| {
+        phongs(scene).for_each(|phong| phong.ks = 0.0)
+    }),
+    ("soft lights", |scene| {
+        scene.lights.iter_mut().for_each(without_radius)
+    }),
     ("textures", |scene| phongs(scene).for_each(without_maps)),
 ];
 
@@ -48,7 +55,12 @@ fn without_radius(light: &mut Light) {
 }
 
 fn without_maps(phong: &mut Phong) {
-    (phong.color_map, phong.specular_map, phong.normal_map, phong.bump) = (None, None, None, None);
+    (
+        phong.color_map,
+        phong.specular_map,
+        phong.normal_map,
+        phong.bump,
+    ) = (None, None, None, None);
 }
 
 /// The effects that a scene has, each with what it costs in a setting.
@@ -61,7 +73,10 @@ pub(super) fn costs(
     if !matches!(subject.scene.settings.mode, Mode::Phong) {
         return Ok(Vec::new());
     }
-    let with = Runner { subject: subject.clone(), setting };
+    let with = Runner {
+        subject: subject.clone(),
+        setting,
+    };
     let mut names = Vec::new();
     let mut runners = vec![with];
     for (name, without) in EFFECTS {
@@ -69,15 +84,24 @@ pub(super) fn costs(
         without(&mut scene);
         if scene != subject.scene {
             names.push(name);
-            let setting = Setting { depth: scene.settings.max_depth, ..setting };
-            runners.push(Runner { subject: subject.with_scene(scene), setting });
+            let setting = Setting {
+                depth: scene.settings.max_depth,
+                ..setting
+            };
+            runners.push(Runner {
+                subject: subject.with_scene(scene),
+                setting,
+            });
         }
     }
     if names.is_empty() {
         return Ok(Vec::new());
     }
     let race = race(&runners, budget, chance)?;
-    let (with, without) = race.runs.split_first().expect("the scene as it is runs first");
+    let (with, without) = race
+        .runs
+        .split_first()
+        .expect("the scene as it is runs first");
     let all = Rays::from(with.shot.counts).all().max(1) as f64;
     let cost = |(name, run): (&str, &super::race::Run)| EffectCost {
         effect: name.to_owned(),
@@ -88,5 +112,7 @@ pub(super) fn costs(
     };
     // An effect that changes neither picture nor work is not there.
     let costs = names.into_iter().zip(without).map(cost);
-    Ok(costs.filter(|cost| cost.difference > 0.0 || cost.ray_ratio != 1.0).collect())
+    Ok(costs
+        .filter(|cost| cost.difference > 0.0 || cost.ray_ratio != 1.0)
+        .collect())
 }

@@ -1,7 +1,9 @@
-//! FLIP for displays: how different two pictures look when one flips to the other (Andersson et al., "FLIP: a difference
-//! evaluator for alternating images", HPG 2020), 0 for no difference, 1 for the largest.
+//! FLIP for displays: how different two pictures look when one flips to the other (Andersson et
+//! al., "FLIP: a difference evaluator for alternating images", HPG 2020), 0 for no difference, 1
+//! for the largest.
 //!
-//! A display value is taken as the sRGB value a monitor is sent. Pictures are continued by their border.
+//! A display value is taken as the sRGB value a monitor is sent. Pictures are continued by their
+//! border.
 
 use crate::image::Image;
 use crate::math::{Vec3, exp, pow};
@@ -14,9 +16,14 @@ pub const PIXELS_PER_DEGREE: f64 = 67.020_645;
 pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64> {
     let eye = Eye::new(pixels_per_degree);
     let (reference, test) = (eye.look(reference), eye.look(test));
-    let largest = pow(hyab(hunt(linear_to_lab(Vec3::Y)), hunt(linear_to_lab(Vec3::Z))), Q_COLOR);
+    let largest = pow(
+        hyab(hunt(linear_to_lab(Vec3::Y)), hunt(linear_to_lab(Vec3::Z))),
+        Q_COLOR,
+    );
     let pairs = reference.into_iter().zip(test);
-    pairs.map(|(reference, test)| difference(&reference, &test, largest)).collect()
+    pairs
+        .map(|(reference, test)| difference(&reference, &test, largest))
+        .collect()
 }
 
 /// A pixel as seen.
@@ -46,15 +53,17 @@ fn difference(reference: &Seen, test: &Seen, largest: f64) -> f64 {
         AT_KNEE + (color - knee) / (largest - knee) * (1.0 - AT_KNEE)
     };
     // Let a difference of features strengthen that of colour.
-    let feature = (reference.edge - test.edge).abs().max((reference.point - test.point).abs());
+    let feature = (reference.edge - test.edge)
+        .abs()
+        .max((reference.point - test.point).abs());
     let feature = pow(feature / std::f64::consts::SQRT_2, Q_FEATURE);
     pow(color.min(1.0), 1.0 - feature.min(1.0))
 }
 
 /// The filters of an eye at some distance.
 struct Eye {
-    /// The contrast sensitivity to luminance, red–green and blue–yellow: a sum of separable Gaussians for each, with
-    /// their weights.
+    /// The contrast sensitivity to luminance, red–green and blue–yellow: a sum of separable
+    /// Gaussians for each, with their weights.
     sensitivity: [Vec<(f64, Vec<f64>)>; 3],
     feature: FeatureFilter,
 }
@@ -68,44 +77,76 @@ struct FeatureFilter {
 
 impl Eye {
     fn new(pixels_per_degree: f64) -> Self {
-        // Weights and widths of the Gaussians, from the paper's table of contrast sensitivity functions.
-        let table: [&[(f64, f64)]; 3] = [&[(1.0, 0.0047)], &[(1.0, 0.0053)], &[(34.1, 0.04), (13.5, 0.025)]];
+        // Weights and widths of the Gaussians, from the paper's table of contrast sensitivity
+        // functions.
+        let table: [&[(f64, f64)]; 3] = [
+            &[(1.0, 0.0047)],
+            &[(1.0, 0.0053)],
+            &[(34.1, 0.04), (13.5, 0.025)],
+        ];
         let widest = (0.04 / (2.0 * std::f64::consts::PI * std::f64::consts::PI)).sqrt();
         let radius = (3.0 * widest * pixels_per_degree).ceil();
         let sensitivity = table.map(|terms| normalized_sum(terms, radius, pixels_per_degree));
-        Self { sensitivity, feature: FeatureFilter::new(pixels_per_degree) }
+        Self {
+            sensitivity,
+            feature: FeatureFilter::new(pixels_per_degree),
+        }
     }
 
     /// Every pixel of a picture as seen.
     fn look(&self, image: &Image) -> Vec<Seen> {
         let (width, height) = (image.width as usize, image.height as usize);
-        let opponent: Vec<_> = image.pixels.iter().map(|p| xyz_to_opponent(linear_to_xyz(to_linear(*p)))).collect();
+        let opponent: Vec<_> = image
+            .pixels
+            .iter()
+            .map(|p| xyz_to_opponent(linear_to_xyz(to_linear(*p))))
+            .collect();
         let plane = |channel: usize| {
             let values = opponent.iter().map(|p| p[channel]).collect();
-            Plane { width, height, values }
+            Plane {
+                width,
+                height,
+                values,
+            }
         };
         let blurred = [0, 1, 2].map(|channel| plane(channel).blur(&self.sensitivity[channel]));
         let mut luminance = plane(0);
-        luminance.values.iter_mut().for_each(|y| *y = (*y + 16.0) / 116.0);
+        luminance
+            .values
+            .iter_mut()
+            .for_each(|y| *y = (*y + 16.0) / 116.0);
         let [edges, points] = self.feature.strengths(&luminance);
         (0..width * height)
             .map(|i| {
-                let seen = Vec3::from_array([0, 1, 2].map(|channel: usize| blurred[channel].values[i]));
+                let seen =
+                    Vec3::from_array([0, 1, 2].map(|channel: usize| blurred[channel].values[i]));
                 let linear = xyz_to_linear(opponent_to_xyz(seen)).clamp(Vec3::ZERO, Vec3::ONE);
-                Seen { color: hunt(linear_to_lab(linear)), edge: edges[i], point: points[i] }
+                Seen {
+                    color: hunt(linear_to_lab(linear)),
+                    edge: edges[i],
+                    point: points[i],
+                }
             })
             .collect()
     }
 }
 
-/// Gaussians `a·√(π/b)·exp(−π²·x²/b)`, x in degrees, cut at the radius and scaled so that they sum to one.
-fn normalized_sum(terms: &[(f64, f64)], radius: f64, pixels_per_degree: f64) -> Vec<(f64, Vec<f64>)> {
+/// Gaussians `a·√(π/b)·exp(−π²·x²/b)`, x in degrees, cut at the radius and scaled so that they sum
+/// to one.
+fn normalized_sum(
+    terms: &[(f64, f64)],
+    radius: f64,
+    pixels_per_degree: f64,
+) -> Vec<(f64, Vec<f64>)> {
     use std::f64::consts::PI;
     let gaussian = |b: f64| {
         let weight = |x: f64| exp(-PI * PI * (x / pixels_per_degree) * (x / pixels_per_degree) / b);
         offsets(radius).map(weight).collect::<Vec<_>>()
     };
-    let mut sum: Vec<_> = terms.iter().map(|(a, b)| (a * (PI / b).sqrt(), gaussian(*b))).collect();
+    let mut sum: Vec<_> = terms
+        .iter()
+        .map(|(a, b)| (a * (PI / b).sqrt(), gaussian(*b)))
+        .collect();
     let mass = |line: &[f64]| line.iter().sum::<f64>() * line.iter().sum::<f64>();
     let total: f64 = sum.iter().map(|(weight, line)| weight * mass(line)).sum();
     sum.iter_mut().for_each(|(weight, _)| *weight /= total);
@@ -126,10 +167,16 @@ impl FeatureFilter {
         let gaussian = |x: f64| exp(-x * x / (2.0 * deviation * deviation));
         let smooth: Vec<_> = offsets(radius).map(gaussian).collect();
         let first: Vec<_> = offsets(radius).map(|x| -x * gaussian(x)).collect();
-        let second = offsets(radius).map(|x| (x * x / (deviation * deviation) - 1.0) * gaussian(x)).collect();
+        let second = offsets(radius)
+            .map(|x| (x * x / (deviation * deviation) - 1.0) * gaussian(x))
+            .collect();
         let total: f64 = smooth.iter().sum();
         let smooth = smooth.into_iter().map(|weight| weight / total).collect();
-        Self { smooth, first: balanced(first), second: balanced(second) }
+        Self {
+            smooth,
+            first: balanced(first),
+            second: balanced(second),
+        }
     }
 
     /// The strength of edges and points: the lengths of the first and of the second derivatives.
@@ -137,7 +184,12 @@ impl FeatureFilter {
         [&self.first, &self.second].map(|derivative| {
             let across = luminance.convolve(derivative, &self.smooth);
             let along = luminance.convolve(&self.smooth, derivative);
-            across.values.iter().zip(&along.values).map(|(x, y)| (x * x + y * y).sqrt()).collect()
+            across
+                .values
+                .iter()
+                .zip(&along.values)
+                .map(|(x, y)| (x * x + y * y).sqrt())
+                .collect()
         })
     }
 }
@@ -146,7 +198,10 @@ impl FeatureFilter {
 fn balanced(weights: Vec<f64>) -> Vec<f64> {
     let above: f64 = weights.iter().filter(|weight| **weight > 0.0).sum();
     let below: f64 = -weights.iter().filter(|weight| **weight < 0.0).sum::<f64>();
-    weights.into_iter().map(|weight| weight / if weight > 0.0 { above } else { below }).collect()
+    weights
+        .into_iter()
+        .map(|weight| weight / if weight > 0.0 { above } else { below })
+        .collect()
 }
 
 /// One number for each pixel.
@@ -164,25 +219,40 @@ impl Plane {
                 *sum += weight * value;
             }
         }
-        Self { values: sum, ..*self }
+        Self {
+            values: sum,
+            ..*self
+        }
     }
 
     /// The separable convolution with `across` along rows and `along` along columns.
     fn convolve(&self, across: &[f64], along: &[f64]) -> Self {
-        let Self { width, height, values } = self;
+        let Self {
+            width,
+            height,
+            values,
+        } = self;
         let rows = (0..*height).flat_map(|y| (0..*width).map(move |x| (x, y)));
-        let rows = rows.map(|(x, y)| weigh(across, x, *width, |x| values[y * width + x])).collect::<Vec<_>>();
+        let rows = rows
+            .map(|(x, y)| weigh(across, x, *width, |x| values[y * width + x]))
+            .collect::<Vec<_>>();
         let columns = (0..*height).flat_map(|y| (0..*width).map(move |x| (x, y)));
-        let values = columns.map(|(x, y)| weigh(along, y, *height, |y| rows[y * width + x])).collect();
+        let values = columns
+            .map(|(x, y)| weigh(along, y, *height, |y| rows[y * width + x]))
+            .collect();
         Self { values, ..*self }
     }
 }
 
-/// The weighted sum around a place on a line of `length` values, the first and last of which go on for ever.
+/// The weighted sum around a place on a line of `length` values, the first and last of which go on
+/// for ever.
 fn weigh(weights: &[f64], at: usize, length: usize, value: impl Fn(usize) -> f64) -> f64 {
     let radius = weights.len() / 2;
     let place = |k: usize| (at + k).saturating_sub(radius).min(length - 1);
-    (0..).zip(weights).map(|(k, weight)| weight * value(place(k))).sum()
+    (0..)
+        .zip(weights)
+        .map(|(k, weight)| weight * value(place(k)))
+        .sum()
 }
 
 /// The distance of two colours: along the lightness plus across (Abasi et al., 2020).
@@ -197,15 +267,33 @@ fn hunt(lab: Vec3) -> Vec3 {
 }
 
 fn to_linear(display: [f64; 3]) -> Vec3 {
-    let channel = |v: f64| if v <= 0.04045 { v / 12.92 } else { pow((v + 0.055) / 1.055, 2.4) };
+    let channel = |v: f64| {
+        if v <= 0.04045 {
+            v / 12.92
+        } else {
+            pow((v + 0.055) / 1.055, 2.4)
+        }
+    };
     Vec3::from_array(display.map(|v| channel(v.clamp(0.0, 1.0))))
 }
 
 /// The rows of the matrix from linear sRGB to CIE XYZ (IEC 61966-2-1), as exact fractions.
 const XYZ_FROM_LINEAR: [Vec3; 3] = [
-    Vec3::new(10_135_552.0 / 24_577_794.0, 8_788_810.0 / 24_577_794.0, 4_435_075.0 / 24_577_794.0),
-    Vec3::new(2_613_072.0 / 12_288_897.0, 8_788_810.0 / 12_288_897.0, 887_015.0 / 12_288_897.0),
-    Vec3::new(1_425_312.0 / 73_733_382.0, 8_788_810.0 / 73_733_382.0, 70_074_185.0 / 73_733_382.0),
+    Vec3::new(
+        10_135_552.0 / 24_577_794.0,
+        8_788_810.0 / 24_577_794.0,
+        4_435_075.0 / 24_577_794.0,
+    ),
+    Vec3::new(
+        2_613_072.0 / 12_288_897.0,
+        8_788_810.0 / 12_288_897.0,
+        887_015.0 / 12_288_897.0,
+    ),
+    Vec3::new(
+        1_425_312.0 / 73_733_382.0,
+        8_788_810.0 / 73_733_382.0,
+        70_074_185.0 / 73_733_382.0,
+    ),
 ];
 
 fn linear_to_xyz(color: Vec3) -> Vec3 {
@@ -239,7 +327,11 @@ fn linear_to_lab(color: Vec3) -> Vec3 {
     /// Below it the cube root is replaced by a line.
     const DELTA: f64 = 6.0 / 29.0;
     let f = |t: f64| {
-        if t > DELTA * DELTA * DELTA { pow(t, 1.0 / 3.0) } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 }
+        if t > DELTA * DELTA * DELTA {
+            pow(t, 1.0 / 3.0)
+        } else {
+            t / (3.0 * DELTA * DELTA) + 4.0 / 29.0
+        }
     };
     let q = relative(linear_to_xyz(color));
     let (x, y, z) = (f(q.x), f(q.y), f(q.z));
@@ -255,16 +347,27 @@ mod tests {
 
     fn picture(value: impl Fn(u32, u32) -> [f64; 3]) -> Image {
         let places = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
-        Image { width: WIDTH, height: HEIGHT, pixels: places.map(|(x, y)| value(x, y)).collect() }
+        Image {
+            width: WIDTH,
+            height: HEIGHT,
+            pixels: places.map(|(x, y)| value(x, y)).collect(),
+        }
     }
 
     fn ramp(x: u32, y: u32) -> [f64; 3] {
-        [f64::from(x) / f64::from(WIDTH - 1), f64::from(y) / f64::from(HEIGHT - 1), 0.5]
+        [
+            f64::from(x) / f64::from(WIDTH - 1),
+            f64::from(y) / f64::from(HEIGHT - 1),
+            0.5,
+        ]
     }
 
     fn mean_and_max(reference: &Image, test: &Image) -> (f64, f64) {
         let map = flip(reference, test, PIXELS_PER_DEGREE);
-        (map.iter().sum::<f64>() / map.len() as f64, map.iter().copied().fold(0.0, f64::max))
+        (
+            map.iter().sum::<f64>() / map.len() as f64,
+            map.iter().copied().fold(0.0, f64::max),
+        )
     }
 
     /// Means and largest values as `flip-evaluator` 1.7 has them.
@@ -276,16 +379,49 @@ mod tests {
         let flat = |color: [f64; 3]| picture(move |_, _| color);
         let dot = picture(|x, y| [if (x, y) == (20, 17) { 1.0 } else { 0.2 }; 3]);
         let cases = [
-            ("darker", picture(ramp), picture(|x, y| ramp(x, y).map(|v| 0.9 * v)), 0.334_849, 0.526_318),
-            ("black and white", flat([0.0; 3]), flat([1.0; 3]), 0.967_401, 0.967_388),
-            ("blue and green", flat([0.0, 0.0, 1.0]), flat([0.0, 1.0, 0.0]), 1.0, 1.0),
-            ("checks one row on", checks(0), checks(1), 0.306_736, 0.979_473),
-            ("an edge one column on", step(24), step(25), 0.068_952, 0.772_917),
+            (
+                "darker",
+                picture(ramp),
+                picture(|x, y| ramp(x, y).map(|v| 0.9 * v)),
+                0.334_849,
+                0.526_318,
+            ),
+            (
+                "black and white",
+                flat([0.0; 3]),
+                flat([1.0; 3]),
+                0.967_401,
+                0.967_388,
+            ),
+            (
+                "blue and green",
+                flat([0.0, 0.0, 1.0]),
+                flat([0.0, 1.0, 0.0]),
+                1.0,
+                1.0,
+            ),
+            (
+                "checks one row on",
+                checks(0),
+                checks(1),
+                0.306_736,
+                0.979_473,
+            ),
+            (
+                "an edge one column on",
+                step(24),
+                step(25),
+                0.068_952,
+                0.772_917,
+            ),
             ("a dot", flat([0.2; 3]), dot, 0.004_716, 0.658_372),
         ];
         for (name, reference, test, mean, max) in cases {
             let (our_mean, our_max) = mean_and_max(&reference, &test);
-            assert!((our_mean - mean).abs() < 5e-4 && (our_max - max).abs() < 2e-3, "{name}: {our_mean} {our_max}");
+            assert!(
+                (our_mean - mean).abs() < 5e-4 && (our_max - max).abs() < 2e-3,
+                "{name}: {our_mean} {our_max}"
+            );
         }
     }
 
@@ -297,9 +433,16 @@ mod tests {
             f64::from(state) / 4_294_967_296.0
         };
         let mut noisy = picture(ramp);
-        noisy.pixels.iter_mut().flatten().for_each(|v| *v = 0.8 * *v + 0.2 * next());
+        noisy
+            .pixels
+            .iter_mut()
+            .flatten()
+            .for_each(|v| *v = 0.8 * *v + 0.2 * next());
         let (mean, max) = mean_and_max(&picture(ramp), &noisy);
-        assert!((mean - 0.303_949).abs() < 5e-4 && (max - 0.738_713).abs() < 2e-3, "{mean} {max}");
+        assert!(
+            (mean - 0.303_949).abs() < 5e-4 && (max - 0.738_713).abs() < 2e-3,
+            "{mean} {max}"
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Which settings are worth their work: candidates by greed on the model, the front of those measured.
+//! Which settings are worth their work: candidates by greed on the model, the front of those
+//! measured.
 
 use super::knob::{Knob, Setting};
 use super::sweep::Model;
@@ -7,14 +8,15 @@ use crate::math::ln;
 /// A step that lessens the error by less than a hundredth is not worth a row.
 const WORTH: f64 = 0.99;
 
-/// Errors that differ by less than a thousandth are the same: so much is in how hits at edges are rounded.
+/// Errors that differ by less than a thousandth are the same: so much is in how hits at edges are
+/// rounded.
 const SAME: f64 = 1.001;
 
 /// So many times the rays are no more of a cost, unless seconds tell.
 const SAME_COST: f64 = 1.02;
 
-/// Settings from the least work up, each with the knob raised that the model says lessens the error most for the work;
-/// until the rays exceed `most_rays` or the error falls below `least_error`.
+/// Settings from the least work up, each with the knob raised that the model says lessens the error
+/// most for the work; until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
     model: &Model,
     least: Setting,
@@ -33,8 +35,11 @@ pub(super) fn candidates(
             let value = knob.ladder().find(|value| *value > now.get(*knob))?;
             Some(now.with(*knob, value))
         });
-        let affordable = raised.filter(|next| model.rays(*next) <= most_rays && model.error(*next) < WORTH * error);
-        let gain = |next: &Setting| ln(error / model.error(*next)) / ln(model.rays(*next) / rays).max(1e-6);
+        let affordable = raised
+            .filter(|next| model.rays(*next) <= most_rays && model.error(*next) < WORTH * error);
+        let gain = |next: &Setting| {
+            ln(error / model.error(*next)) / ln(model.rays(*next) / rays).max(1e-6)
+        };
         match affordable.max_by(|a, b| gain(a).total_cmp(&gain(b))) {
             Some(next) => path.push(next),
             None => return path,
@@ -42,9 +47,12 @@ pub(super) fn candidates(
     }
 }
 
-/// The setting by the arithmetic of the least work that leaves no more error, as the model says; none if that is its own.
+/// The setting by the arithmetic of the least work that leaves no more error, as the model says;
+/// none if that is its own.
 pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
-    let mut others = model.tried(Knob::Precision).map(|value| setting.with(Knob::Precision, value));
+    let mut others = model
+        .tried(Knob::Precision)
+        .map(|value| setting.with(Knob::Precision, value));
     let enough = others.find(|other| WORTH * model.error(*other) <= model.error(setting));
     enough.filter(|other| *other != setting)
 }
@@ -71,26 +79,39 @@ impl Point {
     }
 }
 
-/// The points from the cheapest up, each with whether it is on the front: what costs more errs less there.
+/// The points from the cheapest up, each with whether it is on the front: what costs more errs less
+/// there.
 pub(super) fn ranking(points: &[Point]) -> Vec<(usize, bool)> {
     let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
     for place in by_cost(points) {
         let point = &points[place];
         order.push(place);
-        if front.last().is_none_or(|last| SAME * point.error < points[*last].error) {
+        if front
+            .last()
+            .is_none_or(|last| SAME * point.error < points[*last].error)
+        {
             front.pop_if(|last| point.costs_the_same(&points[*last]));
             front.push(place);
         }
     }
-    order.into_iter().map(|place| (place, front.contains(&place))).collect()
+    order
+        .into_iter()
+        .map(|place| (place, front.contains(&place)))
+        .collect()
 }
 
 /// The places of the points, no point before one that is clearly cheaper, and else by their rays.
 fn by_cost(points: &[Point]) -> impl Iterator<Item = usize> {
     let mut left: Vec<_> = (0..points.len()).collect();
     std::iter::from_fn(move || {
-        let is_next = |place: usize| !left.iter().any(|other| points[*other].is_clearly_cheaper(&points[place]));
-        let next = (0..left.len()).filter(|index| is_next(left[*index])).min_by_key(|index| points[left[*index]].rays);
+        let is_next = |place: usize| {
+            !left
+                .iter()
+                .any(|other| points[*other].is_clearly_cheaper(&points[place]))
+        };
+        let next = (0..left.len())
+            .filter(|index| is_next(left[*index]))
+            .min_by_key(|index| points[left[*index]].rays);
         next.map(|index| left.remove(index))
     })
 }
@@ -100,35 +121,67 @@ mod tests {
     use super::*;
 
     fn point(seconds: f64, rays: u64, error: f64) -> Point {
-        Point { seconds: [0.99 * seconds, 1.01 * seconds], rays, error }
+        Point {
+            seconds: [0.99 * seconds, 1.01 * seconds],
+            rays,
+            error,
+        }
     }
 
-    /// The places of the points from the cheapest up, those of the front as they are, all others below 0.
+    /// The places of the points from the cheapest up, those of the front as they are, all others
+    /// below 0.
     fn ranked(points: &[Point]) -> Vec<isize> {
         ranking(points)
             .into_iter()
-            .map(|(place, front)| if front { place as isize } else { -1 - place as isize })
+            .map(|(place, front)| {
+                if front {
+                    place as isize
+                } else {
+                    -1 - place as isize
+                }
+            })
             .collect()
     }
 
     #[test]
     fn the_front_is_what_nothing_dominates() {
-        let points = [point(4.0, 40, 2.0), point(2.0, 20, 5.0), point(2.0, 20, 2.0), point(1.0, 10, 4.0)];
+        let points = [
+            point(4.0, 40, 2.0),
+            point(2.0, 20, 5.0),
+            point(2.0, 20, 2.0),
+            point(1.0, 10, 4.0),
+        ];
         assert_eq!(ranked(&points), [3, -2, 2, -1]);
     }
 
     #[test]
     fn rays_decide_where_seconds_cannot() {
-        let points = [point(1.0, 11, 3.0), point(1.005, 10, 3.0), point(1.001, 12, 1.0)];
+        let points = [
+            point(1.0, 11, 3.0),
+            point(1.005, 10, 3.0),
+            point(1.001, 12, 1.0),
+        ];
         assert_eq!(ranked(&points), [1, -1, 2]);
-        let rounded = [point(1.0, 10, 3.000_1), point(2.0, 10, 3.0), point(4.0, 10, 2.99)];
+        let rounded = [
+            point(1.0, 10, 3.000_1),
+            point(2.0, 10, 3.0),
+            point(4.0, 10, 2.99),
+        ];
         assert_eq!(ranked(&rounded), [0, -2, 2], "errors as good as the same");
-        assert_eq!(ranked(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]), [0, -2], "of equals the first");
+        assert_eq!(
+            ranked(&[point(1.0, 10, 1.0), point(1.0, 10, 1.0)]),
+            [0, -2],
+            "of equals the first"
+        );
     }
 
     #[test]
     fn of_two_that_cost_the_same_the_better_is_on_the_front() {
-        let points = [point(1.01, 1000, 3.1), point(1.0, 1001, 3.0), point(1.0, 1100, 2.0)];
+        let points = [
+            point(1.01, 1000, 3.1),
+            point(1.0, 1001, 3.0),
+            point(1.0, 1100, 2.0),
+        ];
         assert_eq!(ranked(&points), [-1, 1, 2]);
     }
 }

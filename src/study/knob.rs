@@ -1,4 +1,5 @@
-//! The knobs of accuracy: what can be turned for more work and less error, and which of them a scene has.
+//! The knobs of accuracy: what can be turned for more work and less error, and which of them a
+//! scene has.
 
 use super::subject::prove;
 use crate::ir::{Light, Material, Mode, Overrides, Phong, Scene};
@@ -21,14 +22,22 @@ pub enum Knob {
     Paths,
     /// Bounces after the first hit.
     Depth,
-    /// The arithmetic by which rays meet shapes: its values number [`Arithmetic::ALL`] from the least work up.
+    /// The arithmetic by which rays meet shapes: its values number [`Arithmetic::ALL`] from the
+    /// least work up.
     Precision,
 }
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Supersampling, Self::Aperture, Self::Lights, Self::Glossy, Self::Paths, Self::Depth, Self::Precision];
+    pub const ALL: [Self; 7] = [
+        Self::Supersampling,
+        Self::Aperture,
+        Self::Lights,
+        Self::Glossy,
+        Self::Paths,
+        Self::Depth,
+        Self::Precision,
+    ];
 
     /// What it is called in tables.
     #[must_use]
@@ -61,7 +70,11 @@ impl Knob {
     /// A value where there is little room, as "4" or "plain".
     #[must_use]
     pub fn cell(self, value: u32) -> String {
-        if self == Self::Precision { arithmetic(value).name().to_owned() } else { value.to_string() }
+        if self == Self::Precision {
+            arithmetic(value).name().to_owned()
+        } else {
+            value.to_string()
+        }
     }
 
     /// A value in words, as "4×4" or "16 aperture samples".
@@ -71,7 +84,14 @@ impl Knob {
             Self::Supersampling => format!("{value}×{value}"),
             Self::Aperture | Self::Lights | Self::Glossy | Self::Paths => {
                 let name = self.name();
-                format!("{value} {}", if value == 1 { name.trim_end_matches('s') } else { name })
+                format!(
+                    "{value} {}",
+                    if value == 1 {
+                        name.trim_end_matches('s')
+                    } else {
+                        name
+                    }
+                )
             }
             Self::Depth => format!("depth {value}"),
             Self::Precision => format!("{} arithmetic", self.cell(value)),
@@ -108,7 +128,9 @@ impl Knob {
     pub fn samples(self, value: u32) -> f64 {
         match self {
             Self::Supersampling => f64::from(value) * f64::from(value),
-            Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => f64::from(value),
+            Self::Aperture | Self::Lights | Self::Glossy | Self::Paths | Self::Depth => {
+                f64::from(value)
+            }
             Self::Precision => 1.0,
         }
     }
@@ -138,7 +160,8 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// That of a scene, by the robust arithmetic; where its lobes have different numbers of rays the largest stands for all.
+    /// That of a scene, by the robust arithmetic; where its lobes have different numbers of rays
+    /// the largest stands for all.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
@@ -181,7 +204,12 @@ impl Setting {
             Knob::Glossy => &mut self.glossy,
             Knob::Paths => &mut self.paths,
             Knob::Depth => &mut self.depth,
-            Knob::Precision => return Self { precision: arithmetic(value), ..self },
+            Knob::Precision => {
+                return Self {
+                    precision: arithmetic(value),
+                    ..self
+                };
+            }
         };
         *held = value;
         self
@@ -190,13 +218,23 @@ impl Setting {
     /// Camera rays of a pixel.
     #[must_use]
     pub fn camera_rays(&self) -> f64 {
-        Knob::Supersampling.samples(self.supersampling) * f64::from(self.aperture) * f64::from(self.paths)
+        Knob::Supersampling.samples(self.supersampling)
+            * f64::from(self.aperture)
+            * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene, which holds all but the precision; lobes keep theirs where the largest of them is
-    /// meant.
+    /// Writes the values into a scene, which holds all but the precision; lobes keep theirs where
+    /// the largest of them is meant.
     pub fn apply(&self, scene: &mut Scene) {
-        let Self { supersampling, aperture, lights, glossy, paths, depth, precision: _ } = *self;
+        let Self {
+            supersampling,
+            aperture,
+            lights,
+            glossy,
+            paths,
+            depth,
+            precision: _,
+        } = *self;
         let overrides = Overrides {
             size: None,
             supersampling: Some(supersampling),
@@ -209,11 +247,17 @@ impl Setting {
         overrides.apply(scene);
     }
 
-    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust arithmetic goes without saying.
+    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
+    /// arithmetic goes without saying.
     #[must_use]
     pub fn words(&self, knobs: &[Knob]) -> String {
-        let is_said = |knob: &&Knob| **knob != Knob::Precision || self.precision != Arithmetic::Robust;
-        let words: Vec<_> = knobs.iter().filter(is_said).map(|knob| knob.words(self.get(*knob))).collect();
+        let is_said =
+            |knob: &&Knob| **knob != Knob::Precision || self.precision != Arithmetic::Robust;
+        let words: Vec<_> = knobs
+            .iter()
+            .filter(is_said)
+            .map(|knob| knob.words(self.get(*knob)))
+            .collect();
         match words.split_first() {
             Some((first, [])) => first.clone(),
             Some((first, rest)) if knobs[0] == Knob::Supersampling && knobs[1] != Knob::Depth => {
@@ -227,12 +271,19 @@ impl Setting {
 
 /// The arithmetic of a value of the precision.
 fn arithmetic(value: u32) -> Arithmetic {
-    Arithmetic::ALL.into_iter().rev().nth(value as usize).unwrap_or_default()
+    Arithmetic::ALL
+        .into_iter()
+        .rev()
+        .nth(value as usize)
+        .unwrap_or_default()
 }
 
 /// The value of the precision that is an arithmetic.
 pub(super) fn place(arithmetic: Arithmetic) -> u32 {
-    (0..).zip(Arithmetic::ALL.into_iter().rev()).find(|(_, other)| *other == arithmetic).map_or(0, |(value, _)| value)
+    (0..)
+        .zip(Arithmetic::ALL.into_iter().rev())
+        .find(|(_, other)| *other == arithmetic)
+        .map_or(0, |(value, _)| value)
 }
 
 /// Whether the plan expects nothing of a scene to show that an arithmetic loses.
@@ -242,14 +293,22 @@ pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
 
 /// The numbers of rays of the lobes of a scene.
 fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
-    scene.materials.iter().filter_map(Material::phong).map(|phong| phong.glossy_samples).filter(|count| *count > 1)
+    scene
+        .materials
+        .iter()
+        .filter_map(Material::phong)
+        .map(|phong| phong.glossy_samples)
+        .filter(|count| *count > 1)
 }
 
-/// Why a knob is not turned in a scene, or `None` if it is: the scene does not ask for its effect, or the plan leaves that
-/// out however far the knobs are turned, which changes nothing then; or all but one of its values are known to be wrong.
+/// Why a knob is not turned in a scene, or `None` if it is: the scene does not ask for its effect,
+/// or the plan leaves that out however far the knobs are turned, which changes nothing then; or all
+/// but one of its values are known to be wrong.
 #[must_use]
 pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
-    not_asked_for(knob, scene).map(str::to_owned).or_else(|| left_out(knob, scene))
+    not_asked_for(knob, scene)
+        .map(str::to_owned)
+        .or_else(|| left_out(knob, scene))
 }
 
 /// What the plan says of the effect of a knob if it needs none.
@@ -264,11 +323,20 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
     };
     let own = Setting::of(scene);
     let mut turned = scene.clone();
-    Knob::ALL.into_iter().fold(own, |all, knob| all.with(knob, own.get(knob).max(2))).apply(&mut turned);
+    Knob::ALL
+        .into_iter()
+        .fold(own, |all, knob| all.with(knob, own.get(knob).max(2)))
+        .apply(&mut turned);
     let plan = Plan::new(&prove(&turned), Rules::ALL);
-    let verdict = plan.verdicts.iter().find(|verdict| verdict.effect == effect && verdict.of.is_none())?;
+    let verdict = plan
+        .verdicts
+        .iter()
+        .find(|verdict| verdict.effect == effect && verdict.of.is_none())?;
     let Verdict { because, rule, .. } = verdict;
-    let reason = rule.map_or_else(|| because.clone(), |rule| format!("{because} ({})", rule.name()));
+    let reason = rule.map_or_else(
+        || because.clone(),
+        |rule| format!("{because} ({})", rule.name()),
+    );
     (verdict.state != State::Needed).then_some(reason)
 }
 
@@ -278,9 +346,13 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
     let counted = (paths, "each path takes a sample of its own");
     let weights = || scene.materials.iter().filter_map(Material::phong);
     let is_dull = |phong: &Phong| phong.ks == 0.0 && phong.kt == 0.0;
-    let is_robust = |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
+    let is_robust =
+        |arithmetic: &Arithmetic| *arithmetic == Arithmetic::Robust || !bears(scene, *arithmetic);
     let cases: &[(bool, &'static str)] = match knob {
-        Knob::Supersampling => &[counted, (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel")],
+        Knob::Supersampling => &[
+            counted,
+            (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
+        ],
         Knob::Aperture => &[
             counted,
             (*mode == Mode::Zbuffer, "the z-buffer takes one ray a pixel"),
@@ -289,23 +361,43 @@ fn not_asked_for(knob: Knob, scene: &Scene) -> Option<&'static str> {
         Knob::Lights => &[
             counted,
             (!phong, "the mode asks only the middle of a light"),
-            (scene.lights.iter().filter_map(Light::point).all(|light| light.radius == 0.0), "no light has a radius"),
+            (
+                scene
+                    .lights
+                    .iter()
+                    .filter_map(Light::point)
+                    .all(|light| light.radius == 0.0),
+                "no light has a radius",
+            ),
         ],
         Knob::Glossy => &[
             counted,
             (!phong, "the mode follows no mirror"),
-            (weights().all(|phong| phong.glossy_samples == 1), "no material is glossy"),
+            (
+                weights().all(|phong| phong.glossy_samples == 1),
+                "no material is glossy",
+            ),
         ],
         Knob::Paths => &[(!paths, "the mode follows rays from the eye alone")],
         Knob::Depth => &[
-            (!phong && !paths, "the mode follows no mirror and no refraction"),
-            (phong && weights().all(is_dull), "no material mirrors or lets light through"),
+            (
+                !phong && !paths,
+                "the mode follows no mirror and no refraction",
+            ),
+            (
+                phong && weights().all(is_dull),
+                "no material mirrors or lets light through",
+            ),
         ],
-        Knob::Precision => {
-            &[(Arithmetic::ALL.iter().all(is_robust), "what any but the robust arithmetic loses would show")]
-        }
+        Knob::Precision => &[(
+            Arithmetic::ALL.iter().all(is_robust),
+            "what any but the robust arithmetic loses would show",
+        )],
     };
-    cases.iter().find(|(holds, _)| *holds).map(|(_, reason)| *reason)
+    cases
+        .iter()
+        .find(|(holds, _)| *holds)
+        .map(|(_, reason)| *reason)
 }
 
 #[cfg(test)]
@@ -314,30 +406,59 @@ mod tests {
 
     #[test]
     fn settings_in_words() {
-        let setting = Setting { paths: 32, ..setting(4, 16, 3) };
+        let setting = Setting {
+            paths: 32,
+            ..setting(4, 16, 3)
+        };
         let words = |knobs: &[Knob]| setting.words(knobs);
-        assert_eq!(words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]), "4×4 with 16 aperture samples, depth 3");
-        assert_eq!(words(&[Knob::Supersampling, Knob::Lights]), "4×4 with 1 light sample");
+        assert_eq!(
+            words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]),
+            "4×4 with 16 aperture samples, depth 3"
+        );
+        assert_eq!(
+            words(&[Knob::Supersampling, Knob::Lights]),
+            "4×4 with 1 light sample"
+        );
         assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
         assert_eq!(words(&[Knob::Paths, Knob::Depth]), "32 paths, depth 3");
         assert_eq!(words(&[]), "the scene as it is");
         assert_eq!(words(&[Knob::Supersampling, Knob::Precision]), "4×4");
-        let plain = Setting { precision: Arithmetic::Plain, ..setting };
-        assert_eq!(plain.words(&[Knob::Depth, Knob::Precision]), "depth 3, plain arithmetic");
+        let plain = Setting {
+            precision: Arithmetic::Plain,
+            ..setting
+        };
+        assert_eq!(
+            plain.words(&[Knob::Depth, Knob::Precision]),
+            "depth 3, plain arithmetic"
+        );
     }
 
     fn setting(supersampling: u32, aperture: u32, depth: u32) -> Setting {
         let precision = Arithmetic::Robust;
-        Setting { supersampling, aperture, lights: 1, glossy: 1, paths: 1, depth, precision }
+        Setting {
+            supersampling,
+            aperture,
+            lights: 1,
+            glossy: 1,
+            paths: 1,
+            depth,
+            precision,
+        }
     }
 
     #[test]
     fn ladders_rise_from_the_least() {
         for knob in Knob::ALL {
             let values: Vec<_> = knob.ladder().collect();
-            assert!(values[0] == knob.least() && values.is_sorted_by(|a, b| a < b), "{knob:?}: {values:?}");
+            assert!(
+                values[0] == knob.least() && values.is_sorted_by(|a, b| a < b),
+                "{knob:?}: {values:?}"
+            );
             assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1);
         }
-        assert_eq!([Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust].map(place), [0, 1, 2]);
+        assert_eq!(
+            [Arithmetic::F32, Arithmetic::Plain, Arithmetic::Robust].map(place),
+            [0, 1, 2]
+        );
     }
 }

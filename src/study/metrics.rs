@@ -1,5 +1,5 @@
-//! How far a picture is from another, in several measures. All are of display values: each sample was clamped to [0, 1]
-//! before the mean, as a picture file shows it, and nothing was rounded.
+//! How far a picture is from another, in several measures. All are of display values: each sample
+//! was clamped to [0, 1] before the mean, as a picture file shows it, and nothing was rounded.
 
 use super::flip::{PIXELS_PER_DEGREE, flip};
 use super::statistics::relative_error_of_mean;
@@ -15,8 +15,8 @@ pub const LEVELS: f64 = 255.0;
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
-    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a share of it: 0 if all of the
-    /// picture was looked at.
+    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a share of
+    /// it: 0 if all of the picture was looked at.
     pub rmse_uncertainty: f64,
     /// The mean of `(x − r)²/(r² + 0.01)`, which weighs dark places more.
     pub relative_mse: f64,
@@ -33,12 +33,16 @@ impl Errors {
     #[must_use]
     pub fn of(test: &[Image], reference: &[Image], share: f64) -> Self {
         let pairs = || test.iter().zip(reference);
-        let squares: Vec<f64> = pairs().map(|(test, reference)| mean_square(test, reference)).collect();
+        let squares: Vec<f64> = pairs()
+            .map(|(test, reference)| mean_square(test, reference))
+            .collect();
         let channels = || pairs().flat_map(|(test, reference)| channels(test, reference));
         let relative = |(x, r): (f64, f64)| (x - r) * (x - r) / (r * r + 0.01);
         let pixels = pairs().map(|(test, _)| test.pixels.len()).sum::<usize>() as f64;
         let is_off = |(test, reference): (&[f64; 3], &[f64; 3])| {
-            test.iter().zip(reference).any(|(x, r)| (x - r).abs() * LEVELS > 1.0)
+            test.iter()
+                .zip(reference)
+                .any(|(x, r)| (x - r).abs() * LEVELS > 1.0)
         };
         let off = pairs()
             .flat_map(|(test, reference)| test.pixels.iter().zip(&reference.pixels))
@@ -62,18 +66,25 @@ pub fn rmse(a: &[Image], b: &[Image]) -> f64 {
     mean_product([a, b], [a, b]).sqrt() * LEVELS
 }
 
-/// The mean of `(a₀ − b₀)·(a₁ − b₁)` over all channels. Where noise of a₀ and a₁ is independent it cancels, and what both
-/// have in common stays.
+/// The mean of `(a₀ − b₀)·(a₁ − b₁)` over all channels. Where noise of a₀ and a₁ is independent it
+/// cancels, and what both have in common stays.
 #[must_use]
 pub(super) fn mean_product(first: [&[Image]; 2], second: [&[Image]; 2]) -> f64 {
-    let (count, sum) = products(first, second).fold((0_u64, 0.0), |(count, sum), product| (count + 1, sum + product));
+    let (count, sum) = products(first, second).fold((0_u64, 0.0), |(count, sum), product| {
+        (count + 1, sum + product)
+    });
     sum / count.max(1) as f64
 }
 
 /// `(a₀ − b₀)·(a₁ − b₁)` for each channel.
-pub(super) fn products<'a>([a0, b0]: [&'a [Image]; 2], [a1, b1]: [&'a [Image]; 2]) -> impl Iterator<Item = f64> + 'a {
+pub(super) fn products<'a>(
+    [a0, b0]: [&'a [Image]; 2],
+    [a1, b1]: [&'a [Image]; 2],
+) -> impl Iterator<Item = f64> + 'a {
     let pairs = |a: &'a [Image], b: &'a [Image]| a.iter().zip(b).flat_map(|(a, b)| channels(a, b));
-    pairs(a0, b0).zip(pairs(a1, b1)).map(|((a0, b0), (a1, b1))| (a0 - b0) * (a1 - b1))
+    pairs(a0, b0)
+        .zip(pairs(a1, b1))
+        .map(|((a0, b0), (a1, b1))| (a0 - b0) * (a1 - b1))
 }
 
 fn mean_square(a: &Image, b: &Image) -> f64 {
@@ -81,14 +92,23 @@ fn mean_square(a: &Image, b: &Image) -> f64 {
 }
 
 fn channels(a: &Image, b: &Image) -> impl Iterator<Item = (f64, f64)> {
-    a.pixels.iter().flatten().copied().zip(b.pixels.iter().flatten().copied())
+    a.pixels
+        .iter()
+        .flatten()
+        .copied()
+        .zip(b.pixels.iter().flatten().copied())
 }
 
 /// The mean of two sets of pictures.
 #[must_use]
 pub(super) fn mean(a: &[Image], b: &[Image]) -> Vec<Image> {
     let mean = |(a, b): (&Image, &Image)| {
-        let pixels = a.pixels.iter().zip(&b.pixels).map(|(a, b)| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c]))).collect();
+        let pixels = a
+            .pixels
+            .iter()
+            .zip(&b.pixels)
+            .map(|(a, b)| [0, 1, 2].map(|c| 0.5 * (a[c] + b[c])))
+            .collect();
         Image { pixels, ..*a }
     };
     a.iter().zip(b).map(mean).collect()
@@ -111,10 +131,16 @@ mod tests {
         let reference = [row(&[0.0, 0.3, 0.5, 1.0])];
         let test = [row(&[0.0, 0.3, 0.5 + 3.0 / 255.0, 1.0 - 0.9 / 255.0])];
         let errors = Errors::of(&test, &reference, 1.0);
-        assert!((errors.rmse - ((9.0 + 0.81_f64) / 4.0).sqrt()).abs() < 1e-12, "{errors:?}");
+        assert!(
+            (errors.rmse - ((9.0 + 0.81_f64) / 4.0).sqrt()).abs() < 1e-12,
+            "{errors:?}"
+        );
         let relative = (9.0 / 0.26 + 0.81 / 1.01) / 4.0 / 255.0 / 255.0;
         assert!((errors.relative_mse - relative).abs() < 1e-15, "{errors:?}");
-        assert!((errors.max - 3.0).abs() < 1e-12 && errors.visible == 0.25, "one pixel is off by more than one level");
+        assert!(
+            (errors.max - 3.0).abs() < 1e-12 && errors.visible == 0.25,
+            "one pixel is off by more than one level"
+        );
         assert!(errors.rmse_uncertainty == 0.0 && errors.flip > 0.0);
     }
 
@@ -124,7 +150,10 @@ mod tests {
         let noisy = |signs: [f64; 4]| [row(&signs.map(|sign| 0.6 + 0.2 * sign))];
         let (a, b) = (noisy([1.0, 1.0, -1.0, -1.0]), noisy([1.0, -1.0, 1.0, -1.0]));
         let bias = mean_product([&a, &truth], [&b, &truth]).sqrt();
-        assert!((bias - 0.1).abs() < 1e-12 && rmse(&a, &truth) > 2.0 * bias * LEVELS, "{bias}");
+        assert!(
+            (bias - 0.1).abs() < 1e-12 && rmse(&a, &truth) > 2.0 * bias * LEVELS,
+            "{bias}"
+        );
     }
 
     #[test]

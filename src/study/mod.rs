@@ -1,7 +1,9 @@
-//! What accuracy costs: one scene in many settings, each with its error and its time, and the few that are worth it.
+//! What accuracy costs: one scene in many settings, each with its error and its time, and the few
+//! that are worth it.
 //!
-//! A study makes its own reference, and says how far that may be off. What it decides depends on rays, never on time:
-//! the same study renders the same settings on every machine. All errors are in grey levels of 8 bits.
+//! A study makes its own reference, and says how far that may be off. What it decides depends on
+//! rays, never on time: the same study renders the same settings on every machine. All errors are
+//! in grey levels of 8 bits.
 
 mod advice;
 mod bench;
@@ -71,17 +73,33 @@ const JUDGE: f64 = 0.2;
 ///
 /// # Errors
 /// If someone said stop.
-pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Bench<'_>) -> Result<Study, Stopped> {
+pub fn study(
+    scene: &Scene,
+    about: About,
+    effort: Effort,
+    seed: u64,
+    bench: &Bench<'_>,
+) -> Result<Study, Stopped> {
     let scope = Scope::new(scene, effort);
     let subject = scope.part(&Subject::new(scene, seed, bench))?;
     let mut grounds = scope.grounds(&subject)?;
     let mut chance = Chance::new(seed);
-    let precision = precision::costs(&subject, scope.own, scope.hundredths(FOR_PRECISION), &mut chance)?;
+    let precision = precision::costs(
+        &subject,
+        scope.own,
+        scope.hundredths(FOR_PRECISION),
+        &mut chance,
+    )?;
     if scope.used.contains(&Knob::Precision) {
         grounds.model.learn_precision(precision::ladder(&precision));
     }
     let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
-    let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut chance)?;
+    let effects = effects::costs(
+        &subject,
+        scope.own,
+        scope.hundredths(FOR_EFFECTS),
+        &mut chance,
+    )?;
     let mut study = Study {
         schema: "rtc-cost/1".to_owned(),
         about,
@@ -89,12 +107,18 @@ pub fn study(scene: &Scene, about: About, effort: Effort, seed: u64, bench: &Ben
         seed,
         part: Part {
             size: scene.camera.size,
-            tiles: if subject.is_whole() { 0 } else { subject.count() },
+            tiles: if subject.is_whole() {
+                0
+            } else {
+                subject.count()
+            },
             pixels: subject.pixels(),
             share: subject.share(),
         },
         reference: grounds.report(),
-        knobs: Knob::ALL.map(|knob| grounds.model.report(knob, idle(knob, scene))).to_vec(),
+        knobs: Knob::ALL
+            .map(|knob| grounds.model.report(knob, idle(knob, scene)))
+            .to_vec(),
         rows,
         effects,
         precision,
@@ -124,9 +148,21 @@ struct Grounds {
 
 impl Scope {
     fn new(scene: &Scene, effort: Effort) -> Self {
-        let used: Vec<_> = Knob::ALL.into_iter().filter(|knob| idle(*knob, scene).is_none()).collect();
-        let sampling = used.iter().copied().filter(|knob| knob.samples_pixels()).collect();
-        Self { own: Setting::of(scene), used, sampling, effort }
+        let used: Vec<_> = Knob::ALL
+            .into_iter()
+            .filter(|knob| idle(*knob, scene).is_none())
+            .collect();
+        let sampling = used
+            .iter()
+            .copied()
+            .filter(|knob| knob.samples_pixels())
+            .collect();
+        Self {
+            own: Setting::of(scene),
+            used,
+            sampling,
+            effort,
+        }
     }
 
     fn hundredths(&self, share: u64) -> u64 {
@@ -135,7 +171,9 @@ impl Scope {
 
     /// The scene's own setting with all knobs that sample at a value.
     fn at(&self, value: u32) -> Setting {
-        self.sampling.iter().fold(self.own, |setting, knob| setting.with(*knob, value))
+        self.sampling
+            .iter()
+            .fold(self.own, |setting, knob| setting.with(*knob, value))
     }
 
     /// As many tiles as can have a good reference, and be rendered in the scene's own setting.
@@ -156,51 +194,106 @@ impl Scope {
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let pixels = of_reference.min(of_own);
         let share = pixels / pilot.pixels() as f64 * pilot.count() as f64;
-        let enough = (0..subject.count()).take_while(|count| (*count as f64) < share).count();
-        Ok(if enough * 4 > subject.count() * 3 { subject.clone() } else { subject.keep(enough.max(FEWEST)) })
+        let enough = (0..subject.count())
+            .take_while(|count| (*count as f64) < share)
+            .count();
+        Ok(if enough * 4 > subject.count() * 3 {
+            subject.clone()
+        } else {
+            subject.keep(enough.max(FEWEST))
+        })
     }
 
-    /// The sampling by which depths are compared: twice where what a bounce adds is itself found by chance.
+    /// The sampling by which depths are compared: twice where what a bounce adds is itself found by
+    /// chance.
     fn seeds_of_depths(&self) -> Vec<Seeds> {
-        let count = if self.used.contains(&Knob::Paths) { 2 } else { 1 };
+        let count = if self.used.contains(&Knob::Paths) {
+            2
+        } else {
+            1
+        };
         (1..=count).map(reference::independent).collect()
     }
 
     fn grounds(&self, subject: &Subject<'_>) -> Result<Grounds, Stopped> {
         let depths = match self.used.contains(&Knob::Depth) {
-            true => Some(reference::depths(subject, self.at(2), &self.seeds_of_depths(), self.hundredths(FOR_DEPTH))?),
+            true => Some(reference::depths(
+                subject,
+                self.at(2),
+                &self.seeds_of_depths(),
+                self.hundredths(FOR_DEPTH),
+            )?),
             false => None,
         };
-        let enough = depths.as_ref().map_or(self.own.depth, |depths| depths.enough);
+        let enough = depths
+            .as_ref()
+            .map_or(self.own.depth, |depths| depths.enough);
         let start = self.at(4).with(Knob::Depth, enough);
         let budget = self.hundredths(FOR_REFERENCE);
         let reference = reference::reference(subject, start, &self.sampling, budget)?;
         let has_grid = self.used.contains(&Knob::Supersampling);
-        let base = if has_grid { start.with(Knob::Supersampling, 2) } else { start };
+        let base = if has_grid {
+            start.with(Knob::Supersampling, 2)
+        } else {
+            start
+        };
         let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
-        let ladders = self.sampling.iter().map(|knob| sweep(subject, &reference, (*knob, base), fair));
+        let ladders = self
+            .sampling
+            .iter()
+            .map(|knob| sweep(subject, &reference, (*knob, base), fair));
         let ladders = ladders.collect::<Result<Vec<_>, _>>()?;
-        let base_rays = subject.shoot(base, reference::independent(5))?.counts.rays();
+        let base_rays = subject
+            .shoot(base, reference::independent(5))?
+            .counts
+            .rays();
         let mut model = Model::new(ladders, depths.as_ref(), base, base_rays);
         if self.used.contains(&Knob::Aperture) {
             let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
             let shot = subject.shoot(coarse, Seeds::NONE)?;
             model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
         }
-        Ok(Grounds { reference, depths, model })
+        Ok(Grounds {
+            reference,
+            depths,
+            model,
+        })
     }
 
     /// The scene's own setting and those the model thinks best, rendered, timed and judged.
-    fn rows(&self, subject: &Subject<'_>, grounds: &Grounds, chance: &mut Chance) -> Result<(Vec<Row>, f64), Stopped> {
-        let Grounds { reference, depths: _, model } = grounds;
+    fn rows(
+        &self,
+        subject: &Subject<'_>,
+        grounds: &Grounds,
+        chance: &mut Chance,
+    ) -> Result<(Vec<Row>, f64), Stopped> {
+        let Grounds {
+            reference,
+            depths: _,
+            model,
+        } = grounds;
         let budget = self.hundredths(FOR_ROWS);
-        let turned: Vec<_> = self.used.iter().copied().filter(|knob| *knob != Knob::Precision).collect();
-        let least = turned.iter().fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
+        let turned: Vec<_> = self
+            .used
+            .iter()
+            .copied()
+            .filter(|knob| *knob != Knob::Precision)
+            .collect();
+        let least = turned
+            .iter()
+            .fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
         let best = front::candidates(model, least, &turned, budget as f64 / 10.0, least_error);
-        let settings = std::iter::once(self.own).chain(best.into_iter().filter(|setting| *setting != self.own));
-        let settings = settings.flat_map(|setting| std::iter::once(setting).chain(front::cheaper(model, setting)));
-        let runners: Vec<_> = settings.map(|setting| Runner { subject: subject.clone(), setting }).collect();
+        let settings = std::iter::once(self.own)
+            .chain(best.into_iter().filter(|setting| *setting != self.own));
+        let settings = settings
+            .flat_map(|setting| std::iter::once(setting).chain(front::cheaper(model, setting)));
+        let runners: Vec<_> = settings
+            .map(|setting| Runner {
+                subject: subject.clone(),
+                setting,
+            })
+            .collect();
         let race = race(&runners, budget, chance)?;
         let row = |(runner, run): (&Runner<'_>, race::Run)| {
             let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.share());
@@ -221,7 +314,12 @@ impl Scope {
         let points: Vec<_> = rows.iter().map(Row::point).collect();
         let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
         let ranked = front::ranking(&points).into_iter();
-        let ranked = ranked.filter_map(|(place, front)| Some(Row { front, ..rows[place].take()? }));
+        let ranked = ranked.filter_map(|(place, front)| {
+            Some(Row {
+                front,
+                ..rows[place].take()?
+            })
+        });
         Ok((ranked.collect(), race.wall_over_cpu))
     }
 }
@@ -238,6 +336,10 @@ impl Grounds {
 
 impl Row {
     fn point(&self) -> front::Point {
-        front::Point { seconds: [self.seconds.low, self.seconds.high], rays: self.rays.all(), error: self.errors.rmse }
+        front::Point {
+            seconds: [self.seconds.low, self.seconds.high],
+            rays: self.rays.all(),
+            error: self.errors.rmse,
+        }
     }
 }

@@ -88,8 +88,20 @@ impl Rays {
 
 impl From<Counts> for Rays {
     fn from(counts: Counts) -> Self {
-        let Counts { camera, shadow, mirror, refracted, hits: _, unnumbered: _ } = counts;
-        Self { camera, shadow, mirror, refracted }
+        let Counts {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+            hits: _,
+            unnumbered: _,
+        } = counts;
+        Self {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+        }
     }
 }
 
@@ -157,7 +169,11 @@ impl Study {
     /// The knobs that change something.
     #[must_use]
     pub fn used(&self) -> Vec<Knob> {
-        self.knobs.iter().filter(|report| report.idle.is_none()).map(|report| report.knob).collect()
+        self.knobs
+            .iter()
+            .filter(|report| report.idle.is_none())
+            .map(|report| report.knob)
+            .collect()
     }
 
     /// The row of the scene's own setting.

@@ -19,7 +19,8 @@ pub struct PrecisionCost {
     pub arithmetic: Arithmetic,
     /// Whether the plan expects nothing to show of what it loses; only then rows may be of it.
     pub borne: bool,
-    /// The rays of the part looked at: what is proven for the robust one alone is not left out by others.
+    /// The rays of the part looked at: what is proven for the robust one alone is not left out by
+    /// others.
     pub rays: Rays,
     /// Processor seconds over those of the robust one.
     pub ratio: Estimate,
@@ -30,7 +31,11 @@ pub struct PrecisionCost {
 impl PrecisionCost {
     /// Its name, and whether it is warned of.
     pub(super) fn words(&self) -> String {
-        format!("{}{}", self.arithmetic.name(), if self.borne { "" } else { " (warned of)" })
+        format!(
+            "{}{}",
+            self.arithmetic.name(),
+            if self.borne { "" } else { " (warned of)" }
+        )
     }
 }
 
@@ -41,7 +46,13 @@ pub(super) fn costs(
     budget: u64,
     chance: &mut Chance,
 ) -> Result<Vec<PrecisionCost>, Stopped> {
-    let runner = |precision| Runner { subject: subject.clone(), setting: Setting { precision, ..setting } };
+    let runner = |precision| Runner {
+        subject: subject.clone(),
+        setting: Setting {
+            precision,
+            ..setting
+        },
+    };
     let race = race(&Arithmetic::ALL.map(runner), budget, chance)?;
     let robust = &race.runs[0].shot.tiles;
     let cost = |(arithmetic, run): (Arithmetic, &Run)| PrecisionCost {
@@ -51,10 +62,15 @@ pub(super) fn costs(
         ratio: run.ratio,
         difference: Errors::of(&run.shot.tiles, robust, subject.share()),
     };
-    Ok(Arithmetic::ALL.into_iter().zip(&race.runs).map(cost).collect())
+    Ok(Arithmetic::ALL
+        .into_iter()
+        .zip(&race.runs)
+        .map(cost)
+        .collect())
 }
 
-/// The precision as a knob alone, of the arithmetics that rows may be of. It samples nothing, so no noise hides its error.
+/// The precision as a knob alone, of the arithmetics that rows may be of. It samples nothing, so no
+/// noise hides its error.
 pub(super) fn ladder(costs: &[PrecisionCost]) -> Ladder {
     let rung = |cost: &PrecisionCost| Rung {
         value: place(cost.arithmetic),
@@ -62,6 +78,15 @@ pub(super) fn ladder(costs: &[PrecisionCost]) -> Ladder {
         resolved: true,
         rays: cost.rays.all(),
     };
-    let rungs = costs.iter().rev().filter(|cost| cost.borne).map(rung).collect();
-    Ladder { knob: Knob::Precision, rungs, law: None }
+    let rungs = costs
+        .iter()
+        .rev()
+        .filter(|cost| cost.borne)
+        .map(rung)
+        .collect();
+    Ladder {
+        knob: Knob::Precision,
+        rungs,
+        law: None,
+    }
 }

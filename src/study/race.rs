@@ -1,5 +1,6 @@
-//! Renders timed against each other: in rounds, each in another random order, so that what slows the machine slows all.
-//! Time is that of one thread's processor; a busy machine does not change it.
+//! Renders timed against each other: in rounds, each in another random order, so that what slows
+//! the machine slows all. Time is that of one thread's processor; a busy machine does not change
+//! it.
 
 use super::bench::Time;
 use super::knob::Setting;
@@ -31,17 +32,24 @@ pub(super) struct Race {
 const FEWEST_ROUNDS: u64 = 3;
 const MOST_ROUNDS: u64 = 9;
 
-/// Renders of a runner in a round: what is over in a few milliseconds says little of a machine whose speed changes as fast.
+/// Renders of a runner in a round: what is over in a few milliseconds says little of a machine
+/// whose speed changes as fast.
 const MOST_REPEATS: u64 = 8;
 
-/// Times all runners in at least three rounds, those that take few rays in more and several times in each, of about `budget`
-/// rays in all.
-pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> Result<Race, Stopped> {
+/// Times all runners in at least three rounds, those that take few rays in more and several times
+/// in each, of about `budget` rays in all.
+pub(super) fn race(
+    runners: &[Runner<'_>],
+    budget: u64,
+    chance: &mut Chance,
+) -> Result<Race, Stopped> {
     let mut shots: Vec<Option<Shot>> = runners.iter().map(|_| None).collect();
     let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
     let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
     for round in 0..MOST_ROUNDS {
-        let mut order: Vec<_> = (0..runners.len()).filter(|index| rounds[*index] > round || *index == 0).collect();
+        let mut order: Vec<_> = (0..runners.len())
+            .filter(|index| rounds[*index] > round || *index == 0)
+            .collect();
         if round >= FEWEST_ROUNDS && order.len() < 2 {
             break;
         }
@@ -63,30 +71,62 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, chance: &mut Chance) -> 
             }
         }
     }
-    let wholes: Vec<Vec<Option<f64>>> =
-        runners.iter().zip(&times).map(|(runner, times)| whole_picture(runner, times, chance)).collect();
-    let runs = shots.into_iter().flatten().zip(&wholes).map(|(shot, seconds)| {
-        let ratios: Vec<_> =
-            seconds.iter().zip(&wholes[0]).filter_map(|(ours, first)| Some((*ours)? / (*first)?)).collect();
-        let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
-        Run { shot, seconds: median(&seconds, chance), ratio: median(&ratios, chance) }
-    });
+    let wholes: Vec<Vec<Option<f64>>> = runners
+        .iter()
+        .zip(&times)
+        .map(|(runner, times)| whole_picture(runner, times, chance))
+        .collect();
+    let runs = shots
+        .into_iter()
+        .flatten()
+        .zip(&wholes)
+        .map(|(shot, seconds)| {
+            let ratios: Vec<_> = seconds
+                .iter()
+                .zip(&wholes[0])
+                .filter_map(|(ours, first)| Some((*ours)? / (*first)?))
+                .collect();
+            let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
+            Run {
+                shot,
+                seconds: median(&seconds, chance),
+                ratio: median(&ratios, chance),
+            }
+        });
     let runs = runs.collect();
     let total = |of: fn(&Time) -> f64| times.iter().flatten().flatten().map(of).sum::<f64>();
-    Ok(Race { runs, wall_over_cpu: total(|time| time.wall) / total(|time| time.cpu).max(1e-9) })
+    Ok(Race {
+        runs,
+        wall_over_cpu: total(|time| time.wall) / total(|time| time.cpu).max(1e-9),
+    })
 }
 
-/// The seconds that the whole picture would take, from those of its part: preparing the scene takes the same for both,
-/// and passing over the rest of the pixels is no work of a picture.
-fn whole_picture(runner: &Runner<'_>, times: &[Option<Time>], chance: &mut Chance) -> Vec<Option<f64>> {
+/// The seconds that the whole picture would take, from those of its part: preparing the scene takes
+/// the same for both, and passing over the rest of the pixels is no work of a picture.
+fn whole_picture(
+    runner: &Runner<'_>,
+    times: &[Option<Time>],
+    chance: &mut Chance,
+) -> Vec<Option<f64>> {
     const ROUNDS: usize = 5;
     let Runner { subject, setting } = runner;
     if subject.is_whole() {
-        return times.iter().map(|time| time.as_ref().map(|time| time.cpu)).collect();
+        return times
+            .iter()
+            .map(|time| time.as_ref().map(|time| time.cpu))
+            .collect();
     }
     let overhead = subject.time_overhead(*setting, ROUNDS);
-    let [prepare, pass] =
-        [0, 1].map(|which| median(&overhead.iter().map(|round| round[which]).collect::<Vec<_>>(), chance).value);
+    let [prepare, pass] = [0, 1].map(|which| {
+        median(
+            &overhead
+                .iter()
+                .map(|round| round[which])
+                .collect::<Vec<_>>(),
+            chance,
+        )
+        .value
+    });
     let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / subject.share();
     times.iter().map(|time| time.as_ref().map(whole)).collect()
 }

@@ -1,6 +1,6 @@
-//! The reference of a study, made by itself: knobs are raised one at a time until the picture keeps still or the work is
-//! too much, then it is rendered twice with independent sampling. The mean is the reference; how the halves differ tells
-//! how far it may be off.
+//! The reference of a study, made by itself: knobs are raised one at a time until the picture keeps
+//! still or the work is too much, then it is rendered twice with independent sampling. The mean is
+//! the reference; how the halves differ tells how far it may be off.
 
 use super::knob::{Knob, MAX_DEPTH, Setting};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
@@ -60,7 +60,11 @@ pub enum DepthEnd {
 
 /// Sampling independent of every render and of other numbers.
 pub(super) fn independent(number: u64) -> Seeds {
-    Seeds { pixel: number, lens: number, path: number }
+    Seeds {
+        pixel: number,
+        lens: number,
+        path: number,
+    }
 }
 
 /// A depth, sampled once or more.
@@ -77,15 +81,24 @@ impl Sounding {
 
     /// How far it is from another in what all their samplings have in common.
     fn error(&self, other: &Self) -> f64 {
-        let [a, b] = [&self.0, &other.0].map(|shots| [&shots[0].tiles, &shots[shots.len() - 1].tiles]);
+        let [a, b] =
+            [&self.0, &other.0].map(|shots| [&shots[0].tiles, &shots[shots.len() - 1].tiles]);
         mean_product([a[0], b[0]], [a[1], b[1]]).max(0.0).sqrt() * LEVELS
     }
 }
 
-/// Finds out how deep paths go. All depths are sampled alike, by each of the seeds, so that what differs is the depth alone.
-pub(super) fn depths(subject: &Subject<'_>, start: Setting, seeds: &[Seeds], budget: u64) -> Result<Depths, Stopped> {
+/// Finds out how deep paths go. All depths are sampled alike, by each of the seeds, so that what
+/// differs is the depth alone.
+pub(super) fn depths(
+    subject: &Subject<'_>,
+    start: Setting,
+    seeds: &[Seeds],
+    budget: u64,
+) -> Result<Depths, Stopped> {
     let shoot = |depth| {
-        let shots = seeds.iter().map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
+        let shots = seeds
+            .iter()
+            .map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
         shots.collect::<Result<_, _>>().map(Sounding)
     };
     let mut shots = vec![shoot(0)?];
@@ -113,14 +126,23 @@ pub(super) fn depths(subject: &Subject<'_>, start: Setting, seeds: &[Seeds], bud
     let last = &shots[shots.len() - 1];
     let rung = |(value, shot): (u32, &Sounding)| {
         let error = shot.error(last);
-        Rung { value, error, resolved: error > 0.0, rays: shot.rays() }
+        Rung {
+            value,
+            error,
+            resolved: error > 0.0,
+            rays: shot.rays(),
+        }
     };
     let rungs: Vec<_> = (0..).zip(&shots).map(rung).collect();
-    Ok(Depths { enough: rungs.last().map_or(0, |rung| rung.value), rungs, end })
+    Ok(Depths {
+        enough: rungs.last().map_or(0, |rung| rung.value),
+        rungs,
+        end,
+    })
 }
 
-/// Renders the reference with about `budget` rays: raises one of the knobs that sample after the other, from `start`, until
-/// the picture keeps still or the budget ends.
+/// Renders the reference with about `budget` rays: raises one of the knobs that sample after the
+/// other, from `start`, until the picture keeps still or the budget ends.
 pub(super) fn reference(
     subject: &Subject<'_>,
     start: Setting,
@@ -130,7 +152,11 @@ pub(super) fn reference(
     let mut setting = start;
     if knobs.is_empty() {
         let shot = subject.shoot(setting, Seeds::NONE)?;
-        return Ok(Reference { tiles: shot.tiles, setting, floor: 0.0 });
+        return Ok(Reference {
+            tiles: shot.tiles,
+            setting,
+            floor: 0.0,
+        });
     }
     let mut half = subject.shoot(setting, independent(1))?;
     let mut spent = half.counts.rays() as f64;
@@ -151,10 +177,18 @@ pub(super) fn reference(
     }
     let other = subject.shoot(setting, independent(0x5EED))?;
     let tiles = mean(&half.tiles, &other.tiles);
-    Ok(Reference { floor: 0.5 * rmse(&half.tiles, &other.tiles), tiles, setting })
+    Ok(Reference {
+        floor: 0.5 * rmse(&half.tiles, &other.tiles),
+        tiles,
+        setting,
+    })
 }
 
 /// The next of 2, 3, 4, 6, 8, 12, 16, ….
 fn raised(value: u32) -> u32 {
-    if value.is_multiple_of(3) { value / 3 * 4 } else { value / 2 * 3 }
+    if value.is_multiple_of(3) {
+        value / 3 * 4
+    } else {
+        value / 2 * 3
+    }
 }

@@ -1,4 +1,5 @@
-//! The little statistics a study needs: medians with their uncertainty, lines through points, and repeatable chance.
+//! The little statistics a study needs: medians with their uncertainty, lines through points, and
+//! repeatable chance.
 
 use crate::math::{exp, ln, pow};
 use serde::{Deserialize, Serialize};
@@ -18,23 +19,36 @@ impl Estimate {
     /// A number known exactly.
     #[must_use]
     pub fn exact(value: f64) -> Self {
-        Self { value, low: value, high: value }
+        Self {
+            value,
+            low: value,
+            high: value,
+        }
     }
 
     /// Half the width of the interval, as a share of the value; 0 for a value of 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
-        if self.value == 0.0 { 0.0 } else { 0.5 * (self.high - self.low) / self.value.abs() }
+        if self.value == 0.0 {
+            0.0
+        } else {
+            0.5 * (self.high - self.low) / self.value.abs()
+        }
     }
 
     /// The same, in other units.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
-        Self { value: self.value * factor, low: self.low * factor, high: self.high * factor }
+        Self {
+            value: self.value * factor,
+            low: self.low * factor,
+            high: self.high * factor,
+        }
     }
 }
 
-/// Repeatable chance: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+/// Repeatable chance: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// generators", 2014).
 #[derive(Clone, Debug)]
 pub struct Chance(u64);
 
@@ -65,24 +79,40 @@ impl Chance {
 /// How many samples a bootstrap draws.
 const DRAWS: usize = 999;
 
-/// The median with its 95 % interval by the bootstrap (Efron, "Bootstrap methods", Annals of Statistics 7 (1979)).
+/// The median with its 95 % interval by the bootstrap (Efron, "Bootstrap methods", Annals of
+/// Statistics 7 (1979)).
 ///
 /// NaN of nothing; the interval of fewer than 5 values is their range, for want of better.
 #[must_use]
 pub fn median(values: &[f64], chance: &mut Chance) -> Estimate {
     let mut sorted = values.to_vec();
     let value = middle(&mut sorted);
-    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return Estimate::exact(f64::NAN) };
+    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else {
+        return Estimate::exact(f64::NAN);
+    };
     if sorted.len() < 5 {
-        return Estimate { value, low: *first, high: *last };
+        return Estimate {
+            value,
+            low: *first,
+            high: *last,
+        };
     }
-    let mut draws: Vec<_> = (0..DRAWS).map(|_| middle(&mut resample(&sorted, chance))).collect();
+    let mut draws: Vec<_> = (0..DRAWS)
+        .map(|_| middle(&mut resample(&sorted, chance)))
+        .collect();
     draws.sort_by(f64::total_cmp);
-    Estimate { value, low: draws[DRAWS / 40], high: draws[DRAWS - 1 - DRAWS / 40] }
+    Estimate {
+        value,
+        low: draws[DRAWS / 40],
+        high: draws[DRAWS - 1 - DRAWS / 40],
+    }
 }
 
 fn resample(values: &[f64], chance: &mut Chance) -> Vec<f64> {
-    values.iter().map(|_| values[chance.below(values.len())]).collect()
+    values
+        .iter()
+        .map(|_| values[chance.below(values.len())])
+        .collect()
 }
 
 /// The median of values, which it sorts.
@@ -123,7 +153,8 @@ pub struct PowerLaw {
 }
 
 impl PowerLaw {
-    /// The law that fits points (x, y) above 0 best on logarithmic scales; `None` for fewer than three.
+    /// The law that fits points (x, y) above 0 best on logarithmic scales; `None` for fewer than
+    /// three.
     #[must_use]
     pub fn fit(points: &[(f64, f64)]) -> Option<Self> {
         let n = points.len();
@@ -134,12 +165,23 @@ impl PowerLaw {
         let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n as f64;
         let (x_mean, y_mean) = (mean(|log| log.0), mean(|log| log.1));
         let spread: f64 = logs.iter().map(|(x, _)| (x - x_mean) * (x - x_mean)).sum();
-        let slope = logs.iter().map(|(x, y)| (x - x_mean) * (y - y_mean)).sum::<f64>() / spread;
+        let slope = logs
+            .iter()
+            .map(|(x, y)| (x - x_mean) * (y - y_mean))
+            .sum::<f64>()
+            / spread;
         let residual = |(x, y): &(f64, f64)| y - y_mean - slope * (x - x_mean);
         let squares: f64 = logs.iter().map(|log| residual(log) * residual(log)).sum();
         let half = student(n - 2) * (squares / (n - 2) as f64 / spread).sqrt();
         let c = exp(y_mean - slope * x_mean);
-        Some(Self { c, p: Estimate { value: -slope, low: -slope - half, high: -slope + half } })
+        Some(Self {
+            c,
+            p: Estimate {
+                value: -slope,
+                low: -slope - half,
+                high: -slope + half,
+            },
+        })
     }
 
     /// y at x.
@@ -151,8 +193,10 @@ impl PowerLaw {
 
 /// Student's t for a two-sided interval of 95 %.
 fn student(degrees: usize) -> f64 {
-    const TABLE: [f64; 15] =
-        [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131];
+    const TABLE: [f64; 15] = [
+        12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160,
+        2.145, 2.131,
+    ];
     match degrees {
         0 => f64::INFINITY,
         1..=15 => TABLE[degrees - 1],
@@ -161,25 +205,29 @@ fn student(degrees: usize) -> f64 {
     }
 }
 
-/// The number that a standard normal variable exceeds with the probability `tail` ≤ 1/2, to 0.0005 (Abramowitz and
-/// Stegun, "Handbook of mathematical functions" (1964), 26.2.23).
+/// The number that a standard normal variable exceeds with the probability `tail` ≤ 1/2, to 0.0005
+/// (Abramowitz and Stegun, "Handbook of mathematical functions" (1964), 26.2.23).
 pub(super) fn normal_quantile(tail: f64) -> f64 {
     let t = (-2.0 * ln(tail)).sqrt();
-    t - (2.515_517 + t * (0.802_853 + t * 0.010_328)) / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
+    t - (2.515_517 + t * (0.802_853 + t * 0.010_328))
+        / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)))
 }
 
-/// The number that Fisher's F of `over` and `under` degrees of freedom exceeds with the probability `tail`; infinite where
-/// the approximation (Paulson, Annals of Mathematical Statistics 13 (1942)) has none.
+/// The number that Fisher's F of `over` and `under` degrees of freedom exceeds with the probability
+/// `tail`; infinite where the approximation (Paulson, Annals of Mathematical Statistics 13 (1942))
+/// has none.
 pub(super) fn fisher_quantile(tail: f64, over: f64, under: f64) -> f64 {
     let z = normal_quantile(tail);
-    // Both χ² are the cubes of normal variables (Wilson and Hilferty): means 1 − a and 1 − b, variances a and b.
+    // Both χ² are the cubes of normal variables (Wilson and Hilferty): means 1 − a and 1 − b,
+    // variances a and b.
     let (a, b) = (2.0 / (9.0 * over), 2.0 / (9.0 * under));
     let (ma, mb) = (1.0 - a, 1.0 - b);
     let denominator = mb * mb - z * z * b;
     if denominator <= 0.0 || ma <= 0.0 {
         return f64::INFINITY;
     }
-    let root = (ma * mb + z * (ma * ma * b + mb * mb * a - z * z * a * b).max(0.0).sqrt()) / denominator;
+    let root =
+        (ma * mb + z * (ma * ma * b + mb * mb * a - z * z * a * b).max(0.0).sqrt()) / denominator;
     root * root * root
 }
 
@@ -189,13 +237,25 @@ mod tests {
 
     #[test]
     fn a_law_is_found_and_noise_widens_its_interval() {
-        let exact: Vec<_> = [1.0, 4.0, 9.0, 16.0, 36.0].map(|x| (x, 3.0 * pow(x, -0.75))).to_vec();
+        let exact: Vec<_> = [1.0, 4.0, 9.0, 16.0, 36.0]
+            .map(|x| (x, 3.0 * pow(x, -0.75)))
+            .to_vec();
         let law = PowerLaw::fit(&exact).unwrap();
-        assert!((law.p.value - 0.75).abs() < 1e-12 && (law.c - 3.0).abs() < 1e-12, "{law:?}");
+        assert!(
+            (law.p.value - 0.75).abs() < 1e-12 && (law.c - 3.0).abs() < 1e-12,
+            "{law:?}"
+        );
         assert!(law.p.high - law.p.low < 1e-6, "{law:?}");
-        let noisy: Vec<_> = exact.iter().zip([1.1, 0.9, 1.1, 0.9, 1.1]).map(|((x, y), f)| (*x, y * f)).collect();
+        let noisy: Vec<_> = exact
+            .iter()
+            .zip([1.1, 0.9, 1.1, 0.9, 1.1])
+            .map(|((x, y), f)| (*x, y * f))
+            .collect();
         let law = PowerLaw::fit(&noisy).unwrap();
-        assert!(law.p.low < 0.75 && 0.75 < law.p.high && law.p.relative() > 0.05, "{law:?}");
+        assert!(
+            law.p.low < 0.75 && 0.75 < law.p.high && law.p.relative() > 0.05,
+            "{law:?}"
+        );
         assert!(PowerLaw::fit(&exact[..2]).is_none());
     }
 
@@ -205,7 +265,9 @@ mod tests {
         let mut held = 0;
         for _ in 0..200 {
             // Uniform in [0, 1): the median is 1/2.
-            let values: Vec<_> = (0..15).map(|_| chance.below(1 << 30) as f64 / f64::from(1 << 30)).collect();
+            let values: Vec<_> = (0..15)
+                .map(|_| chance.below(1 << 30) as f64 / f64::from(1 << 30))
+                .collect();
             let estimate = median(&values, &mut chance);
             held += usize::from(estimate.low <= 0.5 && 0.5 <= estimate.high);
         }
@@ -218,7 +280,11 @@ mod tests {
         for (tail, z) in normal {
             assert!((normal_quantile(tail) - z).abs() < 1e-3, "{tail}");
         }
-        let fisher = [(0.05, 10.0, 20.0, 2.348), (0.05, 60.0, 120.0, 1.429), (0.01, 30.0, 60.0, 2.028)];
+        let fisher = [
+            (0.05, 10.0, 20.0, 2.348),
+            (0.05, 60.0, 120.0, 1.429),
+            (0.01, 30.0, 60.0, 2.028),
+        ];
         for (tail, over, under, f) in fisher {
             assert!((fisher_quantile(tail, over, under) / f - 1.0).abs() < 0.005);
         }
@@ -230,7 +296,14 @@ mod tests {
         let mut chance = Chance::new(1);
         assert!(median(&[], &mut chance).value.is_nan());
         assert_eq!(median(&[3.0], &mut chance), Estimate::exact(3.0));
-        assert_eq!(median(&[4.0, 1.0], &mut chance), Estimate { value: 2.5, low: 1.0, high: 4.0 });
+        assert_eq!(
+            median(&[4.0, 1.0], &mut chance),
+            Estimate {
+                value: 2.5,
+                low: 1.0,
+                high: 4.0
+            }
+        );
     }
 
     #[test]
@@ -238,7 +311,9 @@ mod tests {
         assert_eq!(relative_error_of_mean(&[1.0, 5.0], 1.0), 0.0);
         assert_eq!(relative_error_of_mean(&[1.0], 0.5), f64::INFINITY);
         let of = |share| relative_error_of_mean(&[1.0, 2.0, 3.0], share);
-        assert!((of(0.0) - 4.303 / 3.0_f64.sqrt() / 2.0).abs() < 1e-12 && of(0.75) < 0.51 * of(0.0));
+        assert!(
+            (of(0.0) - 4.303 / 3.0_f64.sqrt() / 2.0).abs() < 1e-12 && of(0.75) < 0.51 * of(0.0)
+        );
     }
 
     #[test]

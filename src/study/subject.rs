@@ -1,5 +1,5 @@
-//! What is studied: a scene, and the tiles of its picture that are looked at. It renders them in any setting, and counts
-//! the rays that took.
+//! What is studied: a scene, and the tiles of its picture that are looked at. It renders them in
+//! any setting, and counts the rays that took.
 
 use super::bench::{Bench, Time};
 use super::knob::Setting;
@@ -33,12 +33,20 @@ pub(super) struct Shot {
 pub struct Stopped;
 
 impl<'bench> Subject<'bench> {
-    /// The whole picture of a proven scene; `seed` says which tiles come first when there are to be fewer.
+    /// The whole picture of a proven scene; `seed` says which tiles come first when there are to be
+    /// fewer.
     pub(super) fn new(scene: &Scene, seed: u64, bench: &'bench Bench<'bench>) -> Self {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
-        let mut tiles: Vec<_> = (0..rows).flat_map(|y| (0..columns).map(move |x| [x, y])).collect();
+        let mut tiles: Vec<_> = (0..rows)
+            .flat_map(|y| (0..columns).map(move |x| [x, y]))
+            .collect();
         tiles.sort_by_key(|tile| Tiles::rank(seed, *tile));
-        Self { scene: scene.clone(), seed, tiles, bench }
+        Self {
+            scene: scene.clone(),
+            seed,
+            tiles,
+            bench,
+        }
     }
 
     /// The same with the first `count` tiles only, at least one.
@@ -50,7 +58,10 @@ impl<'bench> Subject<'bench> {
 
     /// The same part of another scene's picture.
     pub(super) fn with_scene(&self, scene: Scene) -> Self {
-        Self { scene, ..self.clone() }
+        Self {
+            scene,
+            ..self.clone()
+        }
     }
 
     /// Whether all of the picture is looked at; then it is one tile.
@@ -65,7 +76,11 @@ impl<'bench> Subject<'bench> {
 
     /// How many pixels are looked at.
     pub(super) fn pixels(&self) -> u64 {
-        self.tiles.iter().map(|tile| self.rectangle(*tile)).map(|r| u64::from(r.width) * u64::from(r.height)).sum()
+        self.tiles
+            .iter()
+            .map(|tile| self.rectangle(*tile))
+            .map(|r| u64::from(r.width) * u64::from(r.height))
+            .sum()
     }
 
     /// The share of the picture that is looked at.
@@ -74,17 +89,26 @@ impl<'bench> Subject<'bench> {
         self.pixels() as f64 / (f64::from(width) * f64::from(height))
     }
 
-    /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent of all other seeds.
+    /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent
+    /// of all other seeds.
     pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<Shot, Stopped> {
         let scene = self.prove(setting, seeds);
-        self.bench.work(|| self.render(&scene, setting.precision, seeds))
+        self.bench
+            .work(|| self.render(&scene, setting.precision, seeds))
     }
 
-    /// Renders in a setting on one thread, as often as `repeats` says of the first shot, and says how long that took on the
-    /// mean.
-    pub(super) fn time(&self, setting: Setting, repeats: impl FnOnce(&Shot) -> u64) -> Result<(Shot, Time), Stopped> {
+    /// Renders in a setting on one thread, as often as `repeats` says of the first shot, and says
+    /// how long that took on the mean.
+    pub(super) fn time(
+        &self,
+        setting: Setting,
+        repeats: impl FnOnce(&Shot) -> u64,
+    ) -> Result<(Shot, Time), Stopped> {
         let scene = self.prove(setting, Seeds::NONE);
-        let render = || self.bench.measure(|| self.render(&scene, setting.precision, Seeds::NONE));
+        let render = || {
+            self.bench
+                .measure(|| self.render(&scene, setting.precision, Seeds::NONE))
+        };
         let (shot, mut time) = render();
         let shot = shot?;
         let count = repeats(&shot);
@@ -96,12 +120,27 @@ impl<'bench> Subject<'bench> {
         Ok((shot, time.over(count as f64)))
     }
 
-    /// How many seconds each of `rounds` takes to prepare the scene, and beside that to pass over all pixels.
+    /// How many seconds each of `rounds` takes to prepare the scene, and beside that to pass over
+    /// all pixels.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
         let scene = self.prove(setting, Seeds::NONE);
-        let nowhere = Crop { x: 0, y: 0, width: 0, height: 0 };
-        let without_pixels = Job { crop: Some(nowhere), ..Job::default() };
-        let without_tiles = Job { tiles: Some(Tiles { seed: self.seed, last: 0 }), ..Job::default() };
+        let nowhere = Crop {
+            x: 0,
+            y: 0,
+            width: 0,
+            height: 0,
+        };
+        let without_pixels = Job {
+            crop: Some(nowhere),
+            ..Job::default()
+        };
+        let without_tiles = Job {
+            tiles: Some(Tiles {
+                seed: self.seed,
+                last: 0,
+            }),
+            ..Job::default()
+        };
         let seconds = |job| {
             let plan = || Plan::by(setting.precision, &scene, Rules::ALL);
             let work = || render(&scene, &plan(), job, &|step| self.bench.goes_on(step));
@@ -123,17 +162,39 @@ impl<'bench> Subject<'bench> {
         prove(&scene)
     }
 
-    fn render(&self, scene: &ValidScene, arithmetic: Arithmetic, seeds: Seeds) -> Result<Shot, Stopped> {
-        let last = self.tiles.last().map_or(0, |tile| Tiles::rank(self.seed, *tile));
-        let tiles = Some(Tiles { seed: self.seed, last });
-        let job = Job { tiles, seeds, ..Job::default() };
+    fn render(
+        &self,
+        scene: &ValidScene,
+        arithmetic: Arithmetic,
+        seeds: Seeds,
+    ) -> Result<Shot, Stopped> {
+        let last = self
+            .tiles
+            .last()
+            .map_or(0, |tile| Tiles::rank(self.seed, *tile));
+        let tiles = Some(Tiles {
+            seed: self.seed,
+            last,
+        });
+        let job = Job {
+            tiles,
+            seeds,
+            ..Job::default()
+        };
         let plan = Plan::by(arithmetic, scene, Rules::ALL);
         let film = render(scene, &plan, &job, &|step| self.bench.goes_on(step)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
-            return Ok(Shot { tiles: vec![film.image], counts });
+            return Ok(Shot {
+                tiles: vec![film.image],
+                counts,
+            });
         }
-        let tiles = self.tiles.iter().map(|tile| cut(&film.image, self.rectangle(*tile))).collect();
+        let tiles = self
+            .tiles
+            .iter()
+            .map(|tile| cut(&film.image, self.rectangle(*tile)))
+            .collect();
         Ok(Shot { tiles, counts })
     }
 
@@ -141,20 +202,37 @@ impl<'bench> Subject<'bench> {
     fn rectangle(&self, [x, y]: [u32; 2]) -> Crop {
         let [width, height] = self.scene.camera.size;
         let side = Tiles::SIDE;
-        Crop { x: x * side, y: y * side, width: side, height: side }.within(width, height)
+        Crop {
+            x: x * side,
+            y: y * side,
+            width: side,
+            height: side,
+        }
+        .within(width, height)
     }
 }
 
 /// The proof of a scene that was proven before, in whatever setting.
 pub(super) fn prove(scene: &Scene) -> ValidScene {
-    let options = valid::Options { limits: Limits::NONE };
+    let options = valid::Options {
+        limits: Limits::NONE,
+    };
     let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
     proof.expect("the scene was proven before, and a setting is in range")
 }
 
 /// A part of a picture.
 fn cut(image: &Image, part: Crop) -> Image {
-    let row = |y: u32| &image.pixels[y as usize * image.width as usize..][part.x as usize..][..part.width as usize];
-    let pixels = (part.y..part.y + part.height).flat_map(row).copied().collect();
-    Image { width: part.width, height: part.height, pixels }
+    let row = |y: u32| {
+        &image.pixels[y as usize * image.width as usize..][part.x as usize..][..part.width as usize]
+    };
+    let pixels = (part.y..part.y + part.height)
+        .flat_map(row)
+        .copied()
+        .collect();
+    Image {
+        width: part.width,
+        height: part.height,
+        pixels,
+    }
 }

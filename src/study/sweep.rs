@@ -1,5 +1,5 @@
-//! Each knob alone: what error it leaves if all others leave none, the law that error follows, and a model of all
-//! together: squares of errors add.
+//! Each knob alone: what error it leaves if all others leave none, the law that error follows, and
+//! a model of all together: squares of errors add.
 
 use super::knob::{Knob, Setting};
 use super::metrics::{LEVELS, products};
@@ -20,8 +20,8 @@ pub(super) struct Ladder {
 
 /// Turns one knob that samples through its values while the budget lasts.
 ///
-/// The others stay at `base` with independent sampling in two renders: what these have in common is the error of the
-/// knob alone.
+/// The others stay at `base` with independent sampling in two renders: what these have in common is
+/// the error of the knob alone.
 pub(super) fn sweep(
     subject: &Subject<'_>,
     reference: &Reference,
@@ -38,7 +38,10 @@ pub(super) fn sweep(
             }
         }
         let setting = base.with(knob, value);
-        let (a, b) = (subject.shoot(setting, others(knob, 3))?, subject.shoot(setting, others(knob, 4))?);
+        let (a, b) = (
+            subject.shoot(setting, others(knob, 3))?,
+            subject.shoot(setting, others(knob, 4))?,
+        );
         let rung = rung(value, [&a.tiles, &b.tiles], reference, a.counts.rays());
         spent += a.counts.rays() + b.counts.rays();
         rungs.push(rung);
@@ -46,7 +49,11 @@ pub(super) fn sweep(
             break;
         }
     }
-    Ok(Ladder { knob, law: law(knob, &rungs), rungs })
+    Ok(Ladder {
+        knob,
+        law: law(knob, &rungs),
+        rungs,
+    })
 }
 
 /// Sampling that is independent but for that of the knob.
@@ -67,19 +74,37 @@ fn rung(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> 
     const BLOCK: usize = 3 * 256;
     let floor = reference.floor / LEVELS;
     let truth = reference.tiles.as_slice();
-    let products: Vec<_> = products([a, truth], [b, truth]).map(|product| product - floor * floor).collect();
+    let products: Vec<_> = products([a, truth], [b, truth])
+        .map(|product| product - floor * floor)
+        .collect();
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (whole, blocks) = (mean(&products), products.len().div_ceil(BLOCK) as f64);
-    let squares = products.chunks(BLOCK).map(|block| mean(block) - whole).map(|off| off * off).sum::<f64>();
+    let squares = products
+        .chunks(BLOCK)
+        .map(|block| mean(block) - whole)
+        .map(|off| off * off)
+        .sum::<f64>();
     let deviation = (squares / (blocks * (blocks - 1.0).max(1.0))).sqrt();
     let resolved = whole > 2.0 * deviation && whole > floor * floor;
-    Rung { value, error: whole.max(0.0).sqrt() * LEVELS, resolved, rays }
+    Rung {
+        value,
+        error: whole.max(0.0).sqrt() * LEVELS,
+        resolved,
+        rays,
+    }
 }
 
-/// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a sample of it.
+/// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a
+/// sample of it.
 fn law(knob: Knob, rungs: &[Rung]) -> Option<PowerLaw> {
-    let is_sample = |rung: &&Rung| rung.resolved && !(rung.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy));
-    let points: Vec<_> = rungs.iter().filter(is_sample).map(|rung| (knob.samples(rung.value), rung.error)).collect();
+    let is_sample = |rung: &&Rung| {
+        rung.resolved && !(rung.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy))
+    };
+    let points: Vec<_> = rungs
+        .iter()
+        .filter(is_sample)
+        .map(|rung| (knob.samples(rung.value), rung.error))
+        .collect();
     PowerLaw::fit(&points)
 }
 
@@ -88,15 +113,30 @@ pub(super) struct Model {
     ladders: Vec<Ladder>,
     base: Setting,
     base_rays: f64,
-    /// The square of what sub-samples and points of the lens leave together beyond what each leaves alone, one of each.
+    /// The square of what sub-samples and points of the lens leave together beyond what each
+    /// leaves alone, one of each.
     interplay: f64,
 }
 
 impl Model {
     /// The model of ladders that were measured around `base`, which takes `base_rays`.
-    pub(super) fn new(mut ladders: Vec<Ladder>, depths: Option<&Depths>, base: Setting, base_rays: u64) -> Self {
-        ladders.extend(depths.map(|depths| Ladder { knob: Knob::Depth, rungs: depths.rungs.clone(), law: None }));
-        Self { ladders, base, base_rays: base_rays as f64, interplay: 0.0 }
+    pub(super) fn new(
+        mut ladders: Vec<Ladder>,
+        depths: Option<&Depths>,
+        base: Setting,
+        base_rays: u64,
+    ) -> Self {
+        ladders.extend(depths.map(|depths| Ladder {
+            knob: Knob::Depth,
+            rungs: depths.rungs.clone(),
+            law: None,
+        }));
+        Self {
+            ladders,
+            base,
+            base_rays: base_rays as f64,
+            interplay: 0.0,
+        }
     }
 
     /// Learns from the error of the base with one sub-sample and one point of the lens.
@@ -116,7 +156,10 @@ impl Model {
 
     /// The values of a knob that were tried, from the least work up.
     pub(super) fn tried(&self, knob: Knob) -> impl Iterator<Item = u32> {
-        self.ladder(knob).into_iter().flat_map(|ladder| &ladder.rungs).map(|rung| rung.value)
+        self.ladder(knob)
+            .into_iter()
+            .flat_map(|ladder| &ladder.rungs)
+            .map(|rung| rung.value)
     }
 
     /// What is known of a knob, `idle` being why it is not turned if so.
@@ -125,7 +168,9 @@ impl Model {
         KnobReport {
             knob,
             idle,
-            rungs: ladder.map(|ladder| ladder.rungs.clone()).unwrap_or_default(),
+            rungs: ladder
+                .map(|ladder| ladder.rungs.clone())
+                .unwrap_or_default(),
             law: ladder.and_then(|ladder| ladder.law),
         }
     }
@@ -136,11 +181,13 @@ impl Model {
         let squares = self.ladders.iter().map(|ladder| {
             let value = setting.get(ladder.knob);
             let error = ladder.error(value);
-            // Lights and lobes are sampled anew for each camera ray; one point of them is the same every time.
+            // Lights and lobes are sampled anew for each camera ray; one point of them is the same
+            // every time.
             let is_anew = matches!(ladder.knob, Knob::Lights | Knob::Glossy) && value > 1;
             error * error * if is_anew { more } else { 1.0 }
         });
-        // The edges of each point's picture are jagged in their own way: their mean is as smooth as they are many.
+        // The edges of each point's picture are jagged in their own way: their mean is as smooth as
+        // they are many.
         let samples = Knob::Supersampling.samples(setting.supersampling);
         let together = self.interplay / (samples * samples.sqrt() * f64::from(setting.aperture));
         (squares.sum::<f64>() + together).sqrt()
@@ -159,13 +206,26 @@ impl Model {
 impl Ladder {
     fn error(&self, value: u32) -> f64 {
         // The first rung leaves the most error; it counts even where the noise hides it.
-        let counts = |(index, rung): &(usize, &Rung)| *index == 0 || rung.resolved || self.knob == Knob::Depth;
-        let clear: Vec<_> = self.rungs.iter().enumerate().filter(counts).map(|(_, rung)| rung).collect();
+        let counts = |(index, rung): &(usize, &Rung)| {
+            *index == 0 || rung.resolved || self.knob == Knob::Depth
+        };
+        let clear: Vec<_> = self
+            .rungs
+            .iter()
+            .enumerate()
+            .filter(counts)
+            .map(|(_, rung)| rung)
+            .collect();
         if let Some(rung) = clear.iter().find(|rung| rung.value == value) {
             return rung.error;
         }
-        let (Some(last), x) = (clear.last(), self.knob.samples(value)) else { return 0.0 };
-        let above = clear.iter().position(|rung| rung.value > value).filter(|above| *above > 0);
+        let (Some(last), x) = (clear.last(), self.knob.samples(value)) else {
+            return 0.0;
+        };
+        let above = clear
+            .iter()
+            .position(|rung| rung.value > value)
+            .filter(|above| *above > 0);
         match above {
             Some(above) => self.between([clear[above - 1], clear[above]], x, |rung| rung.error),
             // Beyond the last rung: nothing more to gain in depth, the law elsewhere.
@@ -184,7 +244,11 @@ impl Ladder {
             return at(rung);
         }
         let x = self.knob.samples(value);
-        let above = self.rungs.iter().position(|rung| rung.value > value).filter(|above| *above > 0);
+        let above = self
+            .rungs
+            .iter()
+            .position(|rung| rung.value > value)
+            .filter(|above| *above > 0);
         match (above, self.rungs.last()) {
             (Some(above), _) => self.between([&self.rungs[above - 1], &self.rungs[above]], x, at),
             (None, Some(last)) if self.knob == Knob::Depth => at(last),
@@ -196,7 +260,10 @@ impl Ladder {
     /// On a straight line between two rungs, on logarithmic scales.
     fn between(&self, [below, above]: [&Rung; 2], x: f64, of: impl Fn(&Rung) -> f64) -> f64 {
         let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
-        let (from, to) = (log(self.knob.samples(below.value)), log(self.knob.samples(above.value)));
+        let (from, to) = (
+            log(self.knob.samples(below.value)),
+            log(self.knob.samples(above.value)),
+        );
         let share = (log(x) - from) / (to - from);
         exp(log(of(below)) * (1.0 - share) + log(of(above)) * share)
     }

@@ -1,8 +1,10 @@
-//! A render that knows how good it is: rounds of samples where they are needed, until an error or a time is reached.
+//! A render that knows how good it is: rounds of samples where they are needed, until an error or a
+//! time is reached.
 //!
-//! The truth is the picture that more and more sub-samples, points of the lens and points of soft lights, or more and more
-//! paths lead to, at the scene's own depth and with its own lobes; a light asked at its centre alone stays one. What no sample of a pixel has met
-//! is in no estimate. Rounds are decided by the whole film: an error alone gives the same picture on any threads.
+//! The truth is the picture that more and more sub-samples, points of the lens and points of soft
+//! lights, or more and more paths lead to, at the scene's own depth and with its own lobes; a light
+//! asked at its centre alone stays one. What no sample of a pixel has met is in no estimate. Rounds
+//! are decided by the whole film: an error alone gives the same picture on any threads.
 
 use super::knob::{Knob, idle};
 use super::metrics::LEVELS;
@@ -10,7 +12,9 @@ use super::noise::{Allotment, Noise};
 use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
-use crate::render::{AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Proceed, Step, Strands, Tiles, Values};
+use crate::render::{
+    AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Proceed, Step, Strands, Tiles, Values,
+};
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -18,7 +22,8 @@ use std::time::Duration;
 pub struct Goal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
-    /// The time of day that the render may take. At least one round is made, and only whole rounds count.
+    /// The time of day that the render may take. At least one round is made, and only whole rounds
+    /// count.
     pub time: Option<Duration>,
 }
 
@@ -78,8 +83,8 @@ pub struct Reached {
     pub coverage: Vec<f32>,
     /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
-    /// The root mean square error in grey levels: computed to be kept with 95 % confidence, and said for 90 %, which is what
-    /// `benches/honest.sh` counts.
+    /// The root mean square error in grey levels: computed to be kept with 95 % confidence, and
+    /// said for 90 %, which is what `benches/honest.sh` counts.
     pub error: f64,
     /// Its samples.
     pub samples: Samples,
@@ -90,19 +95,25 @@ pub struct Reached {
 /// The share of pictures that may be worse than promised.
 const TAIL: f64 = 0.05;
 
-/// The samples that each of the four strands of all pixels have together in the first round, at least one each: so many that
-/// a handful of pixels is not judged by a handful of samples.
+/// The samples that each of the four strands of all pixels have together in the first round, at
+/// least one each: so many that a handful of pixels is not judged by a handful of samples.
 const FIRST: usize = 1024;
 
-/// The least samples of a strand in the first round where paths are traced: what a code of sRGB makes of a mean of very few
-/// is no measure of what it makes of many.
+/// The least samples of a strand in the first round where paths are traced: what a code of sRGB
+/// makes of a mean of very few is no measure of what it makes of many.
 const FIRST_PATHS: usize = 4;
 
-/// Renders a proven scene in its world until the goal is reached, on the threads of the current pool.
+/// Renders a proven scene in its world until the goal is reached, on the threads of the current
+/// pool.
 ///
 /// # Errors
 /// If someone said stop.
-pub fn approach(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+pub fn approach(
+    world: &mut AnyWorld,
+    scene: &Scene,
+    order: &Order,
+    watch: &Watch<'_>,
+) -> Result<Reached, Stopped> {
     let mut samples = Knob::ALL.into_iter().filter(|knob| knob.samples_pixels());
     if samples.all(|knob| idle(knob, scene).is_some()) {
         return exactly(world, order, watch);
@@ -114,21 +125,37 @@ pub fn approach(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watc
 }
 
 /// As [`approach`], for a scene that is sampled; the world is left in another setting.
-fn in_rounds(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
+fn in_rounds(
+    world: &mut AnyWorld,
+    scene: &Scene,
+    order: &Order,
+    watch: &Watch<'_>,
+) -> Result<Reached, Stopped> {
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
     spread(world, scene, light_samples);
     let mut film = Growing::new(order.crop, order.seed);
     film.behind = order.behind;
-    (watch.round)(Progress { pixels: film.pixels.len() as u64, error: None });
-    let least = if idle(Knob::Paths, scene).is_none() { FIRST_PATHS } else { 1 };
-    let first = FIRST.div_ceil(film.pixels.len().max(1)).max(least).next_power_of_two();
+    (watch.round)(Progress {
+        pixels: film.pixels.len() as u64,
+        error: None,
+    });
+    let least = if idle(Knob::Paths, scene).is_none() {
+        FIRST_PATHS
+    } else {
+        1
+    };
+    let first = FIRST
+        .div_ceil(film.pixels.len().max(1))
+        .max(least)
+        .next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
     if !world.grow(&mut film, &|_| [first; 2], watch.proceed) {
         return Err(Stopped);
     }
     for round in 1_u32.. {
         let noise = Noise::of(&film);
-        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to the one allowed.
+        // A stop at any round is one of many looks: the tails of all rounds, 1/(r(r + 1)), sum to
+        // the one allowed.
         let tail = TAIL / (f64::from(round) * f64::from(round + 1));
         let error = noise.bound(tail);
         let reached = Reached {
@@ -139,12 +166,23 @@ fn in_rounds(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'
             samples: samples_of(&film),
             light_samples,
         };
-        let Some(wanted) = next_round(&film, &noise, tail, &order.goal, (watch.elapsed)()) else { return Ok(reached) };
-        (watch.round)(Progress { pixels: film.pixels.len() as u64, error: Some(error) });
+        let Some(wanted) = next_round(&film, &noise, tail, &order.goal, (watch.elapsed)()) else {
+            return Ok(reached);
+        };
+        (watch.round)(Progress {
+            pixels: film.pixels.len() as u64,
+            error: Some(error),
+        });
         let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
-        if !world.grow(&mut film, &|index| wanted[index], &|step| (watch.proceed)(step) && !is_late()) {
+        if !world.grow(&mut film, &|index| wanted[index], &|step| {
+            (watch.proceed)(step) && !is_late()
+        }) {
             // A round cut short has favoured pixels at the top: the picture before it stands.
-            return if (watch.proceed)(Step::default()) { Ok(reached) } else { Err(Stopped) };
+            return if (watch.proceed)(Step::default()) {
+                Ok(reached)
+            } else {
+                Err(Stopped)
+            };
         }
     }
     unreachable!("rounds end when all strands are as long as can be")
@@ -152,11 +190,31 @@ fn in_rounds(world: &mut AnyWorld, scene: &Scene, order: &Order, watch: &Watch<'
 
 /// The picture of a mode that samples nothing.
 fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
-    let job = Job { crop: Some(order.crop), values: order.values, behind: order.behind, ..Job::default() };
+    let job = Job {
+        crop: Some(order.crop),
+        values: order.values,
+        behind: order.behind,
+        ..Job::default()
+    };
     let film = world.render(&job, watch.proceed).ok_or(Stopped)?;
-    let samples = Samples { least: 1, mean: 1.0, most: 1 };
-    let Film { image, coverage, counts } = film;
-    Ok(Reached { image, coverage, counts, error: 0.0, samples, light_samples: 1 })
+    let samples = Samples {
+        least: 1,
+        mean: 1.0,
+        most: 1,
+    };
+    let Film {
+        image,
+        coverage,
+        counts,
+    } = film;
+    Ok(Reached {
+        image,
+        coverage,
+        counts,
+        error: 0.0,
+        samples,
+        light_samples: 1,
+    })
 }
 
 /// Has the scene sampled anywhere in its pixels, and soft lights in so many points.
@@ -167,8 +225,9 @@ fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     world.change(prove(&scene));
 }
 
-/// How many points of each soft light are worth their rays, and the rays that took: of few more are tried on some tiles as long
-/// as noise times rays falls, which is what a picture of any error costs.
+/// How many points of each soft light are worth their rays, and the rays that took: of few more are
+/// tried on some tiles as long as noise times rays falls, which is what a picture of any error
+/// costs.
 fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -183,19 +242,36 @@ fn light_samples(
     if order.keep_lights || own == 1 || idle(Knob::Lights, scene).is_some() {
         return Ok((own, tried));
     }
-    let Crop { x, y, width, height } = order.crop;
+    let Crop {
+        x,
+        y,
+        width,
+        height,
+    } = order.crop;
     let tiles = |from: u32, length: u32| from / Tiles::SIDE..(from + length).div_ceil(Tiles::SIDE);
-    let mut ranks: Vec<_> =
-        tiles(y, height).flat_map(|j| tiles(x, width).map(move |i| Tiles::rank(order.seed, [i, j]))).collect();
+    let mut ranks: Vec<_> = tiles(y, height)
+        .flat_map(|j| tiles(x, width).map(move |i| Tiles::rank(order.seed, [i, j])))
+        .collect();
     ranks.sort_unstable();
-    let last = ranks.get(TILES - 1).or(ranks.last()).copied().unwrap_or(u64::MAX);
-    let some = Tiles { seed: order.seed, last };
+    let last = ranks
+        .get(TILES - 1)
+        .or(ranks.last())
+        .copied()
+        .unwrap_or(u64::MAX);
+    let some = Tiles {
+        seed: order.seed,
+        last,
+    };
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));
-    let wanted: Vec<_> = pixels.map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2]).collect();
+    let wanted: Vec<_> = pixels
+        .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2])
+        .collect();
     for count in [2, 4, 8, 16, 32] {
         let mut film = Growing::new(order.crop, order.seed);
         spread(world, scene, count);
-        if !world.grow(&mut film, &|index| wanted[index], &|_| (watch.proceed)(Step::default())) {
+        if !world.grow(&mut film, &|index| wanted[index], &|_| {
+            (watch.proceed)(Step::default())
+        }) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);
@@ -217,13 +293,22 @@ fn samples_of(film: &Growing) -> Samples {
     }
 }
 
-/// The length of all strands after the next round; none if the goal is reached, or no further round fits into the time.
-fn next_round(film: &Growing, noise: &Noise, tail: f64, goal: &Goal, elapsed: Duration) -> Option<Vec<[u32; 2]>> {
+/// The length of all strands after the next round; none if the goal is reached, or no further round
+/// fits into the time.
+fn next_round(
+    film: &Growing,
+    noise: &Noise,
+    tail: f64,
+    goal: &Goal,
+    elapsed: Duration,
+) -> Option<Vec<[u32; 2]>> {
     /// How much more or less noise to ask for when a round would do nothing, or not fit.
     const LESS: f64 = 0.8;
     const MORE: f64 = 1.5;
     let is_met = |error: f64| noise.bound(tail) <= error;
-    let left = goal.time.map_or(Some(Duration::MAX), |time| time.checked_sub(elapsed))?;
+    let left = goal
+        .time
+        .map_or(Some(Duration::MAX), |time| time.checked_sub(elapsed))?;
     if noise.square == 0.0 || goal.error.is_some_and(is_met) {
         return None;
     }
@@ -231,8 +316,14 @@ fn next_round(film: &Growing, noise: &Noise, tail: f64, goal: &Goal, elapsed: Du
     let samples = film.samples() as f64;
     let most = samples * left.as_secs_f64() / elapsed.as_secs_f64().max(1e-9);
     let round = |square: f64| {
-        let wanted: Vec<_> = (0..film.pixels.len()).map(|index| allotment.wanted(film, index, square)).collect();
-        let more = wanted.iter().map(|[a, b]| 2.0 * (f64::from(*a) + f64::from(*b))).sum::<f64>() - samples;
+        let wanted: Vec<_> = (0..film.pixels.len())
+            .map(|index| allotment.wanted(film, index, square))
+            .collect();
+        let more = wanted
+            .iter()
+            .map(|[a, b]| 2.0 * (f64::from(*a) + f64::from(*b)))
+            .sum::<f64>()
+            - samples;
         (wanted, more)
     };
     let mut square = match goal.error {

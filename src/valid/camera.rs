@@ -41,7 +41,15 @@ pub struct Lens {
 }
 
 pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camera> {
-    let ir::Camera { eye, center, right, up, size, lens, projection } = camera;
+    let ir::Camera {
+        eye,
+        center,
+        right,
+        up,
+        size,
+        lens,
+        projection,
+    } = camera;
     let ir::Lens { radius, samples } = lens;
     let eye = check.vector(*eye, at(Field::Eye));
     let center = check.vector(*center, at(Field::Center));
@@ -53,8 +61,20 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
     let (eye, center, right, up) = (eye?, center?, right?, up?);
     frustum(eye, center, right, up, check)?;
     let (width, height) = size?;
-    let lens = Lens { radius: radius?, samples: samples? };
-    Some(Camera { eye, center, right, up, width, height, lens, projection: *projection })
+    let lens = Lens {
+        radius: radius?,
+        samples: samples?,
+    };
+    Some(Camera {
+        eye,
+        center,
+        right,
+        up,
+        width,
+        height,
+        lens,
+        projection: *projection,
+    })
 }
 
 fn at(field: Field) -> Place {
@@ -65,9 +85,17 @@ fn at(field: Field) -> Place {
 fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
     let vector = check.vector(value, at(field))?;
     if vector.abs().max_element() < SMALLEST {
-        let what = if vector == Vec3::ZERO { "have no size" } else { "are too small to compute with" };
+        let what = if vector == Vec3::ZERO {
+            "have no size"
+        } else {
+            "are too small to compute with"
+        };
         let finding = Diagnostic::new(&codes::CAMERA_BASIS, format!("the camera's pixels {what}"));
-        check.report(at(field), "this step between pixels is shorter than 1e-60", finding);
+        check.report(
+            at(field),
+            "this step between pixels is shorter than 1e-60",
+            finding,
+        );
         return None;
     }
     Some(vector)
@@ -76,14 +104,26 @@ fn step(value: [f64; 3], field: Field, check: &mut Check<'_>) -> Option<Vec3> {
 fn frustum(eye: Vec3, center: Vec3, right: Vec3, up: Vec3, check: &mut Check<'_>) -> Option<()> {
     let cosine = right.normalize().dot(up.normalize());
     if cosine.abs() > RIGHT_ANGLE {
-        let message = format!("the camera's `right` and `up` are not at a right angle: their cosine is {cosine:.3e}");
-        check.report(at(Field::Up), "", Diagnostic::new(&codes::CAMERA_BASIS, message));
+        let message = format!(
+            "the camera's `right` and `up` are not at a right angle: their cosine is {cosine:.3e}"
+        );
+        check.report(
+            at(Field::Up),
+            "",
+            Diagnostic::new(&codes::CAMERA_BASIS, message),
+        );
         return None;
     }
     let normal = crate::math::cross(right.normalize(), up.normalize());
     if crate::math::dot(normal, center - eye) == 0.0 {
-        let finding = Diagnostic::new(&codes::EYE_IN_IMAGE_PLANE, "the eye lies in the image plane");
-        let finding = finding.also(check.span(at(Field::Center)), "the plane goes through this point");
+        let finding = Diagnostic::new(
+            &codes::EYE_IN_IMAGE_PLANE,
+            "the eye lies in the image plane",
+        );
+        let finding = finding.also(
+            check.span(at(Field::Center)),
+            "the plane goes through this point",
+        );
         check.report(
             at(Field::Eye),
             "every ray would run inside the image",

@@ -6,7 +6,8 @@ use crate::ir::{Field, Noun, Origins, Place};
 use crate::math::{NonNegative, Positive, Vec3, unit_scale};
 use std::num::NonZeroU32;
 
-/// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay finite.
+/// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay
+/// finite.
 pub const LARGEST: f64 = 1e60;
 
 /// The smallest length other than 0: its fourth power is still a normal number.
@@ -28,7 +29,11 @@ pub(super) struct Check<'run> {
 
 impl<'run> Check<'run> {
     pub(super) fn new(origins: &'run Origins, sink: &'run mut Sink) -> Self {
-        Self { origins, sink, errors: false }
+        Self {
+            origins,
+            sink,
+            errors: false,
+        }
     }
 
     pub(super) fn is_clean(&self) -> bool {
@@ -38,7 +43,11 @@ impl<'run> Check<'run> {
     /// Reports a finding at a place.
     pub(super) fn report(&mut self, place: Place, label: &str, finding: Diagnostic) {
         self.errors |= finding.severity == Severity::Error;
-        self.sink.push(finding.at(self.origins.span(place), label).pointer(place.to_string()));
+        self.sink.push(
+            finding
+                .at(self.origins.span(place), label)
+                .pointer(place.to_string()),
+        );
     }
 
     /// Where the value was written, for secondary labels and replacements.
@@ -60,7 +69,13 @@ impl<'run> Check<'run> {
     }
 
     /// A handle to one of `count` entities.
-    pub(super) fn handle(&mut self, id: u32, count: usize, noun: &str, place: Place) -> Option<usize> {
+    pub(super) fn handle(
+        &mut self,
+        id: u32,
+        count: usize,
+        noun: &str,
+        place: Place,
+    ) -> Option<usize> {
         let found = usize::try_from(id).ok().filter(|id| *id < count);
         if found.is_none() {
             let message = format!("{noun} {id} does not exist: the scene has {count}");
@@ -69,13 +84,17 @@ impl<'run> Check<'run> {
         found
     }
 
-    /// A direction: a vector of finite numbers other than zero. Its length says nothing, so it leaves here times the power
-    /// of two that brings its largest component into [1, 2): who computes with it need not fear for its squares.
+    /// A direction: a vector of finite numbers other than zero. Its length says nothing, so it
+    /// leaves here times the power of two that brings its largest component into [1, 2): who
+    /// computes with it need not fear for its squares.
     pub(super) fn direction(&mut self, value: [f64; 3], name: &str, place: Place) -> Option<Vec3> {
         let direction = self.finite_vector(value, place)?;
         let scaled = unit_scale(direction).map(|(scaled, _)| scaled);
         if scaled.is_none() {
-            let finding = Diagnostic::new(&codes::ZERO_NORMAL, format!("the {name} is the zero vector"));
+            let finding = Diagnostic::new(
+                &codes::ZERO_NORMAL,
+                format!("the {name} is the zero vector"),
+            );
             self.report(place, "it has no direction", finding);
         }
         scaled
@@ -86,9 +105,17 @@ impl<'run> Check<'run> {
         if value.abs() <= LARGEST {
             return Some(value);
         }
-        let what = if value.is_finite() { "is too large to compute with" } else { "is not a finite number" };
+        let what = if value.is_finite() {
+            "is too large to compute with"
+        } else {
+            "is not a finite number"
+        };
         let finding = Diagnostic::new(&codes::NOT_FINITE, format!("`{value:e}` {what}"));
-        self.report(place, "", finding.hint("numbers of a scene are finite and at most 1e60 in size"));
+        self.report(
+            place,
+            "",
+            finding.hint("numbers of a scene are finite and at most 1e60 in size"),
+        );
         None
     }
 
@@ -116,32 +143,62 @@ impl<'run> Check<'run> {
         }
         let proven = NonNegative::new(value);
         if proven.is_none() {
-            let finding =
-                Diagnostic::new(&codes::NEGATIVE_EXPONENT, format!("the exponent `n` is negative: `{value}`"));
-            self.report(place, "must be at least 0", finding.hint("1 is a dull highlight, 64 a sharp one"));
+            let finding = Diagnostic::new(
+                &codes::NEGATIVE_EXPONENT,
+                format!("the exponent `n` is negative: `{value}`"),
+            );
+            self.report(
+                place,
+                "must be at least 0",
+                finding.hint("1 is a dull highlight, 64 a sharp one"),
+            );
         }
         proven
     }
 
     /// A number of at least 0.
-    pub(super) fn non_negative(&mut self, value: f64, name: &str, place: Place) -> Option<NonNegative> {
+    pub(super) fn non_negative(
+        &mut self,
+        value: f64,
+        name: &str,
+        place: Place,
+    ) -> Option<NonNegative> {
         let number = self.number(value, place)?;
         let proven = NonNegative::new(number);
         if proven.is_none() {
-            let finding = Diagnostic::new(&codes::NEGATIVE, format!("`{name}` is negative: `{value}`"));
-            self.report(place, "must be at least 0", finding.replace(format!("use `{name}: 0`"), None, "0"));
+            let finding =
+                Diagnostic::new(&codes::NEGATIVE, format!("`{name}` is negative: `{value}`"));
+            self.report(
+                place,
+                "must be at least 0",
+                finding.replace(format!("use `{name}: 0`"), None, "0"),
+            );
         }
         proven
     }
 
     /// A length above 0, of at least 1e-60.
-    pub(super) fn length(&mut self, value: f64, place: Place, code: &'static Code, name: &str) -> Option<Positive> {
+    pub(super) fn length(
+        &mut self,
+        value: f64,
+        place: Place,
+        code: &'static Code,
+        name: &str,
+    ) -> Option<Positive> {
         let number = self.number(value, place)?;
         if number >= SMALLEST {
             return Positive::new(number);
         }
-        let what = if number > 0.0 { "is too small to compute with" } else { "is not above 0" };
-        self.report(place, "must be above 0", Diagnostic::new(code, format!("the {name} `{value}` {what}")));
+        let what = if number > 0.0 {
+            "is too small to compute with"
+        } else {
+            "is not above 0"
+        };
+        self.report(
+            place,
+            "must be above 0",
+            Diagnostic::new(code, format!("the {name} `{value}` {what}")),
+        );
         None
     }
 
@@ -150,7 +207,11 @@ impl<'run> Check<'run> {
         let color = self.vector(value, place)?;
         if color.min_element() < 0.0 {
             let message = format!("a colour has a negative channel: `{}`", color.min_element());
-            self.report(place, "each channel must be at least 0", Diagnostic::new(&codes::NEGATIVE, message));
+            self.report(
+                place,
+                "each channel must be at least 0",
+                Diagnostic::new(&codes::NEGATIVE, message),
+            );
             return None;
         }
         Some(color.abs())
@@ -161,7 +222,11 @@ impl<'run> Check<'run> {
         let proven = NonZeroU32::new(value);
         if proven.is_none() {
             let finding = Diagnostic::new(&codes::ZERO_COUNT, format!("`{name}` is 0"));
-            self.report(place, "must be at least 1", finding.replace("one sample is the least", self.span(place), "1"));
+            self.report(
+                place,
+                "must be at least 1",
+                finding.replace("one sample is the least", self.span(place), "1"),
+            );
         }
         proven
     }

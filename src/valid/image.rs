@@ -15,7 +15,8 @@ pub struct Image {
     pub height: u32,
     /// What a pixel is made of.
     pub kind: Pixels,
-    /// All pixels in rows from the top, those of the scene itself; floats are finite and at least 0.
+    /// All pixels in rows from the top, those of the scene itself; floats are finite and at least
+    /// 0.
     pub pixels: Shared<u8>,
 }
 
@@ -65,8 +66,12 @@ impl Texel {
     #[inline]
     pub fn color(self) -> Vec3 {
         match self {
-            Self::Rgb8([r, g, b]) | Self::Rgba8([r, g, b, _]) => Vec3::from_array([r, g, b].map(f64::from)),
-            Self::Rgb32f(color) => Vec3::from_array(color.map(|channel| f64::from(channel) * 255.0)),
+            Self::Rgb8([r, g, b]) | Self::Rgba8([r, g, b, _]) => {
+                Vec3::from_array([r, g, b].map(f64::from))
+            }
+            Self::Rgb32f(color) => {
+                Vec3::from_array(color.map(|channel| f64::from(channel) * 255.0))
+            }
         }
     }
 }
@@ -83,16 +88,34 @@ pub enum Texture {
 }
 
 pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> Option<Image> {
-    let ir::Image { name: _, width, height, kind, pixels } = image;
+    let ir::Image {
+        name: _,
+        width,
+        height,
+        kind,
+        pixels,
+    } = image;
     let mut refuse = |message: String| {
-        check.report(place(Noun::Image, index, Field::Whole), "", Diagnostic::new(&codes::BAD_IMAGE, message));
+        check.report(
+            place(Noun::Image, index, Field::Whole),
+            "",
+            Diagnostic::new(&codes::BAD_IMAGE, message),
+        );
     };
     let wanted = (u64::from(*width) * u64::from(*height)).saturating_mul(kind.bytes() as u64);
     if wanted == 0 || pixels.len() as u64 != wanted {
-        refuse(format!("an image of {width} × {height} pixels has {} bytes of {wanted}", pixels.len()));
+        refuse(format!(
+            "an image of {width} × {height} pixels has {} bytes of {wanted}",
+            pixels.len()
+        ));
         return None;
     }
-    let image = Image { width: *width, height: *height, kind: *kind, pixels: pixels.clone() };
+    let image = Image {
+        width: *width,
+        height: *height,
+        kind: *kind,
+        pixels: pixels.clone(),
+    };
     if !image.is_light() {
         refuse("an image has a pixel that is negative or not finite".to_owned());
         return None;
@@ -100,12 +123,25 @@ pub(super) fn image(image: &ir::Image, index: usize, check: &mut Check<'_>) -> O
     Some(image)
 }
 
-pub(super) fn texture(texture: &ir::Texture, index: usize, images: usize, check: &mut Check<'_>) -> Option<Texture> {
-    let mut exists =
-        |image: ir::ImageId| check.handle(image.0, images, "image", place(Noun::Texture, index, Field::Whole));
+pub(super) fn texture(
+    texture: &ir::Texture,
+    index: usize,
+    images: usize,
+    check: &mut Check<'_>,
+) -> Option<Texture> {
+    let mut exists = |image: ir::ImageId| {
+        check.handle(
+            image.0,
+            images,
+            "image",
+            place(Noun::Texture, index, Field::Whole),
+        )
+    };
     match texture {
         ir::Texture::Uv => Some(Texture::Uv),
         ir::Texture::Image(image) => exists(*image).map(Texture::Image),
-        ir::Texture::Sampled(sampled) => exists(sampled.image).map(|_| Texture::Sampled(sampled.clone())),
+        ir::Texture::Sampled(sampled) => {
+            exists(sampled.image).map(|_| Texture::Sampled(sampled.clone()))
+        }
     }
 }

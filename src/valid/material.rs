@@ -52,7 +52,12 @@ pub struct Bump {
     pub height: f64,
 }
 
-pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, check: &mut Check<'_>) -> Option<Phong> {
+pub(super) fn material(
+    material: &ir::Material,
+    index: usize,
+    counts: &Counts,
+    check: &mut Check<'_>,
+) -> Option<Phong> {
     let approximation;
     let phong = match material {
         ir::Material::Phong(phong) => phong,
@@ -62,7 +67,17 @@ pub(super) fn material(material: &ir::Material, index: usize, counts: &Counts, c
             &approximation
         }
     };
-    let ir::Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, .. } = phong;
+    let ir::Phong {
+        color,
+        ka,
+        kd,
+        ks,
+        n,
+        kt,
+        eta,
+        glossy_samples,
+        ..
+    } = phong;
     let at = |field| place(Noun::Material, index, field);
     let color = check.color(*color, at(Field::Color));
     let ka = check.non_negative(*ka, "ka", at(Field::Ka));
@@ -100,9 +115,23 @@ pub(super) fn standard(
 }
 
 /// The maps that a material may have: the outer `None` is an error, the inner one absence.
-#[expect(clippy::option_option, reason = "an error and an absence are two things")]
-fn maps(phong: &ir::Phong, counts: &Counts, index: usize, check: &mut Check<'_>) -> Option<Option<Box<Maps>>> {
-    let ir::Phong { color_map, specular_map, normal_map, bump, .. } = phong;
+#[expect(
+    clippy::option_option,
+    reason = "an error and an absence are two things"
+)]
+fn maps(
+    phong: &ir::Phong,
+    counts: &Counts,
+    index: usize,
+    check: &mut Check<'_>,
+) -> Option<Option<Box<Maps>>> {
+    let ir::Phong {
+        color_map,
+        specular_map,
+        normal_map,
+        bump,
+        ..
+    } = phong;
     if color_map.is_none() && specular_map.is_none() && normal_map.is_none() && bump.is_none() {
         return Some(None);
     }
@@ -111,20 +140,45 @@ fn maps(phong: &ir::Phong, counts: &Counts, index: usize, check: &mut Check<'_>)
     let specular = texture(specular_map.as_ref(), counts, at(Field::SpecularMap), check);
     let normal = texture(normal_map.as_ref(), counts, at(Field::NormalMap), check);
     let bump = height_field(bump.as_ref(), counts, at(Field::Bump), check);
-    Some(Some(Box::new(Maps { color: color?, specular: specular?, normal: normal?, bump: bump? })))
+    Some(Some(Box::new(Maps {
+        color: color?,
+        specular: specular?,
+        normal: normal?,
+        bump: bump?,
+    })))
 }
 
 /// A texture that may be absent: the outer `None` is an error, the inner one absence.
-fn texture(id: Option<&TextureId>, counts: &Counts, place: Place, check: &mut Check<'_>) -> Option<Option<usize>> {
+fn texture(
+    id: Option<&TextureId>,
+    counts: &Counts,
+    place: Place,
+    check: &mut Check<'_>,
+) -> Option<Option<usize>> {
     match id {
-        Some(id) => check.handle(id.0, counts.textures, "texture", place).map(Some),
+        Some(id) => check
+            .handle(id.0, counts.textures, "texture", place)
+            .map(Some),
         None => Some(None),
     }
 }
 
-fn height_field(bump: Option<&ir::Bump>, counts: &Counts, place: Place, check: &mut Check<'_>) -> Option<Option<Bump>> {
-    let Some(ir::Bump { texture: id, height }) = bump else { return Some(None) };
+fn height_field(
+    bump: Option<&ir::Bump>,
+    counts: &Counts,
+    place: Place,
+    check: &mut Check<'_>,
+) -> Option<Option<Bump>> {
+    let Some(ir::Bump {
+        texture: id,
+        height,
+    }) = bump
+    else {
+        return Some(None);
+    };
     let texture = texture(Some(id), counts, place, check);
     let height = check.number(*height, place);
-    texture?.zip(height).map(|(texture, height)| Some(Bump { texture, height }))
+    texture?
+        .zip(height)
+        .map(|(texture, height)| Some(Bump { texture, height }))
 }

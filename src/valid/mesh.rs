@@ -1,4 +1,5 @@
-//! The proof of the meshes: corners that are numbers, triangles that refer to corners and have an area.
+//! The proof of the meshes: corners that are numbers, triangles that refer to corners and have an
+//! area.
 
 use super::check::{Check, LARGEST, place};
 use super::shape::has_area;
@@ -12,13 +13,15 @@ use crate::math::{Vec3, unit};
 pub struct Mesh {
     /// Where the corners are.
     pub positions: Column<3>,
-    /// The shading normal at each corner, finite and of any length, or zero where it has none; empty for flat shading.
+    /// The shading normal at each corner, finite and of any length, or zero where it has none;
+    /// empty for flat shading.
     pub normals: Column<3>,
     /// The texture coordinates at each corner; empty if there are none.
     pub uvs: Column<2>,
     /// The second set of them; empty if there is none.
     pub second_uvs: Column<2>,
-    /// The direction of growing u at each corner, and ±1 for the side of growing v; empty if there are none.
+    /// The direction of growing u at each corner, and ±1 for the side of growing v; empty if there
+    /// are none.
     pub tangents: Column<4>,
     /// The colour at each corner, with alpha, each at least 0; empty if there are none.
     pub colors: Column<4>,
@@ -34,7 +37,8 @@ impl Mesh {
         corners(&self.positions, triangle)
     }
 
-    /// The unit shading normal at corner `corner` of a mesh that has normals, or zero where it has none.
+    /// The unit shading normal at corner `corner` of a mesh that has normals, or zero where it has
+    /// none.
     #[must_use]
     #[inline]
     pub fn normal(&self, corner: u32) -> Vec3 {
@@ -48,14 +52,41 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
         check.report(whole, "", Diagnostic::new(&codes::BAD_MESH, message));
         return None;
     }
-    let ir::Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh.clone();
-    let mut proven = Mesh { positions, normals, uvs, second_uvs, tangents, colors, triangles };
+    let ir::Mesh {
+        name: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    } = mesh.clone();
+    let mut proven = Mesh {
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    };
     let shows = |triangle: &[u32; 3]| has_area(corners(&mesh.positions, *triangle));
     let all = mesh.triangles.len();
-    let flat = all - mesh.triangles.iter().filter(|triangle| shows(triangle)).count();
+    let flat = all
+        - mesh
+            .triangles
+            .iter()
+            .filter(|triangle| shows(triangle))
+            .count();
     if flat > 0 {
-        let message = format!("{flat} of {all} triangles of a mesh have no area, so nothing shows of them");
-        check.report(whole, "", Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message));
+        let message =
+            format!("{flat} of {all} triangles of a mesh have no area, so nothing shows of them");
+        check.report(
+            whole,
+            "",
+            Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message),
+        );
         proven.triangles = mesh.triangles.iter().copied().filter(shows).collect();
     }
     Some(proven)
@@ -63,33 +94,72 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
 
 fn corners(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
     let position = |corner: u32| Vec3::from_array(positions.at(corner as usize));
-    // Written out: `map` of an array is a call here, and makes the proof of a large mesh twice as long.
+    // Written out: `map` of an array is a call here, and makes the proof of a large mesh twice as
+    // long.
     [position(a), position(b), position(c)]
 }
 
 /// The first fault of a mesh, in words.
 fn fault(mesh: &ir::Mesh) -> Option<String> {
-    let ir::Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles } = mesh;
+    let ir::Mesh {
+        name: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles,
+    } = mesh;
     let sound = |value: &f64| value.abs() <= LARGEST;
     if let Some(vertex) = positions.iter().position(|p| !p.iter().all(sound)) {
-        return Some(format!("vertex {vertex} of a mesh is no point of finite numbers: {:?}", positions.at(vertex)));
+        return Some(format!(
+            "vertex {vertex} of a mesh is no point of finite numbers: {:?}",
+            positions.at(vertex)
+        ));
     }
-    if let Some(vertex) = normals.iter().position(|n| !n.iter().all(|value| value.is_finite())) {
-        return Some(format!("normal {vertex} of a mesh is not finite: {:?}", normals.at(vertex)));
+    if let Some(vertex) = normals
+        .iter()
+        .position(|n| !n.iter().all(|value| value.is_finite()))
+    {
+        return Some(format!(
+            "normal {vertex} of a mesh is not finite: {:?}",
+            normals.at(vertex)
+        ));
     }
-    if let Some(vertex) = uvs.iter().chain(second_uvs.iter()).position(|uv| !uv.iter().all(sound)) {
+    if let Some(vertex) = uvs
+        .iter()
+        .chain(second_uvs.iter())
+        .position(|uv| !uv.iter().all(sound))
+    {
         return Some(format!("uv {vertex} of a mesh is not finite"));
     }
-    if let Some(vertex) = tangents.iter().position(|tangent| !tangent.iter().all(sound)) {
-        return Some(format!("tangent {vertex} of a mesh is not finite: {:?}", tangents.at(vertex)));
+    if let Some(vertex) = tangents
+        .iter()
+        .position(|tangent| !tangent.iter().all(sound))
+    {
+        return Some(format!(
+            "tangent {vertex} of a mesh is not finite: {:?}",
+            tangents.at(vertex)
+        ));
     }
-    if let Some(vertex) = colors.iter().position(|color| !color.iter().all(|c| (0.0..=LARGEST).contains(c))) {
-        return Some(format!("colour {vertex} of a mesh is negative or not finite: {:?}", colors.at(vertex)));
+    if let Some(vertex) = colors
+        .iter()
+        .position(|color| !color.iter().all(|c| (0.0..=LARGEST).contains(c)))
+    {
+        return Some(format!(
+            "colour {vertex} of a mesh is negative or not finite: {:?}",
+            colors.at(vertex)
+        ));
     }
     let count = positions.len();
     let matches = |length: usize| length == 0 || length == count;
     if !matches(normals.len()) || !matches(uvs.len()) {
-        return Some(format!("a mesh has {count} positions, {} normals and {} uvs", normals.len(), uvs.len()));
+        return Some(format!(
+            "a mesh has {count} positions, {} normals and {} uvs",
+            normals.len(),
+            uvs.len()
+        ));
     }
     if !matches(second_uvs.len()) || !matches(tangents.len()) || !matches(colors.len()) {
         let (uvs, tangents, colors) = (second_uvs.len(), tangents.len(), colors.len());
@@ -97,6 +167,13 @@ fn fault(mesh: &ir::Mesh) -> Option<String> {
             "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} colours"
         ));
     }
-    let lost = triangles.iter().position(|t| t.iter().any(|k| *k as usize >= count));
-    lost.map(|t| format!("triangle {t} of a mesh refers to {:?}, and there are {count} vertices", triangles[t]))
+    let lost = triangles
+        .iter()
+        .position(|t| t.iter().any(|k| *k as usize >= count));
+    lost.map(|t| {
+        format!(
+            "triangle {t} of a mesh refers to {:?}, and there are {count} vertices",
+            triangles[t]
+        )
+    })
 }

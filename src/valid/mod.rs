@@ -1,7 +1,9 @@
-//! The proof: [`validate`] alone makes a [`ValidScene`], and whoever holds one need not doubt a number.
+//! The proof: [`validate`] alone makes a [`ValidScene`], and whoever holds one need not doubt a
+//! number.
 //!
-//! Every check that can be stated on the IR lives here, so a hand-made IR file is refused as well as a text. It knows
-//! not where a scene came from; spans are looked up in the origins handed in, and every finding has a JSON pointer.
+//! Every check that can be stated on the IR lives here, so a hand-made IR file is refused as well
+//! as a text. It knows not where a scene came from; spans are looked up in the origins handed in,
+//! and every finding has a JSON pointer.
 
 mod camera;
 mod check;
@@ -14,7 +16,9 @@ mod shape;
 mod standard;
 mod surrounding;
 
-pub use crate::ir::{Alpha, Column, Filter, Map, Pixels, Projection, Sampled, Shared, Standard, Wrap};
+pub use crate::ir::{
+    Alpha, Column, Filter, Map, Pixels, Projection, Sampled, Shared, Standard, Wrap,
+};
 pub use camera::{Camera, Lens};
 pub use check::LARGEST;
 pub use image::{Image, Texel, Texture};
@@ -22,7 +26,9 @@ pub use light::{Emitter, Falloff, Light, Punctual};
 pub use material::{Bump, Maps, Phong};
 pub use mesh::Mesh;
 pub use settings::{Gooch, Mode, Path, Pattern, Settings};
-pub use shape::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+pub use shape::{
+    Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
+};
 pub use surrounding::Environment;
 
 use crate::diag::Sink;
@@ -38,7 +44,8 @@ pub struct Options {
     pub limits: Limits,
 }
 
-/// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles with an area.
+/// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles
+/// with an area.
 #[derive(Clone, Debug)]
 pub struct ValidScene {
     camera: Camera,
@@ -123,23 +130,43 @@ impl ValidScene {
 }
 
 impl ValidScene {
-    /// The same scene with another camera, of a picture of the same size; `None` if that is no sound one.
+    /// The same scene with another camera, of a picture of the same size; `None` if that is no
+    /// sound one.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
         let (origins, mut sink) = (Origins::default(), Sink::default());
         let mut check = Check::new(&origins, &mut sink);
         let camera = camera::camera(camera, &mut check)?;
         let is_as_large = (camera.width, camera.height) == (self.camera.width, self.camera.height);
-        (check.is_clean() && is_as_large).then(|| Self { camera, ..self.clone() })
+        (check.is_clean() && is_as_large).then(|| Self {
+            camera,
+            ..self.clone()
+        })
     }
 }
 
-/// Proves the scene, or says in the sink why it can't be; all faults are reported, not the first alone.
+/// Proves the scene, or says in the sink why it can't be; all faults are reported, not the first
+/// alone.
 ///
 /// `None` exactly if this call reported an error.
-pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
-    let ir::Scene { camera, settings, lights, images, textures, meshes, materials, surfaces, names: _, environment } =
-        scene;
+pub fn validate(
+    scene: &ir::Scene,
+    origins: &Origins,
+    options: &Options,
+    sink: &mut Sink,
+) -> Option<ValidScene> {
+    let ir::Scene {
+        camera,
+        settings,
+        lights,
+        images,
+        textures,
+        meshes,
+        materials,
+        surfaces,
+        names: _,
+        environment,
+    } = scene;
     let traces_paths = matches!(settings.mode, ir::Mode::Path(_));
     let mut check = Check::new(origins, sink);
     let valid_camera = camera::camera(camera, &mut check);
@@ -147,16 +174,25 @@ pub fn validate(scene: &ir::Scene, origins: &Origins, options: &Options, sink: &
     let valid_lights = check.all(lights, light::light);
     let valid_environment = surrounding::environment(environment.as_ref(), images, &mut check);
     let valid_images = check.all(images, image::image);
-    let valid_textures =
-        check.all(textures, |texture, index, check| image::texture(texture, index, images.len(), check));
-    let valid_meshes = check.all(meshes, mesh::mesh);
-    let counts = Counts { textures: textures.len(), meshes: meshes.len(), materials: materials.len() };
-    let valid_materials =
-        check.all(materials, |material, index, check| material::material(material, index, &counts, check));
-    let valid_standards = check.all(if traces_paths { materials } else { &[] }, |material, index, check| {
-        material::standard(material, index, &counts, check)
+    let valid_textures = check.all(textures, |texture, index, check| {
+        image::texture(texture, index, images.len(), check)
     });
-    let valid_surfaces = check.all(surfaces, |surface, index, check| shape::surface(surface, index, &counts, check));
+    let valid_meshes = check.all(meshes, mesh::mesh);
+    let counts = Counts {
+        textures: textures.len(),
+        meshes: meshes.len(),
+        materials: materials.len(),
+    };
+    let valid_materials = check.all(materials, |material, index, check| {
+        material::material(material, index, &counts, check)
+    });
+    let valid_standards = check.all(
+        if traces_paths { materials } else { &[] },
+        |material, index, check| material::standard(material, index, &counts, check),
+    );
+    let valid_surfaces = check.all(surfaces, |surface, index, check| {
+        shape::surface(surface, index, &counts, check)
+    });
     settings::budget(scene, options, &mut check);
     let valid = ValidScene {
         camera: valid_camera?,

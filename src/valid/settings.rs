@@ -46,8 +46,8 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The tone map of its pictures, where none is asked for: radiance is coded for a display, colours of the course are
-    /// shown as they are.
+    /// The tone map of its pictures, where none is asked for: radiance is coded for a display,
+    /// colours of the course are shown as they are.
     #[must_use]
     pub fn tone(&self) -> Tone {
         match self {
@@ -80,21 +80,43 @@ pub struct Gooch {
 }
 
 pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option<Settings> {
-    let ir::Settings { mode, shadows, max_depth, supersampling, pattern, light_samples } = settings;
+    let ir::Settings {
+        mode,
+        shadows,
+        max_depth,
+        supersampling,
+        pattern,
+        light_samples,
+    } = settings;
     let mode = match mode {
         ir::Mode::Phong => Some(Mode::Phong),
         ir::Mode::Zbuffer => Some(Mode::Zbuffer),
         ir::Mode::Normal => Some(Mode::Normal),
         ir::Mode::Gooch(parameters) => gooch(parameters, check),
-        ir::Mode::Path(ir::Path { samples, multiple_scattering }) => {
+        ir::Mode::Path(ir::Path {
+            samples,
+            multiple_scattering,
+        }) => {
             let samples = check.count(*samples, "samples", at(Field::Mode));
-            samples.map(|samples| Mode::Path(Path { samples, multiple_scattering: *multiple_scattering }))
+            samples.map(|samples| {
+                Mode::Path(Path {
+                    samples,
+                    multiple_scattering: *multiple_scattering,
+                })
+            })
         }
     };
-    let supersampling = check.count(*supersampling, "supersampling factor", at(Field::Supersampling));
+    let supersampling = check.count(
+        *supersampling,
+        "supersampling factor",
+        at(Field::Supersampling),
+    );
     let light_samples = check.count(*light_samples, "light samples", at(Field::LightSamples));
     if *max_depth > MAX_DEPTH {
-        let finding = Diagnostic::new(&codes::TOO_DEEP, format!("{max_depth} bounces are too many"));
+        let finding = Diagnostic::new(
+            &codes::TOO_DEEP,
+            format!("{max_depth} bounces are too many"),
+        );
         check.report(
             at(Field::MaxDepth),
             "",
@@ -118,7 +140,12 @@ fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
     let y = check.number(*y, at(Field::GoochY));
     let alpha = check.number(*alpha, at(Field::GoochAlpha));
     let beta = check.number(*beta, at(Field::GoochBeta));
-    Some(Mode::Gooch(Gooch { b: b?, y: y?, alpha: alpha?, beta: beta? }))
+    Some(Mode::Gooch(Gooch {
+        b: b?,
+        y: y?,
+        alpha: alpha?,
+        beta: beta?,
+    }))
 }
 
 fn at(field: Field) -> Place {
@@ -133,7 +160,9 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
     if pixels > limit.into() {
         let message = format!("the image is too large: {width} × {height} = {pixels} pixels");
         let finding = Diagnostic::new(&codes::HUGE_IMAGE, message);
-        let finding = finding.hint(format!("at most {limit} pixels; `--limit pixels=…` sets another limit"));
+        let finding = finding.hint(format!(
+            "at most {limit} pixels; `--limit pixels=…` sets another limit"
+        ));
         check.report(Place::new(Noun::Camera, 0, Field::Size), "", finding);
         return;
     }
@@ -142,16 +171,39 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
 
 /// What a picture takes even if no ray goes on from what it meets.
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
-    let ir::Settings { supersampling, max_depth: _, ref mode, shadows: _, pattern: _, light_samples } = scene.settings;
-    let paths = if let ir::Mode::Path(path) = mode { path.samples } else { 1 };
+    let ir::Settings {
+        supersampling,
+        max_depth: _,
+        ref mode,
+        shadows: _,
+        pattern: _,
+        light_samples,
+    } = scene.settings;
+    let paths = if let ir::Mode::Path(path) = mode {
+        path.samples
+    } else {
+        1
+    };
     let ir::Lens { radius, samples } = scene.camera.lens;
     let lens = if radius == 0.0 { 1 } else { samples };
-    let is_soft = scene.lights.iter().filter_map(ir::Light::point).any(|light| light.radius > 0.0);
-    let points = if is_soft && matches!(mode, ir::Mode::Phong) { light_samples } else { 1 };
+    let is_soft = scene
+        .lights
+        .iter()
+        .filter_map(ir::Light::point)
+        .any(|light| light.radius > 0.0);
+    let points = if is_soft && matches!(mode, ir::Mode::Phong) {
+        light_samples
+    } else {
+        1
+    };
     let [width, height] = scene.camera.size;
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
     let mut rays = pixels.saturating_mul(u128::from(supersampling) * u128::from(supersampling));
-    for (count, noun) in [(paths, "paths"), (lens, "aperture samples"), (points, "light samples")] {
+    for (count, noun) in [
+        (paths, "paths"),
+        (lens, "aperture samples"),
+        (points, "light samples"),
+    ] {
         rays = rays.saturating_mul(count.into());
         if count > 1 {
             product += &format!(" × {count} {noun}");
@@ -160,10 +212,26 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     if rays <= limit.into() {
         return;
     }
-    let total = if rays == u128::MAX { "more than 2¹²⁸".to_owned() } else { rays.to_string() };
-    let finding =
-        Diagnostic::new(&codes::TOO_MANY_RAYS, format!("the picture takes too many rays: {product} = {total}"));
-    let finding = finding.hint(format!("at most {limit} rays; `--limit rays=…` sets another limit"));
+    let total = if rays == u128::MAX {
+        "more than 2¹²⁸".to_owned()
+    } else {
+        rays.to_string()
+    };
+    let finding = Diagnostic::new(
+        &codes::TOO_MANY_RAYS,
+        format!("the picture takes too many rays: {product} = {total}"),
+    );
+    let finding = finding.hint(format!(
+        "at most {limit} rays; `--limit rays=…` sets another limit"
+    ));
     let many_points = u128::from(points) > u128::from(supersampling) * u128::from(supersampling);
-    check.report(at(if many_points { Field::LightSamples } else { Field::Supersampling }), "", finding);
+    check.report(
+        at(if many_points {
+            Field::LightSamples
+        } else {
+            Field::Supersampling
+        }),
+        "",
+        finding,
+    );
 }

@@ -47,7 +47,8 @@ pub struct Sphere {
     pub center: Vec3,
     /// Its radius.
     pub radius: Positive,
-    /// The rows of the rotation from directions of the world to those of the texture; none for the identity.
+    /// The rows of the rotation from directions of the world to those of the texture; none for the
+    /// identity.
     pub texture_from_world: Option<Box<[Vec3; 3]>>,
 }
 
@@ -83,8 +84,14 @@ impl Quad {
         const FLAT: f64 = 64.0;
         let [a, b, c, d] = self.vertices;
         let normal = cross(b - a, c - a) + cross(c - a, d - a);
-        let size = self.vertices.iter().map(|v| v.abs().element_sum()).fold(0.0, f64::max);
-        [b, c, d].iter().all(|v| (*v - a).dot(normal).abs() <= FLAT * U * size * normal.length())
+        let size = self
+            .vertices
+            .iter()
+            .map(|v| v.abs().element_sum())
+            .fold(0.0, f64::max);
+        [b, c, d]
+            .iter()
+            .all(|v| (*v - a).dot(normal).abs() <= FLAT * U * size * normal.length())
     }
 }
 
@@ -154,7 +161,12 @@ pub(super) fn surface(
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
     let mut proof = Proof { index, check };
-    let material = proof.check.handle(material.0, counts.materials, "material", proof.at(Field::Material));
+    let material = proof.check.handle(
+        material.0,
+        counts.materials,
+        "material",
+        proof.at(Field::Material),
+    );
     let shape = match shape {
         ir::Shape::Sphere(shape) => proof.sphere(shape).map(Some),
         ir::Shape::Plane(shape) => proof.plane(shape).map(Some),
@@ -167,7 +179,11 @@ pub(super) fn surface(
         ir::Shape::Instance(shape) => proof.instance(shape, counts).map(Some),
     };
     let material = material?;
-    Some(shape?.map(|shape| Surface { shape, material, index }))
+    Some(shape?.map(|shape| Surface {
+        shape,
+        material,
+        index,
+    }))
 }
 
 /// The proof of one surface.
@@ -190,48 +206,77 @@ impl Proof<'_, '_> {
     }
 
     fn length(&mut self, value: f64, name: &str, field: Field) -> Option<Positive> {
-        self.check.length(value, self.at(field), &codes::RADIUS, name)
+        self.check
+            .length(value, self.at(field), &codes::RADIUS, name)
     }
 
     fn sphere(&mut self, sphere: &ir::Sphere) -> Option<Shape> {
-        let ir::Sphere { center, radius, texture_from_world } = sphere;
+        let ir::Sphere {
+            center,
+            radius,
+            texture_from_world,
+        } = sphere;
         let center = self.point(*center, Field::SphereCenter);
         let radius = self.length(*radius, "radius", Field::SphereRadius);
         let rows = texture_from_world.map(|rows| Box::new(rows.map(Vec3::from_array)));
         if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
-            let finding = Diagnostic::new(&codes::BAD_ROTATION, "the texture of a sphere is turned by no rotation");
+            let finding = Diagnostic::new(
+                &codes::BAD_ROTATION,
+                "the texture of a sphere is turned by no rotation",
+            );
             self.check.report(self.at(Field::Whole), "", finding);
             return None;
         }
-        Some(Shape::Sphere(Sphere { center: center?, radius: radius?, texture_from_world: rows }))
+        Some(Shape::Sphere(Sphere {
+            center: center?,
+            radius: radius?,
+            texture_from_world: rows,
+        }))
     }
 
     fn plane(&mut self, plane: &ir::Plane) -> Option<Shape> {
         let ir::Plane { center, normal } = plane;
         let center = self.point(*center, Field::PlaneCenter);
         let normal = self.direction(*normal, "normal of a plane", Field::PlaneNormal);
-        Some(Shape::Plane(Plane { center: center?, normal: normal? }))
+        Some(Shape::Plane(Plane {
+            center: center?,
+            normal: normal?,
+        }))
     }
 
     fn triangle(&mut self, triangle: &ir::Triangle) -> Option<Option<Shape>> {
-        const FIELDS: [Field; 3] = [Field::TriangleVertex0, Field::TriangleVertex1, Field::TriangleVertex2];
+        const FIELDS: [Field; 3] = [
+            Field::TriangleVertex0,
+            Field::TriangleVertex1,
+            Field::TriangleVertex2,
+        ];
         let ir::Triangle { vertices, uvs } = triangle;
         let corners = [0, 1, 2].map(|k| self.point(vertices[k], FIELDS[k]));
         for uv in uvs.iter().flatten().flatten() {
             self.check.number(*uv, self.at(Field::Whole))?;
         }
         let vertices = [corners[0]?, corners[1]?, corners[2]?];
-        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle { vertices, uvs: uvs.map(Box::new) }));
+        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle {
+            vertices,
+            uvs: uvs.map(Box::new),
+        }));
         Some(self.face(sound, "triangle"))
     }
 
     fn quad(&mut self, quad: &ir::Quad) -> Option<Option<Shape>> {
-        const FIELDS: [Field; 4] = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+        const FIELDS: [Field; 4] = [
+            Field::QuadVertex0,
+            Field::QuadVertex1,
+            Field::QuadVertex2,
+            Field::QuadVertex3,
+        ];
         let ir::Quad { vertices } = quad;
         let corners = [0, 1, 2, 3].map(|k| self.point(vertices[k], FIELDS[k]));
         let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
         let area = has_area([a, b, c]) || has_area([a, c, d]);
-        let sound = area.then_some(Shape::Quad(Box::new(Quad { vertices: [a, b, c, d] })));
+        let sound = area.then_some(Shape::Quad(Box::new(Quad {
+            vertices: [a, b, c, d],
+        })));
         Some(self.face(sound, "quad"))
     }
 
@@ -241,26 +286,45 @@ impl Proof<'_, '_> {
             let message = format!("a {name} has no area, so nothing shows of it");
             let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
             let finding = finding.hint("give it corners that are not in line, or remove it");
-            self.check.report(self.at(Field::Whole), "its corners are in line", finding);
+            self.check
+                .report(self.at(Field::Whole), "its corners are in line", finding);
         }
         sound
     }
 
     fn disc(&mut self, disc: &ir::Disc) -> Option<Shape> {
-        let ir::Disc { center, normal, radius } = disc;
+        let ir::Disc {
+            center,
+            normal,
+            radius,
+        } = disc;
         let center = self.point(*center, Field::DiscCenter);
         let normal = self.direction(*normal, "normal of a disc", Field::DiscNormal);
         let radius = self.length(*radius, "radius", Field::DiscRadius);
-        Some(Shape::Disc(Disc { center: center?, normal: normal?, radius: radius? }))
+        Some(Shape::Disc(Disc {
+            center: center?,
+            normal: normal?,
+            radius: radius?,
+        }))
     }
 
     fn cylinder(&mut self, cylinder: &ir::Cylinder) -> Option<Shape> {
-        let ir::Cylinder { base, axis, height, radius } = cylinder;
+        let ir::Cylinder {
+            base,
+            axis,
+            height,
+            radius,
+        } = cylinder;
         let base = self.point(*base, Field::CylinderBase);
         let axis = self.direction(*axis, "axis of a cylinder", Field::CylinderAxis);
         let height = self.length(*height, "height", Field::CylinderHeight);
         let radius = self.length(*radius, "radius", Field::CylinderRadius);
-        Some(Shape::Cylinder(Cylinder { base: base?, axis: axis?, height: height?, radius: radius? }))
+        Some(Shape::Cylinder(Cylinder {
+            base: base?,
+            axis: axis?,
+            height: height?,
+            radius: radius?,
+        }))
     }
 
     fn cone(&mut self, cone: &ir::Cone) -> Option<Shape> {
@@ -268,35 +332,65 @@ impl Proof<'_, '_> {
         let base = self.point(*base, Field::ConeBase);
         let up_vector = self.point(*up, Field::ConeUp);
         let height = up_vector.map(|up| up.abs().max_element());
-        let height = height.and_then(|height| self.length(height, "height of a cone", Field::ConeUp));
+        let height =
+            height.and_then(|height| self.length(height, "height of a cone", Field::ConeUp));
         let radius = self.length(*radius, "radius", Field::ConeRadius);
         height?;
-        Some(Shape::Cone(Cone { base: base?, up: up_vector?, radius: radius? }))
+        Some(Shape::Cone(Cone {
+            base: base?,
+            up: up_vector?,
+            radius: radius?,
+        }))
     }
 
     fn torus(&mut self, torus: &ir::Torus) -> Option<Shape> {
-        let ir::Torus { center, axis, major, minor } = torus;
+        let ir::Torus {
+            center,
+            axis,
+            major,
+            minor,
+        } = torus;
         let center = self.point(*center, Field::TorusCenter);
         let axis = self.direction(*axis, "axis of a torus", Field::TorusAxis);
         let major = self.length(*major, "radius", Field::TorusMajor);
         let minor = self.length(*minor, "radius of the tube", Field::TorusMinor);
-        Some(Shape::Torus(Torus { center: center?, axis: axis?, major: major?, minor: minor? }))
+        Some(Shape::Torus(Torus {
+            center: center?,
+            axis: axis?,
+            major: major?,
+            minor: minor?,
+        }))
     }
 
     fn instance(&mut self, instance: &ir::Instance, counts: &Counts) -> Option<Shape> {
-        let ir::Instance { mesh, world_from_object } = instance;
-        let mesh = self.check.handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
+        let ir::Instance {
+            mesh,
+            world_from_object,
+        } = instance;
+        let mesh = self
+            .check
+            .handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
         let columns = world_from_object.map(|column| self.point(column, Field::InstanceTransform));
         let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
         let axes = [0, 1, 2].map(|k| unit(columns[k]).unwrap_or(Vec3::ZERO));
         let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
-        let smallest = columns[..3].iter().map(|axis| axis.abs().max_element()).fold(f64::INFINITY, f64::min);
+        let smallest = columns[..3]
+            .iter()
+            .map(|axis| axis.abs().max_element())
+            .fold(f64::INFINITY, f64::min);
         if volume < 1e-9 || smallest < SMALLEST {
-            let finding = Diagnostic::new(&codes::BAD_ROTATION, "a mesh is placed by a map that flattens it");
-            self.check.report(self.at(Field::InstanceTransform), "", finding);
+            let finding = Diagnostic::new(
+                &codes::BAD_ROTATION,
+                "a mesh is placed by a map that flattens it",
+            );
+            self.check
+                .report(self.at(Field::InstanceTransform), "", finding);
             return None;
         }
-        Some(Shape::Instance(Box::new(Instance { mesh: mesh?, world_from_object: columns })))
+        Some(Shape::Instance(Box::new(Instance {
+            mesh: mesh?,
+            world_from_object: columns,
+        })))
     }
 }
 
@@ -306,7 +400,11 @@ fn is_rotation(rows: [Vec3; 3]) -> bool {
     let close = |value: f64, wanted: f64| (value - wanted).abs() <= SLACK;
     let [x, y, z] = rows;
     let units = rows.iter().all(|row| close(row.dot(*row), 1.0));
-    units && close(x.dot(y), 0.0) && close(y.dot(z), 0.0) && close(z.dot(x), 0.0) && close(x.cross(y).dot(z), 1.0)
+    units
+        && close(x.dot(y), 0.0)
+        && close(y.dot(z), 0.0)
+        && close(z.dot(x), 0.0)
+        && close(x.cross(y).dot(z), 1.0)
 }
 
 /// Whether three corners are not in line.
@@ -315,8 +413,9 @@ pub(super) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     surely_spans(edges) || spans(edges)
 }
 
-/// Whether two edges span an area that the plain cross product, off by at most 6 u of the product of their lengths,
-/// shows already: so do those of nearly all triangles, and the exact one takes far longer.
+/// Whether two edges span an area that the plain cross product, off by at most 6 u of the product
+/// of their lengths, shows already: so do those of nearly all triangles, and the exact one takes
+/// far longer.
 fn surely_spans([first, second]: [Vec3; 2]) -> bool {
     let (p, q) = (first.abs().max_element(), second.abs().max_element());
     p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
@@ -324,8 +423,12 @@ fn surely_spans([first, second]: [Vec3; 2]) -> bool {
 
 /// Whether two edges span an area.
 fn spans([first, second]: [Vec3; 2]) -> bool {
-    let Some((first, p)) = unit_scale(first) else { return false };
-    let Some((second, q)) = unit_scale(second) else { return false };
+    let Some((first, p)) = unit_scale(first) else {
+        return false;
+    };
+    let Some((second, q)) = unit_scale(second) else {
+        return false;
+    };
     // Edges so short that their products leave the range of f64 count as none.
     let shortest = p.min(q) > libm::ilogb(SMALLEST);
     shortest && cross(first, second) != Vec3::ZERO
@@ -335,17 +438,24 @@ fn spans([first, second]: [Vec3; 2]) -> bool {
 mod tests {
     use super::*;
 
-    /// Slivers of all sizes, from clear triangles to such as only exact arithmetic tells from lines.
+    /// Slivers of all sizes, from clear triangles to such as only exact arithmetic tells from
+    /// lines.
     #[test]
     fn what_is_surely_an_area_is_one() {
         let mut sure = 0;
         for step in 0..4000 {
             let size = libm::ldexp(1.0, step % 401 - 200);
-            let (along, off) = (f64::from(step % 7) / 7.0 - 0.3, libm::ldexp(1.0, -(step % 61)));
+            let (along, off) = (
+                f64::from(step % 7) / 7.0 - 0.3,
+                libm::ldexp(1.0, -(step % 61)),
+            );
             let first = Vec3::new(0.1, 0.7, -0.3) * size;
             let second = first * along + Vec3::new(0.9, -0.2, 0.4) * (size * off);
             sure += i32::from(surely_spans([first, second]));
-            assert!(!surely_spans([first, second]) || spans([first, second]), "{first:?} {second:?}");
+            assert!(
+                !surely_spans([first, second]) || spans([first, second]),
+                "{first:?} {second:?}"
+            );
         }
         assert!((2000..4000).contains(&sure), "both answers are met: {sure}");
     }

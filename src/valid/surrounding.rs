@@ -20,27 +20,44 @@ pub struct Environment {
 const ROTATION: f64 = 1e-9;
 
 /// The proven environment: the outer `None` is an error, the inner one absence.
-#[expect(clippy::option_option, reason = "an error and an absence are two things")]
+#[expect(
+    clippy::option_option,
+    reason = "an error and an absence are two things"
+)]
 pub(super) fn environment(
     environment: Option<&ir::Environment>,
     images: &[ir::Image],
     check: &mut Check<'_>,
 ) -> Option<Option<Environment>> {
-    let Some(ir::Environment { radiance, image, image_from_world }) = environment else { return Some(None) };
+    let Some(ir::Environment {
+        radiance,
+        image,
+        image_from_world,
+    }) = environment
+    else {
+        return Some(None);
+    };
     let at = Place::new(Noun::Environment, 0, Field::Whole);
     let radiance = check.color(*radiance, at);
     let image = match image {
         Some(image) => check.handle(image.0, images.len(), "image", at).map(Some),
         None => Some(None),
     };
-    let rows = image_from_world.unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).map(Vec3::from_array);
+    let rows = image_from_world
+        .unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+        .map(Vec3::from_array);
     let [x, y, z] = rows;
-    let is_rotation =
-        (x.cross(y) - z).length() < ROTATION && (x.length() - 1.0).abs() < ROTATION && x.dot(y).abs() < ROTATION;
+    let is_rotation = (x.cross(y) - z).length() < ROTATION
+        && (x.length() - 1.0).abs() < ROTATION
+        && x.dot(y).abs() < ROTATION;
     if !is_rotation {
         let message = "the environment is turned by what is no rotation";
         check.report(at, "", Diagnostic::new(&codes::BAD_ROTATION, message));
     }
     let (radiance, image) = (radiance?, image?);
-    is_rotation.then_some(Some(Environment { radiance, image, image_from_world: rows }))
+    is_rotation.then_some(Some(Environment {
+        radiance,
+        image,
+        image_from_world: rows,
+    }))
 }

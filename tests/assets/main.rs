@@ -1,4 +1,5 @@
-//! The files a scene names: where they are looked for, what is refused, and what pictures and meshes become.
+//! The files a scene names: where they are looked for, what is refused, and what pictures and
+//! meshes become.
 
 #![expect(
     clippy::unwrap_used,
@@ -20,22 +21,35 @@ use std::io::Cursor;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// A scene with one image, one material that looks at it in every way, and one mesh; the text is where it is named.
+/// A scene with one image, one material that looks at it in every way, and one mesh; the text is
+/// where it is named.
 fn lowered(map: &mut SourceMap) -> Lowered {
     let text = "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}\nObjects:\n- {type: sphere, \
                 position: [0, 0, 0], radius: 1, material: {color: [1, 0, 0], ka: 1, kd: 1, ks: 0, n: 1}}\n";
     let file = map.add("course", text.as_bytes().to_vec());
     let mut sink = Sink::default();
-    let mut lowered = rtc::pipeline::load(file, map, &rtc::pipeline::Options::default(), &mut sink).unwrap();
+    let mut lowered =
+        rtc::pipeline::load(file, map, &rtc::pipeline::Options::default(), &mut sink).unwrap();
     assert!(!sink.has_errors(), "{sink:?}");
-    lowered.scene.images =
-        vec![Image { name: "picture".to_owned(), width: 1, height: 1, kind: Pixels::Rgb8, pixels: vec![0; 3].into() }];
+    lowered.scene.images = vec![Image {
+        name: "picture".to_owned(),
+        width: 1,
+        height: 1,
+        kind: Pixels::Rgb8,
+        pixels: vec![0; 3].into(),
+    }];
     lowered.scene.textures = vec![Texture::Uv, Texture::Image(ImageId(0))];
-    lowered.scene.meshes = vec![Mesh { name: "mesh".to_owned(), ..Mesh::default() }];
+    lowered.scene.meshes = vec![Mesh {
+        name: "mesh".to_owned(),
+        ..Mesh::default()
+    }];
     let phong = lowered.scene.materials[0].phong_mut().unwrap();
     phong.color_map = Some(TextureId(1));
     phong.specular_map = Some(TextureId(0));
-    phong.bump = Some(Bump { texture: TextureId(1), height: 1.0 });
+    phong.bump = Some(Bump {
+        texture: TextureId(1),
+        height: 1.0,
+    });
     lowered
 }
 
@@ -52,7 +66,11 @@ fn bring(scene: &Path, asset: Asset, path: &str, options: &Options) -> Outcome {
     let mut lowered = lowered(&mut map);
     let file = Loader.file(scene, &mut map).unwrap();
     let mut sink = Sink::default();
-    let wanted = vec![Wanted { asset, path: path.to_owned(), span: Some(Span::new(file, 2, 5)) }];
+    let wanted = vec![Wanted {
+        asset,
+        path: path.to_owned(),
+        span: Some(Span::new(file, 2, 5)),
+    }];
     assets::bring(&mut lowered, wanted, file, options, &mut map, &mut sink);
     let mut findings = String::new();
     for finding in sink.kept() {
@@ -63,13 +81,28 @@ fn bring(scene: &Path, asset: Asset, path: &str, options: &Options) -> Outcome {
         };
         let place = finding.primary.as_ref().map_or(String::new(), |label| {
             let at = map.line_column(label.span.file, label.span.start);
-            let name = map.name(label.span.file).rsplit('/').next().unwrap().to_owned();
+            let name = map
+                .name(label.span.file)
+                .rsplit('/')
+                .next()
+                .unwrap()
+                .to_owned();
             format!("{name}:{}:{}", at.line, at.column)
         });
-        findings.push_str(&format!("{} {severity} {place} {}\n", finding.code, finding.message));
-        finding.hints.iter().for_each(|hint| findings.push_str(&format!("  {}\n", hint.text)));
+        findings.push_str(&format!(
+            "{} {severity} {place} {}\n",
+            finding.code, finding.message
+        ));
+        finding
+            .hints
+            .iter()
+            .for_each(|hint| findings.push_str(&format!("  {}\n", hint.text)));
     }
-    Outcome { lowered, findings, errors: sink.has_errors() }
+    Outcome {
+        lowered,
+        findings,
+        errors: sink.has_errors(),
+    }
 }
 
 const IMAGE: Asset = Asset::Image(ImageId(0));
@@ -97,7 +130,10 @@ fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 
 /// A picture of one colour.
 fn png(color: [u8; 3]) -> Vec<u8> {
-    encoded(&RgbImage::from_pixel(2, 3, Rgb(color)).into(), ImageFormat::Png)
+    encoded(
+        &RgbImage::from_pixel(2, 3, Rgb(color)).into(),
+        ImageFormat::Png,
+    )
 }
 
 fn pixels(outcome: &Outcome) -> Vec<u8> {

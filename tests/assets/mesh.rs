@@ -9,7 +9,12 @@ use rtc::ir::{Column, Mesh};
 fn mesh(text: impl AsRef<[u8]>) -> Outcome {
     let folder = folder();
     write(&folder, "inner/m.obj", text);
-    bring(&folder.path().join("inner/scene.yaml"), MESH, "m.obj", &Options::default())
+    bring(
+        &folder.path().join("inner/scene.yaml"),
+        MESH,
+        "m.obj",
+        &Options::default(),
+    )
 }
 
 fn list<const N: usize>(column: &Column<N>) -> Vec<[f64; N]> {
@@ -21,26 +26,71 @@ fn obj_files_become_triangles() {
     let text = "# caf\u{e9}\no cube\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\ng half\nv 0 0.1 0\nusemtl red\n\
                 f 1 2 \\\n 3 -1\ns 1\ng other\nf -4 -2 -1\n";
     let latin1: Vec<u8> = text.chars().map(|c| c as u8).collect();
-    for bytes in [text.as_bytes(), &latin1, text.replace('\n', "\r\n").as_bytes()] {
-        let Outcome { lowered, findings, .. } = mesh(bytes);
+    for bytes in [
+        text.as_bytes(),
+        &latin1,
+        text.replace('\n', "\r\n").as_bytes(),
+    ] {
+        let Outcome {
+            lowered, findings, ..
+        } = mesh(bytes);
         assert_eq!(findings, "");
         let mesh = &lowered.scene.meshes[0];
-        assert_eq!(list(&mesh.positions), [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.1, 0.0]]);
+        assert_eq!(
+            list(&mesh.positions),
+            [
+                [0.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [0.0, 0.1, 0.0]
+            ]
+        );
         assert_eq!(*mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 2, 3]]);
-        assert_eq!((mesh.name.as_str(), mesh.normals.len(), mesh.uvs.len()), ("mesh", 0, 0));
+        assert_eq!(
+            (mesh.name.as_str(), mesh.normals.len(), mesh.uvs.len()),
+            ("mesh", 0, 0)
+        );
     }
 }
 
 #[test]
 fn normals_and_uvs_stay_with_their_corners() {
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.75 0\nvt 0.5\nvn 0 0 1\nvn 1 0 0\n";
-    let all = mesh(format!("{corners}f 1/1/1 2/2/1 3/1/2\nf 1/1/2 2/2/1 3/1/2\n")).lowered.scene.meshes.remove(0);
+    let all = mesh(format!(
+        "{corners}f 1/1/1 2/2/1 3/1/2\nf 1/1/2 2/2/1 3/1/2\n"
+    ))
+    .lowered
+    .scene
+    .meshes
+    .remove(0);
     assert_eq!(all.positions.len(), 4, "one corner has two normals");
-    assert_eq!(list(&all.uvs), [[0.25, 0.75], [0.5, 0.0], [0.25, 0.75], [0.25, 0.75]]);
-    assert_eq!(list(&all.normals), [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]);
-    let some = mesh(format!("{corners}f 1//1 2//1 3//2\nf 1 2 3\n")).lowered.scene.meshes.remove(0);
-    assert_eq!((some.positions.len(), some.normals.len(), some.uvs.len()), (6, 6, 0));
-    assert_eq!(list(&some.normals)[3..], [[0.0; 3]; 3], "flat where the file says nothing");
+    assert_eq!(
+        list(&all.uvs),
+        [[0.25, 0.75], [0.5, 0.0], [0.25, 0.75], [0.25, 0.75]]
+    );
+    assert_eq!(
+        list(&all.normals),
+        [
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, 1.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0]
+        ]
+    );
+    let some = mesh(format!("{corners}f 1//1 2//1 3//2\nf 1 2 3\n"))
+        .lowered
+        .scene
+        .meshes
+        .remove(0);
+    assert_eq!(
+        (some.positions.len(), some.normals.len(), some.uvs.len()),
+        (6, 6, 0)
+    );
+    assert_eq!(
+        list(&some.normals)[3..],
+        [[0.0; 3]; 3],
+        "flat where the file says nothing"
+    );
 }
 
 #[test]
@@ -51,69 +101,158 @@ fn off_files_become_triangles() {
         format!("# first\nOFF {body}"),
         format!("COFF\n{}", body.replace("1 1 0", "1 1 0 9 9 9 1")),
     ] {
-        let Outcome { lowered, findings, .. } = mesh(&text);
+        let Outcome {
+            lowered, findings, ..
+        } = mesh(&text);
         assert_eq!(findings, "", "{text}");
         let mesh = &lowered.scene.meshes[0];
         assert_eq!(*mesh.triangles, [[0, 1, 2], [0, 2, 3], [0, 2, 3]]);
-        assert_eq!((mesh.positions.at(2), mesh.positions.len()), ([1.0, 1.0, 0.0], 4));
+        assert_eq!(
+            (mesh.positions.at(2), mesh.positions.len()),
+            ([1.0, 1.0, 0.0], 4)
+        );
     }
-    let normals = mesh("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 1 0 0\n3 0 1 2\n").lowered.scene.meshes.remove(0);
-    assert_eq!(list(&normals.normals), [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+    let normals = mesh("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 1 0 0\n3 0 1 2\n")
+        .lowered
+        .scene
+        .meshes
+        .remove(0);
+    assert_eq!(
+        list(&normals.normals),
+        [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    );
 }
 
 #[test]
 fn faults_of_mesh_files_have_their_place_there() {
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let cases = [
-        ("v 0 0\n".to_owned(), "m.obj:1:1 2 numbers where there should be 3"),
-        ("v 0 nan 0\n".to_owned(), "m.obj:1:5 `nan` is not a finite number"),
-        ("v 0 1e999 0\n".to_owned(), "m.obj:1:5 `1e999` is not a finite number"),
+        (
+            "v 0 0\n".to_owned(),
+            "m.obj:1:1 2 numbers where there should be 3",
+        ),
+        (
+            "v 0 nan 0\n".to_owned(),
+            "m.obj:1:5 `nan` is not a finite number",
+        ),
+        (
+            "v 0 1e999 0\n".to_owned(),
+            "m.obj:1:5 `1e999` is not a finite number",
+        ),
         ("v 0 1,5 0\n".to_owned(), "m.obj:1:5 `1,5` is not a number"),
-        (format!("{corners}f 1 2 4\n"), "m.obj:4:7 a face refers to vertex 4, and the file has 3"),
-        (format!("{corners}f 1 2 0\n"), "m.obj:4:7 a face refers to vertex 0, and the file has 3"),
-        (format!("{corners}f 1 2 -4\n"), "m.obj:4:7 a face refers to vertex -4, and 3 stand before it"),
-        (format!("{corners}f 1/1 2 3\n"), "m.obj:4:5 a face refers to texture coordinate 1, and the file has 0"),
-        (format!("{corners}f 1//-9223372036854775808 2 3\n"), "m.obj:4:6 a face refers to normal"),
-        (format!("{corners}f 1///4 2 3\n"), "m.obj:4:3 `1///4` has more than three parts"),
-        (format!("{corners}f /1 2 3\n"), "m.obj:4:3 the corner `/1` has no vertex"),
-        (format!("{corners}f a b c\n"), "m.obj:4:3 `a` is not a whole number"),
+        (
+            format!("{corners}f 1 2 4\n"),
+            "m.obj:4:7 a face refers to vertex 4, and the file has 3",
+        ),
+        (
+            format!("{corners}f 1 2 0\n"),
+            "m.obj:4:7 a face refers to vertex 0, and the file has 3",
+        ),
+        (
+            format!("{corners}f 1 2 -4\n"),
+            "m.obj:4:7 a face refers to vertex -4, and 3 stand before it",
+        ),
+        (
+            format!("{corners}f 1/1 2 3\n"),
+            "m.obj:4:5 a face refers to texture coordinate 1, and the file has 0",
+        ),
+        (
+            format!("{corners}f 1//-9223372036854775808 2 3\n"),
+            "m.obj:4:6 a face refers to normal",
+        ),
+        (
+            format!("{corners}f 1///4 2 3\n"),
+            "m.obj:4:3 `1///4` has more than three parts",
+        ),
+        (
+            format!("{corners}f /1 2 3\n"),
+            "m.obj:4:3 the corner `/1` has no vertex",
+        ),
+        (
+            format!("{corners}f a b c\n"),
+            "m.obj:4:3 `a` is not a whole number",
+        ),
         (corners.to_owned(), "m.obj:1:1 the mesh has no faces"),
-        ("OFF\n3 1 0\n0 0 0\n".to_owned(), "m.obj:2:1 the file ends before the last of 3 vertices"),
-        ("OFF\n99999999999999 1 0\n0 0 0\n".to_owned(), "m.obj:2:1 the file ends before the last of 99999999999999"),
-        ("OFF\n-1 1 0\n".to_owned(), "m.obj:2:1 there can't be -1 vertices"),
-        ("OFF\n3\n".to_owned(), "m.obj:1:1 the number of faces is missing"),
-        ("OFF BINARY\n".to_owned(), "m.obj:1:5 binary OFF is not supported"),
-        ("4OFF\n".to_owned(), "m.obj:1:1 `4OFF` is a kind of OFF that is not supported"),
-        ("OFF\n1 1 0\n0 0 0\n3 0 0 1\n".to_owned(), "m.obj:4:7 a face refers to vertex 1, and there are 1, from 0"),
-        ("OFF\n1 1 0\n0 0 0\n4 0 0 0\n".to_owned(), "m.obj:4:1 a face of 4 corners names 3"),
+        (
+            "OFF\n3 1 0\n0 0 0\n".to_owned(),
+            "m.obj:2:1 the file ends before the last of 3 vertices",
+        ),
+        (
+            "OFF\n99999999999999 1 0\n0 0 0\n".to_owned(),
+            "m.obj:2:1 the file ends before the last of 99999999999999",
+        ),
+        (
+            "OFF\n-1 1 0\n".to_owned(),
+            "m.obj:2:1 there can't be -1 vertices",
+        ),
+        (
+            "OFF\n3\n".to_owned(),
+            "m.obj:1:1 the number of faces is missing",
+        ),
+        (
+            "OFF BINARY\n".to_owned(),
+            "m.obj:1:5 binary OFF is not supported",
+        ),
+        (
+            "4OFF\n".to_owned(),
+            "m.obj:1:1 `4OFF` is a kind of OFF that is not supported",
+        ),
+        (
+            "OFF\n1 1 0\n0 0 0\n3 0 0 1\n".to_owned(),
+            "m.obj:4:7 a face refers to vertex 1, and there are 1, from 0",
+        ),
+        (
+            "OFF\n1 1 0\n0 0 0\n4 0 0 0\n".to_owned(),
+            "m.obj:4:1 a face of 4 corners names 3",
+        ),
     ];
     for (text, expected) in cases {
         let findings = mesh(&text).findings;
-        assert!(findings.starts_with(&format!("RE006 error {expected}")), "{text}: {findings}");
+        assert!(
+            findings.starts_with(&format!("RE006 error {expected}")),
+            "{text}: {findings}"
+        );
     }
 }
 
 #[test]
 fn nothing_is_told_from_a_file_that_is_no_mesh() {
-    for text in
-        ["root:x:0:0:root:/root:/bin/sh\n", "TOKEN=secret", "# secret\n", "f secret secret secret\n", "s secret\nv"]
-    {
+    for text in [
+        "root:x:0:0:root:/root:/bin/sh\n",
+        "TOKEN=secret",
+        "# secret\n",
+        "f secret secret secret\n",
+        "s secret\nv",
+    ] {
         let findings = mesh(text).findings;
-        assert!(findings.starts_with("RE006 error scene.yaml:1:3 `"), "{findings}");
         assert!(
-            findings.ends_with("/inner/m.obj` is neither OBJ nor OFF\n") && !findings.contains("secret"),
+            findings.starts_with("RE006 error scene.yaml:1:3 `"),
+            "{findings}"
+        );
+        assert!(
+            findings.ends_with("/inner/m.obj` is neither OBJ nor OFF\n")
+                && !findings.contains("secret"),
             "{findings}"
         );
     }
     let findings = mesh("").findings;
-    assert!(findings.starts_with("RE006 error scene.yaml:1:3 the mesh file `") && findings.ends_with("is empty\n"));
+    assert!(
+        findings.starts_with("RE006 error scene.yaml:1:3 the mesh file `")
+            && findings.ends_with("is empty\n")
+    );
 }
 
 #[test]
 fn what_does_not_show_is_told() {
     let outcome = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nf 1 2\nf 1 2 3\n");
     let expected = "RE007 warning m.obj:4:1 2 elements of this file don't show: lines and points have no surface\n";
-    assert_eq!((outcome.findings.as_str(), outcome.lowered.scene.meshes[0].triangles.len()), (expected, 1));
+    assert_eq!(
+        (
+            outcome.findings.as_str(),
+            outcome.lowered.scene.meshes[0].triangles.len()
+        ),
+        (expected, 1)
+    );
 }
 
 /// Words that mesh files are made of, whole and broken.

@@ -1,4 +1,5 @@
-//! The pictures and meshes that people's scenes name, where they are at hand; and files of many names.
+//! The pictures and meshes that people's scenes name, where they are at hand; and files of many
+//! names.
 
 use super::{IMAGE, MESH, bring, folder, png, write};
 use rtc::diag::Sink;
@@ -13,8 +14,15 @@ fn files(folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
     let (mut open, mut found) = (vec![folder.to_owned()], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
-            open.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extensions.iter().any(|wanted| extension == *wanted)) {
+            open.extend(
+                fs::read_dir(&path)
+                    .unwrap()
+                    .map(|entry| entry.unwrap().path()),
+            );
+        } else if path
+            .extension()
+            .is_some_and(|extension| extensions.iter().any(|wanted| extension == *wanted))
+        {
             found.push(path);
         }
     }
@@ -31,13 +39,35 @@ fn every_picture_and_mesh_of_the_wild_is_read() {
     }
     for folder in ["wild", "course/scenes"] {
         for path in files(&shared.join(folder), &["png", "obj", "off"]) {
-            let asset = if path.extension().unwrap() == "png" { IMAGE } else { MESH };
+            let asset = if path.extension().unwrap() == "png" {
+                IMAGE
+            } else {
+                MESH
+            };
             // Any file beside it serves as the scene that names it.
-            let outcome = bring(&path, asset, path.file_name().unwrap().to_str().unwrap(), &Options::default());
-            let (image, mesh) = (&outcome.lowered.scene.images[0], &outcome.lowered.scene.meshes[0]);
-            println!("{}: {} × {}, {} triangles", path.display(), image.width, image.height, mesh.triangles.len());
+            let outcome = bring(
+                &path,
+                asset,
+                path.file_name().unwrap().to_str().unwrap(),
+                &Options::default(),
+            );
+            let (image, mesh) = (
+                &outcome.lowered.scene.images[0],
+                &outcome.lowered.scene.meshes[0],
+            );
+            println!(
+                "{}: {} × {}, {} triangles",
+                path.display(),
+                image.width,
+                image.height,
+                mesh.triangles.len()
+            );
             println!("{}", outcome.findings);
-            assert!(!outcome.errors && (image.width > 1 || mesh.triangles.len() > 1), "{}", outcome.findings);
+            assert!(
+                !outcome.errors && (image.width > 1 || mesh.triangles.len() > 1),
+                "{}",
+                outcome.findings
+            );
         }
     }
 }
@@ -46,15 +76,27 @@ fn every_picture_and_mesh_of_the_wild_is_read() {
 fn a_file_of_many_names_is_read_once() {
     let folder = folder();
     write(&folder, "inner/a.png", png([1, 2, 3]));
-    write(&folder, "inner/a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write(
+        &folder,
+        "inner/a.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    );
     for (from, to) in [("a.png", "b.png"), ("a.obj", "b.obj")] {
-        fs::hard_link(folder.path().join("inner").join(from), folder.path().join("inner").join(to)).unwrap();
+        fs::hard_link(
+            folder.path().join("inner").join(from),
+            folder.path().join("inner").join(to),
+        )
+        .unwrap();
     }
     let mut scene =
-        "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}\nObjects:\n".to_owned();
-    for (picture, mesh) in
-        [("a.png", "a.obj"), ("./a.png", "././a.obj"), ("../inner/a.png", "a.obj"), ("b.png", "b.obj")]
-    {
+        "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}\nObjects:\n"
+            .to_owned();
+    for (picture, mesh) in [
+        ("a.png", "a.obj"),
+        ("./a.png", "././a.obj"),
+        ("../inner/a.png", "a.obj"),
+        ("b.png", "b.obj"),
+    ] {
         scene += &format!(
             "- {{type: mesh, file: {mesh}, material: {{color: [1, 1, 1], texture: {picture}, ka: 1, kd: 1, ks: 0, n: \
              1}}}}\n"
@@ -62,18 +104,37 @@ fn a_file_of_many_names_is_read_once() {
     }
     write(&folder, "inner/scene.yaml", scene);
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = Loader.file(&folder.path().join("inner/scene.yaml"), &mut map).unwrap();
-    let scene = rtc::pipeline::load(file, &mut map, &rtc::pipeline::Options::default(), &mut sink).unwrap().scene;
-    let textures: Vec<_> = scene.textures.iter().map(|texture| texture == &Texture::Image(ImageId(0))).collect();
+    let file = Loader
+        .file(&folder.path().join("inner/scene.yaml"), &mut map)
+        .unwrap();
+    let scene = rtc::pipeline::load(
+        file,
+        &mut map,
+        &rtc::pipeline::Options::default(),
+        &mut sink,
+    )
+    .unwrap()
+    .scene;
+    let textures: Vec<_> = scene
+        .textures
+        .iter()
+        .map(|texture| texture == &Texture::Image(ImageId(0)))
+        .collect();
     let meshes: Vec<_> = scene
         .surfaces
         .iter()
         .map(|surface| {
-            let Shape::Instance(instance) = &surface.shape else { panic!("{:?}", surface.shape) };
+            let Shape::Instance(instance) = &surface.shape else {
+                panic!("{:?}", surface.shape)
+            };
             instance.mesh
         })
         .collect();
     assert_eq!(textures, [true; 4]);
     assert_eq!(meshes, [MeshId(0); 4]);
-    assert!(scene.meshes[1..].iter().all(|mesh| mesh.triangles.is_empty()));
+    assert!(
+        scene.meshes[1..]
+            .iter()
+            .all(|mesh| mesh.triangles.is_empty())
+    );
 }

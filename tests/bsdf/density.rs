@@ -1,4 +1,5 @@
-//! Samples fall as their density says: it integrates to what is sampled, and a χ² test finds no difference.
+//! Samples fall as their density says: it integrates to what is sampled, and a χ² test finds no
+//! difference.
 
 use crate::{lattice, variety, view};
 use rtc::math::Vec3;
@@ -18,7 +19,10 @@ struct Random(u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         let word = (((self.0 >> 18) ^ self.0) >> 27) as u32;
         f64::from(word.rotate_right((self.0 >> 59) as u32)) / 4_294_967_296.0
     }
@@ -43,7 +47,8 @@ fn expected(bsdf: &Bsdf) -> Vec<f64> {
         for j in 0..columns {
             let z = (i as f64 + 0.5) / rows as f64 * 2.0 - 1.0;
             let w = direction(z, (j as f64 + 0.5) / columns as f64 * TAU);
-            bins[(i / STEPS) * BINS[1] + j / STEPS] += bsdf.evaluate(w).pdf * 2.0 * TAU / (rows * columns) as f64;
+            bins[(i / STEPS) * BINS[1] + j / STEPS] +=
+                bsdf.evaluate(w).pdf * 2.0 * TAU / (rows * columns) as f64;
         }
     }
     bins
@@ -64,7 +69,8 @@ fn observed(bsdf: &Bsdf, seed: u64) -> (Vec<f64>, f64) {
     (bins, f64::from(taken) / f64::from(SAMPLES))
 }
 
-/// The probability that χ² with `freedom` degrees is above `x`: Q(k/2, x/2) by series or continued fraction.
+/// The probability that χ² with `freedom` degrees is above `x`: Q(k/2, x/2) by series or continued
+/// fraction.
 fn tail(x: f64, freedom: f64) -> f64 {
     let (a, x) = (freedom / 2.0, x / 2.0);
     let front = (a * x.ln() - x - libm::lgamma(a)).exp();
@@ -99,7 +105,11 @@ fn chi_squared(expected: &[f64], observed: &[f64]) -> f64 {
     };
     for (e, o) in expected.iter().zip(observed) {
         let e = e * f64::from(SAMPLES);
-        if e >= 5.0 { add(e, *o) } else { pool = (pool.0 + e, pool.1 + o) }
+        if e >= 5.0 {
+            add(e, *o)
+        } else {
+            pool = (pool.0 + e, pool.1 + o)
+        }
     }
     if pool.0 >= 5.0 {
         add(pool.0, pool.1);
@@ -119,7 +129,10 @@ fn samples_follow_their_density() {
             let (bins, taken) = observed(&bsdf, (index * cosines.len() + turn) as u64 + 1);
             let expected = expected(&bsdf);
             let whole = expected.iter().sum::<f64>();
-            assert!((whole - taken).abs() < 0.006, "{name}, cos {cosine}: ∫ pdf = {whole}, {taken} taken");
+            assert!(
+                (whole - taken).abs() < 0.006,
+                "{name}, cos {cosine}: ∫ pdf = {whole}, {taken} taken"
+            );
             let p = chi_squared(&expected, &bins);
             assert!(p > limit, "{name}, cos {cosine}: p = {p}");
         }
@@ -138,9 +151,13 @@ fn a_sample_carries_what_evaluation_gives() {
     for (name, standard) in variety() {
         for cosine in [0.9, 0.3, -0.5] {
             let bsdf = Bsdf::new(&standard, view(cosine));
-            for sample in (0..500).filter_map(|k| bsdf.sample(lattice(k))).filter(|sample| !sample.delta) {
+            for sample in (0..500)
+                .filter_map(|k| bsdf.sample(lattice(k)))
+                .filter(|sample| !sample.delta)
+            {
                 let value = bsdf.evaluate(sample.wi);
-                let error = (value.f - sample.f).abs().max_element() / (1.0 + sample.f.max_element());
+                let error =
+                    (value.f - sample.f).abs().max_element() / (1.0 + sample.f.max_element());
                 assert!(error < 1e-6, "{name}, cos {cosine}: {sample:?} {value:?}");
             }
         }
@@ -149,7 +166,11 @@ fn a_sample_carries_what_evaluation_gives() {
 
 #[test]
 fn a_diffuse_surface_samples_by_the_cosine() {
-    let lambert = Standard { specular: 0.0, multiple_scattering: false, ..Standard::default() };
+    let lambert = Standard {
+        specular: 0.0,
+        multiple_scattering: false,
+        ..Standard::default()
+    };
     let bsdf = Bsdf::new(&lambert, view(0.4));
     for k in 0..100 {
         let sample = bsdf.sample(lattice(k)).unwrap();

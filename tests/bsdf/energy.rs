@@ -10,7 +10,11 @@ fn a_white_surface_in_a_white_sky_is_white() {
         for r in 0..=10 {
             let (metallic, roughness) = (f64::from(m) / 2.0, f64::from(r) / 10.0);
             for cosine in [1.0, 0.8, 0.5, 0.3, 0.1, 0.03] {
-                let standard = Standard { metallic, roughness, ..Standard::default() };
+                let standard = Standard {
+                    metallic,
+                    roughness,
+                    ..Standard::default()
+                };
                 let whole = albedo(&standard, view(cosine), 1 << 14);
                 let error = whole.max_element() - 1.0;
                 let at = format!("metallic {metallic}, roughness {roughness}, cos {cosine}");
@@ -23,13 +27,25 @@ fn a_white_surface_in_a_white_sky_is_white() {
 #[test]
 fn no_material_sends_out_more_than_it_gets() {
     for (name, standard) in variety() {
-        // A coat whose normal leans may return a little more: its cosines are not those of the surface.
-        let clearcoat = standard.clearcoat.map(|coat| Clearcoat { normal: Vec3::Z, ..coat });
-        let white = Standard { base_color: Vec3::ONE, multiple_scattering: true, clearcoat, ..standard };
+        // A coat whose normal leans may return a little more: its cosines are not those of the
+        // surface.
+        let clearcoat = standard.clearcoat.map(|coat| Clearcoat {
+            normal: Vec3::Z,
+            ..coat
+        });
+        let white = Standard {
+            base_color: Vec3::ONE,
+            multiple_scattering: true,
+            clearcoat,
+            ..standard
+        };
         for cosine in [1.0, 0.7, 0.4, 0.1, -0.1, -0.4, -0.7, -1.0] {
             let whole = albedo(&white, view(cosine), 1 << 13);
             let limit = if white.sheen.is_some() { 1.03 } else { 1.01 };
-            assert!(whole.max_element() < limit && whole.min_element() >= 0.0, "{name}, cos {cosine}: {whole}");
+            assert!(
+                whole.max_element() < limit && whole.min_element() >= 0.0,
+                "{name}, cos {cosine}: {whole}"
+            );
         }
     }
 }
@@ -37,11 +53,23 @@ fn no_material_sends_out_more_than_it_gets() {
 #[test]
 fn smooth_glass_loses_nothing() {
     for (thin_walled, ior) in [(true, 1.5), (false, 1.5), (false, 2.4), (false, 1.0)] {
-        let glass = Standard { transmission: 1.0, roughness: 0.0, thin_walled, ior, ..Standard::default() };
-        let glass = Standard { multiple_scattering: false, ..glass };
+        let glass = Standard {
+            transmission: 1.0,
+            roughness: 0.0,
+            thin_walled,
+            ior,
+            ..Standard::default()
+        };
+        let glass = Standard {
+            multiple_scattering: false,
+            ..glass
+        };
         for cosine in [1.0, 0.6, 0.2, -0.2, -0.6, -1.0] {
             let whole = albedo(&glass, view(cosine), 1 << 12);
-            assert!((whole - Vec3::ONE).abs().max_element() < 1e-3, "{thin_walled} {ior} {cosine}: {whole}");
+            assert!(
+                (whole - Vec3::ONE).abs().max_element() < 1e-3,
+                "{thin_walled} {ior} {cosine}: {whole}"
+            );
         }
     }
 }
@@ -49,48 +77,83 @@ fn smooth_glass_loses_nothing() {
 #[test]
 fn reflection_is_reciprocal() {
     // A coat is left out: its share depends on the viewer alone by definition.
-    for (name, standard) in variety().into_iter().filter(|(_, standard)| standard.clearcoat.is_none()) {
+    for (name, standard) in variety()
+        .into_iter()
+        .filter(|(_, standard)| standard.clearcoat.is_none())
+    {
         for k in 0..200 {
             let [a, b, c] = lattice(k);
             let (wo, wi) = (view(0.02 + 0.98 * a), view(0.02 + 0.98 * b));
             let wi = Vec3::new(wi.x * (2.0 * c - 1.0), wi.y, wi.z).normalize();
-            let (there, back) = (Bsdf::new(&standard, wo).evaluate(wi).f, Bsdf::new(&standard, wi).evaluate(wo).f);
+            let (there, back) = (
+                Bsdf::new(&standard, wo).evaluate(wi).f,
+                Bsdf::new(&standard, wi).evaluate(wo).f,
+            );
             let error = (there - back).abs().max_element();
-            assert!(error < 1e-9 * (1.0 + there.max_element()), "{name}: {wo} {wi}: {there} {back}");
+            assert!(
+                error < 1e-9 * (1.0 + there.max_element()),
+                "{name}: {wo} {wi}: {there} {back}"
+            );
         }
     }
 }
 
 #[test]
 fn refraction_is_reciprocal_but_for_the_squeeze_of_angles() {
-    let (_, body) = variety().into_iter().find(|(name, _)| *name == "body").unwrap();
+    let (_, body) = variety()
+        .into_iter()
+        .find(|(name, _)| *name == "body")
+        .unwrap();
     let wo = view(0.8);
     for k in 0..200 {
         let [a, b, _] = lattice(k);
         let wi = Vec3::new(0.5 * a - 0.4, 0.5 * b - 0.4, -0.9).normalize();
-        let (there, back) = (Bsdf::new(&body, wo).evaluate(wi).f, Bsdf::new(&body, wi).evaluate(wo).f);
-        // Walter's f carries the solid angle of its own far side: f(o→i)·n_o² = f(i→o)·n_i² for basic radiance.
+        let (there, back) = (
+            Bsdf::new(&body, wo).evaluate(wi).f,
+            Bsdf::new(&body, wi).evaluate(wo).f,
+        );
+        // Walter's f carries the solid angle of its own far side: f(o→i)·n_o² = f(i→o)·n_i² for
+        // basic radiance.
         let error = (there - back * 2.25).abs().max_element();
-        assert!(error < 1e-9 * (1.0 + there.max_element()), "{wo} {wi}: {there} {back}");
+        assert!(
+            error < 1e-9 * (1.0 + there.max_element()),
+            "{wo} {wi}: {there} {back}"
+        );
     }
 }
 
 #[test]
 fn a_black_surface_scatters_nothing() {
-    let black = Standard { base_color: Vec3::ZERO, specular: 0.0, multiple_scattering: false, ..Standard::default() };
+    let black = Standard {
+        base_color: Vec3::ZERO,
+        specular: 0.0,
+        multiple_scattering: false,
+        ..Standard::default()
+    };
     assert!((0..100).all(|k| Bsdf::new(&black, view(0.5)).sample(lattice(k)).is_none()));
 }
 
 #[test]
 fn directions_on_the_horizon_give_numbers() {
     for (name, standard) in variety() {
-        for (wo, wi) in [(Vec3::X, Vec3::Z), (Vec3::Z, Vec3::X), (Vec3::X, Vec3::NEG_X), (Vec3::Z, Vec3::NEG_Z)] {
+        for (wo, wi) in [
+            (Vec3::X, Vec3::Z),
+            (Vec3::Z, Vec3::X),
+            (Vec3::X, Vec3::NEG_X),
+            (Vec3::Z, Vec3::NEG_Z),
+        ] {
             let bsdf = Bsdf::new(&standard, wo);
             let value = bsdf.evaluate(wi);
-            assert!(value.f.is_finite() && value.pdf.is_finite(), "{name}: {wo} {wi}: {value:?}");
+            assert!(
+                value.f.is_finite() && value.pdf.is_finite(),
+                "{name}: {wo} {wi}: {value:?}"
+            );
             for k in 0..100 {
                 let sample = bsdf.sample(lattice(k));
-                assert!(sample.is_none_or(|s| s.f.is_finite() && s.pdf > 0.0 && s.wi.is_finite()), "{name}: {wo}");
+                assert!(
+                    sample.is_none_or(|s| s.f.is_finite() && s.pdf > 0.0 && s.wi.is_finite()),
+                    "{name}: {wo}"
+                );
             }
         }
     }
@@ -98,9 +161,22 @@ fn directions_on_the_horizon_give_numbers() {
 
 #[test]
 fn a_coat_with_its_back_to_the_viewer_is_not_seen() {
-    let bare = Standard { roughness: 0.5, ..Standard::default() };
-    let coat = Clearcoat { factor: 1.0, roughness: 0.1, normal: Vec3::new(-1.0, 0.0, 0.1).normalize() };
-    let coated = Standard { clearcoat: Some(coat), ..bare };
+    let bare = Standard {
+        roughness: 0.5,
+        ..Standard::default()
+    };
+    let coat = Clearcoat {
+        factor: 1.0,
+        roughness: 0.1,
+        normal: Vec3::new(-1.0, 0.0, 0.1).normalize(),
+    };
+    let coated = Standard {
+        clearcoat: Some(coat),
+        ..bare
+    };
     let (wo, wi) = (Vec3::new(0.8, 0.0, 0.6), Vec3::new(0.0, 0.6, 0.8));
-    assert_eq!(Bsdf::new(&coated, wo).evaluate(wi), Bsdf::new(&bare, wo).evaluate(wi));
+    assert_eq!(
+        Bsdf::new(&coated, wo).evaluate(wi),
+        Bsdf::new(&bare, wo).evaluate(wi)
+    );
 }

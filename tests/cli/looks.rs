@@ -26,7 +26,10 @@ const SIGN: &str = r#"{
 }"#;
 
 fn render(folder: &TempDir, scene: &str, args: &[&str]) -> DynamicImage {
-    let output = rtc(folder, &[&["render", scene, "-q", "-o", "-"], args].concat());
+    let output = rtc(
+        folder,
+        &[&["render", scene, "-q", "-o", "-"], args].concat(),
+    );
     assert_eq!(code(&output), 0, "{}", stderr(&output));
     image::load_from_memory(&output.stdout).unwrap()
 }
@@ -36,9 +39,31 @@ fn the_defaults_are_those_of_the_mode() {
     let folder = folder();
     fs::write(folder.path().join("sign.json"), SIGN).unwrap();
     let same = |scene, args| render(&folder, scene, &[]) == render(&folder, scene, args);
-    assert!(same("ball.json", &["--tonemap", "none", "--exposure", "0", "--background", "env"]));
-    assert!(same("sign.json", &["--tonemap", "srgb", "--exposure", "0", "--background", "env"]));
-    assert!(!same("ball.json", &["--tonemap", "srgb"]) && !same("sign.json", &["--tonemap", "none"]));
+    assert!(same(
+        "ball.json",
+        &[
+            "--tonemap",
+            "none",
+            "--exposure",
+            "0",
+            "--background",
+            "env"
+        ]
+    ));
+    assert!(same(
+        "sign.json",
+        &[
+            "--tonemap",
+            "srgb",
+            "--exposure",
+            "0",
+            "--background",
+            "env"
+        ]
+    ));
+    assert!(
+        !same("ball.json", &["--tonemap", "srgb"]) && !same("sign.json", &["--tonemap", "none"])
+    );
 }
 
 #[test]
@@ -52,10 +77,19 @@ fn tone_maps_and_exposure_show_what_they_are_defined_to() {
     // Radiance 2, 1, 0.25 and 0.25: ⌊255·v⌋ of the definitions, by hand.
     assert_eq!(shown(&[]), [[255, 255, 136], [136; 3]]);
     assert_eq!(shown(&["--tonemap", "none"]), [[255, 255, 63], [63; 3]]);
-    assert_eq!(shown(&["--tonemap", "none", "--exposure", "-2"]), [[127, 63, 15], [15; 3]]);
-    assert_eq!(shown(&["--exposure", "-2", "--tonemap", "pbr-neutral"])[1], [43; 3]);
+    assert_eq!(
+        shown(&["--tonemap", "none", "--exposure", "-2"]),
+        [[127, 63, 15], [15; 3]]
+    );
+    assert_eq!(
+        shown(&["--exposure", "-2", "--tonemap", "pbr-neutral"])[1],
+        [43; 3]
+    );
     let [sign, grey] = shown(&["--tonemap", "agx"]);
-    assert!(sign[0] > sign[1] && sign[1] > sign[2] && sign[0] < 255 && grey[0] > 127, "{sign:?} {grey:?}");
+    assert!(
+        sign[0] > sign[1] && sign[1] > sign[2] && sign[0] < 255 && grey[0] > 127,
+        "{sign:?} {grey:?}"
+    );
 }
 
 #[test]
@@ -64,20 +98,33 @@ fn a_transparent_picture_is_opaque_where_something_is() {
     ball(&folder);
     let clear = |sampling: &[&str]| {
         let args = [sampling, &["--background", "transparent", "--bits", "16"]].concat();
-        render(&folder, "alone.json", &args).as_rgba16().unwrap().clone()
+        render(&folder, "alone.json", &args)
+            .as_rgba16()
+            .unwrap()
+            .clone()
     };
     let (grid, grown) = (["--supersampling", "8"], ["--target-error", "2"]);
-    // The outline of a ball of radius 10 at distance 50 is a circle, of radius 50·tan(asin(1/5)) in the plane of the picture.
+    // The outline of a ball of radius 10 at distance 50 is a circle, of radius 50·tan(asin(1/5)) in
+    // the plane of the picture.
     let area = std::f64::consts::PI * 2500.0 / 24.0;
     for (sampling, tolerance) in [(grid, 0.005), (grown, 0.02)] {
-        let opaque: f64 = clear(&sampling).pixels().map(|pixel| f64::from(pixel.0[3]) / 65535.0).sum();
+        let opaque: f64 = clear(&sampling)
+            .pixels()
+            .map(|pixel| f64::from(pixel.0[3]) / 65535.0)
+            .sum();
         assert!((opaque - area).abs() < tolerance * area, "{opaque} {area}");
     }
     let whole = render(&folder, "alone.json", &grid).to_rgb8();
     for (ours, shown) in clear(&grid).pixels().zip(whole.pixels()) {
         let [r, g, b, alpha] = ours.0.map(|v| f64::from(v) / 65535.0);
-        let apart = [r, g, b].into_iter().zip(shown.0).map(|(c, shown)| (c * alpha * 255.0 - f64::from(shown)).abs());
-        assert!(apart.fold(0.0, f64::max) <= 1.01, "straight colours, weighed, are those before black");
+        let apart = [r, g, b]
+            .into_iter()
+            .zip(shown.0)
+            .map(|(c, shown)| (c * alpha * 255.0 - f64::from(shown)).abs());
+        assert!(
+            apart.fold(0.0, f64::max) <= 1.01,
+            "straight colours, weighed, are those before black"
+        );
     }
 }
 
@@ -85,18 +132,38 @@ fn a_transparent_picture_is_opaque_where_something_is() {
 fn a_colour_behind_is_what_the_file_holds_and_lights_nothing() {
     let folder = folder();
     fs::write(folder.path().join("sign.json"), SIGN).unwrap();
-    let image = render(&folder, "sign.json", &["--background", "1,0.5,0", "--tonemap", "agx"]).to_rgb8();
+    let image = render(
+        &folder,
+        "sign.json",
+        &["--background", "1,0.5,0", "--tonemap", "agx"],
+    )
+    .to_rgb8();
     let plain = render(&folder, "sign.json", &["--tonemap", "agx"]).to_rgb8();
-    assert_eq!((image.get_pixel(0, 0).0, image.get_pixel(4, 4)), ([255, 127, 0], plain.get_pixel(4, 4)));
+    assert_eq!(
+        (image.get_pixel(0, 0).0, image.get_pixel(4, 4)),
+        ([255, 127, 0], plain.get_pixel(4, 4))
+    );
     let clear = render(&folder, "sign.json", &["--background", "transparent"]).to_rgba8();
-    assert_eq!([clear.get_pixel(0, 0).0, clear.get_pixel(4, 4).0], [[0; 4], [255, 255, 136, 255]]);
+    assert_eq!(
+        [clear.get_pixel(0, 0).0, clear.get_pixel(4, 4).0],
+        [[0; 4], [255, 255, 136, 255]]
+    );
 }
 
 #[test]
 fn an_exr_takes_exposure_and_opacity_but_no_tone_map() {
     let folder = folder();
     fs::write(folder.path().join("sign.json"), SIGN).unwrap();
-    let args = ["render", "sign.json", "-o", "sign.exr", "--exposure", "1", "--background", "transparent"];
+    let args = [
+        "render",
+        "sign.json",
+        "-o",
+        "sign.exr",
+        "--exposure",
+        "1",
+        "--background",
+        "transparent",
+    ];
     assert_eq!(code(&rtc(&folder, &args)), 0);
     let read = exr::prelude::read_first_rgba_layer_from_file(
         folder.path().join("sign.exr"),
@@ -106,22 +173,54 @@ fn an_exr_takes_exposure_and_opacity_but_no_tone_map() {
         },
     );
     let pixels = read.unwrap().layer_data.channel_data.pixels.1;
-    assert_eq!([pixels[0], pixels[4 * 8 + 4]], [[0.0; 4], [4.0, 2.0, 0.5, 1.0]]);
-    let refused = rtc(&folder, &["render", "sign.json", "-o", "sign.exr", "--tonemap", "agx"]);
-    assert!(code(&refused) == 2 && stderr(&refused).contains("an EXR holds linear values"), "{}", stderr(&refused));
+    assert_eq!(
+        [pixels[0], pixels[4 * 8 + 4]],
+        [[0.0; 4], [4.0, 2.0, 0.5, 1.0]]
+    );
+    let refused = rtc(
+        &folder,
+        &["render", "sign.json", "-o", "sign.exr", "--tonemap", "agx"],
+    );
+    assert!(
+        code(&refused) == 2 && stderr(&refused).contains("an EXR holds linear values"),
+        "{}",
+        stderr(&refused)
+    );
 }
 
 #[test]
 fn layers_go_into_an_exr_by_their_names() {
     let folder = folder();
-    let args = ["render", "ball.json", "-o", "ball.exr", "--aov", "depth,normal,depth", "--crop", "10,5,20,10"];
+    let args = [
+        "render",
+        "ball.json",
+        "-o",
+        "ball.exr",
+        "--aov",
+        "depth,normal,depth",
+        "--crop",
+        "10,5,20,10",
+    ];
     assert_eq!(code(&rtc(&folder, &args)), 0);
     let read = exr::prelude::read_all_data_from_file(folder.path().join("ball.exr")).unwrap();
     let channels = &read.layer_data[0].channel_data.list;
-    let names: Vec<_> = channels.iter().map(|channel| channel.name.to_string()).collect();
-    assert_eq!(names, ["B", "G", "R", "depth.Z", "normal.X", "normal.Y", "normal.Z"]);
-    let refused = rtc(&folder, &["render", "ball.json", "-o", "ball.png", "--aov", "depth"]);
-    assert!(code(&refused) == 2 && stderr(&refused).contains("a PNG holds colours alone"), "{}", stderr(&refused));
+    let names: Vec<_> = channels
+        .iter()
+        .map(|channel| channel.name.to_string())
+        .collect();
+    assert_eq!(
+        names,
+        ["B", "G", "R", "depth.Z", "normal.X", "normal.Y", "normal.Z"]
+    );
+    let refused = rtc(
+        &folder,
+        &["render", "ball.json", "-o", "ball.png", "--aov", "depth"],
+    );
+    assert!(
+        code(&refused) == 2 && stderr(&refused).contains("a PNG holds colours alone"),
+        "{}",
+        stderr(&refused)
+    );
 }
 
 #[test]
@@ -137,10 +236,15 @@ fn settings_of_the_ir_are_replaced_by_their_names() {
         assert_eq!(code(&output), 2);
         stderr(&output)
     };
-    assert!(refused("spp=3").contains("there is no setting `spp`; there are mode, shadows, maxDepth"));
+    assert!(
+        refused("spp=3").contains("there is no setting `spp`; there are mode, shadows, maxDepth")
+    );
     assert!(refused("shadows=perhaps").contains("`shadows` can't be `perhaps`"));
     assert_eq!(
-        code(&rtc(&folder, &["render", "ball.json", "--set", "supersampling=0"])),
+        code(&rtc(
+            &folder,
+            &["render", "ball.json", "--set", "supersampling=0"]
+        )),
         1,
         "that is for the proof to say"
     );

@@ -1,6 +1,8 @@
-//! The binary from outside: exit codes, streams, outputs that appear whole or not at all, message formats.
+//! The binary from outside: exit codes, streams, outputs that appear whole or not at all, message
+//! formats.
 //!
-//! Scenes are given as the text form of the IR, so that what is tested here depends on no front end.
+//! Scenes are given as the text form of the IR, so that what is tested here depends on no front
+//! end.
 
 #![expect(
     clippy::unwrap_used,
@@ -47,15 +49,26 @@ fn scene_with(old: &str, new: &str) -> String {
 fn folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("ball.json"), SCENE).unwrap();
-    fs::write(folder.path().join("bad.json"), scene_with("\"radius\": 10", "\"radius\": -10")).unwrap();
-    let away = scene_with("[0, 0, 50], \"center\": [0, 0, 0]", "[0, 0, 50], \"center\": [0, 0, 90]");
+    fs::write(
+        folder.path().join("bad.json"),
+        scene_with("\"radius\": 10", "\"radius\": -10"),
+    )
+    .unwrap();
+    let away = scene_with(
+        "[0, 0, 50], \"center\": [0, 0, 0]",
+        "[0, 0, 50], \"center\": [0, 0, 90]",
+    );
     fs::write(folder.path().join("away.json"), away).unwrap();
     folder
 }
 
 fn command(folder: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rtc"));
-    command.current_dir(folder).args(args).env_remove("NO_COLOR").stdin(Stdio::null());
+    command
+        .current_dir(folder)
+        .args(args)
+        .env_remove("NO_COLOR")
+        .stdin(Stdio::null());
     command
 }
 
@@ -72,8 +85,10 @@ fn stderr(output: &Output) -> String {
 }
 
 fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> =
-        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
     names.sort();
     names
 }
@@ -90,7 +105,10 @@ fn exit_codes_say_whose_fault_it_is() {
     assert_eq!(code(&["check"]), 2);
     assert_eq!(code(&["check", "."]), 2);
     assert_eq!(code(&["render", "ball.json", "-o", "x.gif"]), 2);
-    assert_eq!(code(&["render", "ball.json", "-o", "x.exr", "--bits", "16"]), 2);
+    assert_eq!(
+        code(&["render", "ball.json", "-o", "x.exr", "--bits", "16"]),
+        2
+    );
     assert_eq!(code(&["render", "ball.json", "--crop", "40,0,1,1"]), 2);
     assert_eq!(code(&["compile", "ball.json", "-o", "x.png"]), 2);
     assert_eq!(code(&["explain", "VA999"]), 2);
@@ -105,7 +123,9 @@ fn results_go_to_stdout_and_talk_to_stderr() {
     assert!(checked.stdout.is_empty() && stderr(&checked).contains("error["));
     let rendered = rtc(&folder, &["render", "ball.json", "-o", "-"]);
     assert!(rendered.stdout.starts_with(b"\x89PNG"));
-    assert!(stderr(&rendered).starts_with("-: 40×30, ") && stderr(&rendered).ends_with(" rays/s\n"));
+    assert!(
+        stderr(&rendered).starts_with("-: 40×30, ") && stderr(&rendered).ends_with(" rays/s\n")
+    );
     let quiet = rtc(&folder, &["render", "-q", "away.json", "-o", "-"]);
     assert!(quiet.stdout.starts_with(b"\x89PNG") && quiet.stderr.is_empty());
     let compiled = rtc(&folder, &["compile", "ball.json"]);
@@ -116,22 +136,46 @@ fn results_go_to_stdout_and_talk_to_stderr() {
 fn a_picture_is_named_after_its_scene_and_lands_here() {
     let folder = folder();
     fs::create_dir(folder.path().join("here")).unwrap();
-    let rendered = command(&folder.path().join("here"), &["render", "../ball.json"]).output().unwrap();
-    assert_eq!((code(&rendered), names(&folder.path().join("here"))), (0, vec!["ball.png".to_owned()]));
+    let rendered = command(&folder.path().join("here"), &["render", "../ball.json"])
+        .output()
+        .unwrap();
+    assert_eq!(
+        (code(&rendered), names(&folder.path().join("here"))),
+        (0, vec!["ball.png".to_owned()])
+    );
 }
 
 #[test]
 fn stdin_is_a_file_with_the_name_given() {
     let folder = folder();
-    let mut child = command(folder.path(), &["check", "-", "--stdin-name", "sky.json", "--message-format", "short"])
-        .stdin(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
+    let mut child = command(
+        folder.path(),
+        &[
+            "check",
+            "-",
+            "--stdin-name",
+            "sky.json",
+            "--message-format",
+            "short",
+        ],
+    )
+    .stdin(Stdio::piped())
+    .stderr(Stdio::piped())
+    .spawn()
+    .unwrap();
+    child
+        .stdin
+        .take()
+        .unwrap()
+        .write_all(scene_with("\"radius\": 10", "\"radius\": -10").as_bytes())
         .unwrap();
-    child.stdin.take().unwrap().write_all(scene_with("\"radius\": 10", "\"radius\": -10").as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     assert_eq!(code(&output), 1);
-    assert!(stderr(&output).starts_with("sky.json:"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).starts_with("sky.json:"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]
@@ -139,7 +183,10 @@ fn every_form_of_the_ir_renders_to_the_same_bytes() {
     let folder = folder();
     let picture = |scene: &str| rtc(&folder, &["render", scene, "-o", "-", "-q"]).stdout;
     for form in ["copy.json", "copy.rtir"] {
-        assert_eq!(code(&rtc(&folder, &["compile", "ball.json", "-o", form])), 0);
+        assert_eq!(
+            code(&rtc(&folder, &["compile", "ball.json", "-o", form])),
+            0
+        );
         assert!(picture(form) == picture("ball.json"), "{form}");
     }
     let binary = rtc(&folder, &["compile", "ball.json", "--emit", "ir-bin"]).stdout;
@@ -150,7 +197,10 @@ fn every_form_of_the_ir_renders_to_the_same_bytes() {
 fn a_crop_is_that_part_of_the_whole_on_any_threads() {
     let folder = folder();
     let decode = |args: &[&str]| {
-        let output = rtc(&folder, &[&["render", "ball.json", "-q", "-o", "-"], args].concat());
+        let output = rtc(
+            &folder,
+            &[&["render", "ball.json", "-q", "-o", "-"], args].concat(),
+        );
         image::load_from_memory(&output.stdout).unwrap().to_rgb16()
     };
     for bits in ["8", "16"] {
@@ -165,14 +215,30 @@ fn a_crop_is_that_part_of_the_whole_on_any_threads() {
 fn options_override_the_scene() {
     let folder = folder();
     let told = |args: &[&str]| {
-        let output = rtc(&folder, &[&["render", "ball.json", "-o", "o.png", "--depth", "0"], args].concat());
+        let output = rtc(
+            &folder,
+            &[
+                &["render", "ball.json", "-o", "o.png", "--depth", "0"],
+                args,
+            ]
+            .concat(),
+        );
         assert_eq!(code(&output), 0, "{}", stderr(&output));
         stderr(&output)
     };
     assert!(told(&["--size", "20x15", "--supersampling", "1"]).starts_with("o.png: 20×15, "));
-    assert_eq!(image::open(folder.path().join("o.png")).unwrap().width(), 20);
+    assert_eq!(
+        image::open(folder.path().join("o.png")).unwrap().width(),
+        20
+    );
     let huge = rtc(&folder, &["render", "ball.json", "--size", "70000x70000"]);
-    assert_eq!((code(&huge), names(folder.path()).contains(&"ball.png".to_owned())), (1, false));
+    assert_eq!(
+        (
+            code(&huge),
+            names(folder.path()).contains(&"ball.png".to_owned())
+        ),
+        (1, false)
+    );
 }
 
 #[test]
@@ -184,24 +250,68 @@ fn an_exr_says_where_it_came_from() {
     };
     let first = exr("a.exr");
     assert!(first == exr("b.exr"), "two renders differ");
-    for words in ["rtc:scene", "rtc:settings", "\"supersampling\":2", concat!("rtc ", env!("CARGO_PKG_VERSION"))] {
-        assert!(first.windows(words.len()).any(|window| window == words.as_bytes()), "{words}");
+    for words in [
+        "rtc:scene",
+        "rtc:settings",
+        "\"supersampling\":2",
+        concat!("rtc ", env!("CARGO_PKG_VERSION")),
+    ] {
+        assert!(
+            first
+                .windows(words.len())
+                .any(|window| window == words.as_bytes()),
+            "{words}"
+        );
     }
 }
 
 #[test]
 fn a_target_is_met_said_and_the_same_on_any_threads() {
     let folder = folder();
-    let render = |args: &[&str]| rtc(&folder, &[&["render", "ball.json", "-o", "-"], args].concat());
+    let render = |args: &[&str]| {
+        rtc(
+            &folder,
+            &[&["render", "ball.json", "-o", "-"], args].concat(),
+        )
+    };
     let one = render(&["--target-error", "2", "--threads", "1"]);
     let talk = stderr(&one);
-    let said = talk.lines().nth(1).unwrap().strip_prefix("error ≤ ").unwrap();
-    assert!(said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0, "{talk}");
-    assert!(said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "), "{talk}");
+    let said = talk
+        .lines()
+        .nth(1)
+        .unwrap()
+        .strip_prefix("error ≤ ")
+        .unwrap();
+    assert!(
+        said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0,
+        "{talk}"
+    );
+    assert!(
+        said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "),
+        "{talk}"
+    );
     assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
-    assert_eq!(code(&render(&["--target-error", "2", "--time-budget", "1", "--crop", "3,4,5,6"])), 0);
-    for args in [&["--supersampling", "2"], &["--aperture-samples", "2"], &["--target-error", "0"]] {
-        assert_eq!(code(&render(&[&["--time-budget", "1"], &args[..]].concat())), 2, "{args:?}");
+    assert_eq!(
+        code(&render(&[
+            "--target-error",
+            "2",
+            "--time-budget",
+            "1",
+            "--crop",
+            "3,4,5,6"
+        ])),
+        0
+    );
+    for args in [
+        &["--supersampling", "2"],
+        &["--aperture-samples", "2"],
+        &["--target-error", "0"],
+    ] {
+        assert_eq!(
+            code(&render(&[&["--time-budget", "1"], &args[..]].concat())),
+            2,
+            "{args:?}"
+        );
     }
 }
 
@@ -210,23 +320,37 @@ fn nothing_in_view_is_a_warning_after_the_render() {
     let folder = folder();
     let output = rtc(&folder, &["render", "away.json"]);
     assert_eq!(code(&output), 0);
-    assert!(stderr(&output).contains("warning[RD001]: no ray of the camera hit anything"), "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("warning[RD001]: no ray of the camera hit anything"),
+        "{}",
+        stderr(&output)
+    );
     assert!(folder.path().join("away.png").exists());
 }
 
 #[test]
 fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
     let folder = folder();
-    let far = SCENE.replace(", 50]", ", 1000050]").replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
-    let far = far.replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"").replace("40, 60]", "40, 1000060]");
+    let far = SCENE
+        .replace(", 50]", ", 1000050]")
+        .replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
+    let far = far
+        .replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"")
+        .replace("40, 60]", "40, 1000060]");
     fs::write(folder.path().join("far.json"), far).unwrap();
     let warning = |arithmetic: &str| {
         let output = rtc(&folder, &["render", "far.json", "--arithmetic", arithmetic]);
         assert_eq!(code(&output), 0);
-        stderr(&output).lines().find(|line| line.contains("RD002")).map(str::to_owned)
+        stderr(&output)
+            .lines()
+            .find(|line| line.contains("RD002"))
+            .map(str::to_owned)
     };
     let found = warning("f32").unwrap();
-    assert!(found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"), "{found}");
+    assert!(
+        found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"),
+        "{found}"
+    );
     assert_eq!((warning("plain"), warning("robust")), (None, None));
 }
 
@@ -234,34 +358,83 @@ fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
 fn color_only_where_wanted() {
     let folder = folder();
     let colored = |command: &mut Command| command.output().unwrap().stderr.contains(&0x1b);
-    assert!(!colored(&mut command(folder.path(), &["check", "bad.json"])), "a pipe is no terminal");
-    assert!(colored(&mut command(folder.path(), &["check", "bad.json", "--color", "always"])));
-    assert!(colored(command(folder.path(), &["check", "bad.json"]).env("CLICOLOR_FORCE", "1")));
+    assert!(
+        !colored(&mut command(folder.path(), &["check", "bad.json"])),
+        "a pipe is no terminal"
+    );
+    assert!(colored(&mut command(
+        folder.path(),
+        &["check", "bad.json", "--color", "always"]
+    )));
+    assert!(colored(
+        command(folder.path(), &["check", "bad.json"]).env("CLICOLOR_FORCE", "1")
+    ));
     let both = [("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")];
-    assert!(!colored(command(folder.path(), &["check", "bad.json"]).env_remove("CLICOLOR_FORCE").env("NO_COLOR", "1")));
-    assert!(!colored(command(folder.path(), &["check", "bad.json", "--color", "never"]).envs(both)));
+    assert!(!colored(
+        command(folder.path(), &["check", "bad.json"])
+            .env_remove("CLICOLOR_FORCE")
+            .env("NO_COLOR", "1")
+    ));
+    assert!(!colored(
+        command(folder.path(), &["check", "bad.json", "--color", "never"]).envs(both)
+    ));
 }
 
 #[test]
 fn programs_can_read_what_is_meant_for_them() {
     let folder = folder();
     let stdout = |format| {
-        let output = rtc(&folder, &["check", "bad.json", "none.json", "ball.json", "--message-format", format]);
-        assert!(output.stderr.is_empty() || format == "short", "{format}: {}", stderr(&output));
+        let output = rtc(
+            &folder,
+            &[
+                "check",
+                "bad.json",
+                "none.json",
+                "ball.json",
+                "--message-format",
+                format,
+            ],
+        );
+        assert!(
+            output.stderr.is_empty() || format == "short",
+            "{format}: {}",
+            stderr(&output)
+        );
         String::from_utf8(output.stdout).unwrap()
     };
-    let lines: Vec<serde_json::Value> =
-        stdout("json").lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert!(lines.iter().any(|line| line["file"] == "bad.json" && line["severity"] == "error"));
-    assert!(lines.iter().any(|line| line["file"] == "none.json" && line["code"] == "IO001"));
+    let lines: Vec<serde_json::Value> = stdout("json")
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    assert!(
+        lines
+            .iter()
+            .any(|line| line["file"] == "bad.json" && line["severity"] == "error")
+    );
+    assert!(
+        lines
+            .iter()
+            .any(|line| line["file"] == "none.json" && line["code"] == "IO001")
+    );
     let sarif: serde_json::Value = serde_json::from_str(&stdout("sarif")).unwrap();
-    assert_eq!(sarif["runs"][0]["results"].as_array().unwrap().len(), lines.len());
-    assert!(stdout("github").lines().all(|line| line.starts_with("::error file=")));
+    assert_eq!(
+        sarif["runs"][0]["results"].as_array().unwrap().len(),
+        lines.len()
+    );
+    assert!(
+        stdout("github")
+            .lines()
+            .all(|line| line.starts_with("::error file="))
+    );
     assert!(stdout("short").is_empty());
     for verb in ["render", "compile"] {
         let refused = rtc(&folder, &[verb, "bad.json", "--message-format", "sarif"]);
         let log: serde_json::Value = serde_json::from_slice(&refused.stderr).unwrap();
-        assert!(code(&refused) == 1 && refused.stdout.is_empty() && log["runs"][0]["results"][0].is_object());
+        assert!(
+            code(&refused) == 1
+                && refused.stdout.is_empty()
+                && log["runs"][0]["results"][0].is_object()
+        );
     }
 }
 
@@ -273,19 +446,38 @@ fn a_failed_render_keeps_the_picture_of_before() {
     assert_eq!(fs::read(folder.path().join("bad.png")).unwrap(), b"before");
     fs::create_dir(folder.path().join("taken.png")).unwrap();
     let refused = rtc(&folder, &["render", "ball.json", "-o", "taken.png"]);
-    assert!(code(&refused) == 2 && stderr(&refused).contains("can't write `taken.png`"), "{}", stderr(&refused));
-    let nowhere = rtc(&folder, &["render", "ball.json", "-o", "no/such/folder.png"]);
-    assert_eq!(stderr(&nowhere), "error: can't write `no/such/folder.png`: No such file or directory (os error 2)\n");
-    assert_eq!(names(folder.path()), ["away.json", "bad.json", "bad.png", "ball.json", "taken.png"]);
+    assert!(
+        code(&refused) == 2 && stderr(&refused).contains("can't write `taken.png`"),
+        "{}",
+        stderr(&refused)
+    );
+    let nowhere = rtc(
+        &folder,
+        &["render", "ball.json", "-o", "no/such/folder.png"],
+    );
+    assert_eq!(
+        stderr(&nowhere),
+        "error: can't write `no/such/folder.png`: No such file or directory (os error 2)\n"
+    );
+    assert_eq!(
+        names(folder.path()),
+        ["away.json", "bad.json", "bad.png", "ball.json", "taken.png"]
+    );
 }
 
 #[test]
 fn a_closed_pipe_is_success() {
     let folder = folder();
-    let mut child = command(folder.path(), &["explain", "--all"]).stdout(Stdio::piped()).spawn().unwrap();
+    let mut child = command(folder.path(), &["explain", "--all"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
     drop(child.stdout.take());
     assert_eq!(child.wait().unwrap().code(), Some(0));
-    let mut child = command(folder.path(), &["check", "bad.json"]).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = command(folder.path(), &["check", "bad.json"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
     drop(child.stderr.take());
     assert_eq!(child.wait().unwrap().code(), Some(1));
 }
@@ -305,7 +497,10 @@ fn rtc_tells_about_itself() {
             head.ends_with(concat!("rtc ", env!("CARGO_PKG_VERSION"), "\""))
                 || head.contains(env!("CARGO_PKG_VERSION"))
         );
-        assert!(!page.lines().any(|line| line.starts_with("writes IR")), "{head}");
+        assert!(
+            !page.lines().any(|line| line.starts_with("writes IR")),
+            "{head}"
+        );
     }
     for format in ["scene", "ir"] {
         serde_json::from_str::<serde_json::Value>(&stdout(&["schema", format])).unwrap();
@@ -320,10 +515,20 @@ mod unix {
     #[test]
     fn a_new_file_is_for_all_and_an_old_one_keeps_its_permissions() {
         let folder = folder();
-        let mode = |name: &str| fs::metadata(folder.path().join(name)).unwrap().permissions().mode() & 0o777;
+        let mode = |name: &str| {
+            fs::metadata(folder.path().join(name))
+                .unwrap()
+                .permissions()
+                .mode()
+                & 0o777
+        };
         fs::write(folder.path().join("plain"), "").unwrap();
         fs::write(folder.path().join("old.png"), "").unwrap();
-        fs::set_permissions(folder.path().join("old.png"), fs::Permissions::from_mode(0o640)).unwrap();
+        fs::set_permissions(
+            folder.path().join("old.png"),
+            fs::Permissions::from_mode(0o640),
+        )
+        .unwrap();
         for name in ["new.png", "old.png"] {
             assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
         }
@@ -338,9 +543,17 @@ mod unix {
         symlink("/dev/null", folder.path().join("null.png")).unwrap();
         for name in ["link.png", "null.png"] {
             assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
-            assert!(fs::symlink_metadata(folder.path().join(name)).unwrap().is_symlink());
+            assert!(
+                fs::symlink_metadata(folder.path().join(name))
+                    .unwrap()
+                    .is_symlink()
+            );
         }
-        assert!(fs::read(folder.path().join("real.png")).unwrap().starts_with(b"\x89PNG"));
+        assert!(
+            fs::read(folder.path().join("real.png"))
+                .unwrap()
+                .starts_with(b"\x89PNG")
+        );
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }
 
@@ -355,7 +568,10 @@ mod unix {
             return;
         }
         let refused = rtc(&folder, &["render", "ball.json", "-o", "locked/x.png"]);
-        assert_eq!(stderr(&refused), "error: can't write `locked/x.png`: permission denied\n");
+        assert_eq!(
+            stderr(&refused),
+            "error: can't write `locked/x.png`: permission denied\n"
+        );
         assert_eq!((code(&refused), names(&locked).len()), (2, 0));
     }
 
@@ -363,8 +579,18 @@ mod unix {
     fn what_is_read_only_is_not_replaced() {
         let folder = folder();
         fs::write(folder.path().join("kept.png"), "before").unwrap();
-        fs::set_permissions(folder.path().join("kept.png"), fs::Permissions::from_mode(0o444)).unwrap();
+        fs::set_permissions(
+            folder.path().join("kept.png"),
+            fs::Permissions::from_mode(0o444),
+        )
+        .unwrap();
         let refused = rtc(&folder, &["render", "ball.json", "-o", "kept.png"]);
-        assert_eq!((code(&refused), fs::read(folder.path().join("kept.png")).unwrap()), (2, b"before".to_vec()));
+        assert_eq!(
+            (
+                code(&refused),
+                fs::read(folder.path().join("kept.png")).unwrap()
+            ),
+            (2, b"before".to_vec())
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! Numbers from outside: what no file can hold, a tiny direction under `--verify-effects`, and text that was written again.
+//! Numbers from outside: what no file can hold, a tiny direction under `--verify-effects`, and text
+//! that was written again.
 
 use super::*;
 use exr::prelude::{ReadChannels, ReadLayers};
@@ -7,10 +8,21 @@ const MATERIAL: &str = "material: {color: [0.8, 0.5, 0.3], ka: 0.2, kd: 0.6, ks:
 
 /// The values of all channels of an EXR, by name.
 fn channels(file: &Path) -> Vec<(String, Vec<f32>)> {
-    let reader = exr::prelude::read().no_deep_data().largest_resolution_level().all_channels().first_valid_layer();
+    let reader = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer();
     let read = reader.all_attributes().from_file(file).unwrap();
     let list = &read.layer_data.channel_data.list;
-    list.iter().map(|channel| (channel.name.to_string(), channel.sample_data.values_as_f32().collect())).collect()
+    list.iter()
+        .map(|channel| {
+            (
+                channel.name.to_string(),
+                channel.sample_data.values_as_f32().collect(),
+            )
+        })
+        .collect()
 }
 
 /// Writes a ball of such a radius, seen from six times as far.
@@ -27,43 +39,103 @@ fn ball(folder: &TempDir, radius: &str) {
 fn layers_beyond_a_float_are_told_and_finite() {
     let folder = folder();
     ball(&folder, "e+45");
-    let output = rtc(&folder, &["render", "ball.yaml", "-o", "ball.exr", "--aov", "depth,position"]);
+    let output = rtc(
+        &folder,
+        &[
+            "render",
+            "ball.yaml",
+            "-o",
+            "ball.exr",
+            "--aov",
+            "depth,position",
+        ],
+    );
     let told = stderr(&output);
     assert_eq!(code(&output), 0, "{told}");
     let names = "in `depth.Z`, `position.X`, `position.Y`, `position.Z`";
-    assert!(told.contains(&format!("warning[RD004]: values beyond a 32-bit float {names}")), "{told}");
+    assert!(
+        told.contains(&format!(
+            "warning[RD004]: values beyond a 32-bit float {names}"
+        )),
+        "{told}"
+    );
     let channels = channels(&folder.path().join("ball.exr"));
-    assert!(channels.iter().all(|(_, values)| values.iter().all(|value| value.is_finite())));
-    assert!(channels.iter().any(|(name, values)| name == "depth.Z" && values.contains(&f32::MAX)));
+    assert!(
+        channels
+            .iter()
+            .all(|(_, values)| values.iter().all(|value| value.is_finite()))
+    );
+    assert!(
+        channels
+            .iter()
+            .any(|(name, values)| name == "depth.Z" && values.contains(&f32::MAX))
+    );
     ball(&folder, "e+30");
-    let output = rtc(&folder, &["render", "ball.yaml", "-o", "ball.exr", "--aov", "depth,position"]);
+    let output = rtc(
+        &folder,
+        &[
+            "render",
+            "ball.yaml",
+            "-o",
+            "ball.exr",
+            "--aov",
+            "depth,position",
+        ],
+    );
     assert!(!stderr(&output).contains("RD004"), "{}", stderr(&output));
     ball(&folder, "e+45");
     assert!(!stderr(&rtc(&folder, &["render", "ball.yaml", "-o", "ball.png"])).contains("RD004"));
 }
 
-/// The triangles of a mesh are met in its own space; their normals in the world are a square too small for 32 bits.
+/// The triangles of a mesh are met in its own space; their normals in the world are a square too
+/// small for 32 bits.
 #[test]
 fn pixels_that_are_no_number_are_told_and_black() {
     let folder = folder();
     ball(&folder, "e+30");
     let text = fs::read_to_string(folder.path().join("ball.yaml")).unwrap();
-    let text = text.replace("type: sphere, position: [0, 0, 0], radius", "type: mesh, file: wall.obj, scale");
+    let text = text.replace(
+        "type: sphere, position: [0, 0, 0], radius",
+        "type: mesh, file: wall.obj, scale",
+    );
     fs::write(folder.path().join("mesh.yaml"), text).unwrap();
-    fs::write(folder.path().join("wall.obj"), "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    fs::write(
+        folder.path().join("wall.obj"),
+        "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
     for file in ["mesh.exr", "mesh.png"] {
-        let output = rtc(&folder, &["render", "mesh.yaml", "--arithmetic", "f32", "-o", file]);
+        let output = rtc(
+            &folder,
+            &["render", "mesh.yaml", "--arithmetic", "f32", "-o", file],
+        );
         let told = stderr(&output);
         assert_eq!(code(&output), 0, "{told}");
-        assert!(told.contains("warning[RD005]") && told.contains("leave out `--arithmetic f32`"), "{told}");
+        assert!(
+            told.contains("warning[RD005]") && told.contains("leave out `--arithmetic f32`"),
+            "{told}"
+        );
         let told = stderr(&rtc(&folder, &["render", "mesh.yaml", "-o", file]));
         assert!(!told.contains("RD00"), "{told}");
     }
     let layers = "albedo,normal,depth,uv,instance,position";
-    let args = ["render", "mesh.yaml", "--arithmetic", "f32", "-o", "mesh.exr", "--aov", layers];
+    let args = [
+        "render",
+        "mesh.yaml",
+        "--arithmetic",
+        "f32",
+        "-o",
+        "mesh.exr",
+        "--aov",
+        layers,
+    ];
     assert_eq!(code(&rtc(&folder, &args)), 0);
     let channels = channels(&folder.path().join("mesh.exr"));
-    assert!(channels.iter().all(|(_, values)| values.iter().all(|value| value.is_finite())));
+    assert!(
+        channels
+            .iter()
+            .all(|(_, values)| values.iter().all(|value| value.is_finite()))
+    );
 }
 
 /// Colours whose products leave the range of f64.
@@ -79,7 +151,11 @@ fn light_without_end_is_told_and_finite() {
     assert_eq!(code(&output), 0, "{told}");
     assert!(told.contains("RD004") || told.contains("RD005"), "{told}");
     let channels = channels(&folder.path().join("bright.exr"));
-    assert!(channels.iter().all(|(_, values)| values.iter().all(|value| value.is_finite())));
+    assert!(
+        channels
+            .iter()
+            .all(|(_, values)| values.iter().all(|value| value.is_finite()))
+    );
 }
 
 #[test]
@@ -91,9 +167,24 @@ fn a_tiny_direction_is_verified() {
          direction: [-8e-163, -1.7e-162, 1e-161], height: 2, radius: 1.5, {MATERIAL}}}\n"
     );
     fs::write(folder.path().join("tiny.yaml"), text).unwrap();
-    let output = rtc(&folder, &["render", "tiny.yaml", "--verify-effects", "-o", "verified.png"]);
+    let output = rtc(
+        &folder,
+        &[
+            "render",
+            "tiny.yaml",
+            "--verify-effects",
+            "-o",
+            "verified.png",
+        ],
+    );
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    assert_eq!(code(&rtc(&folder, &["render", "tiny.yaml", "--no-prune", "-o", "whole.png"])), 0);
+    assert_eq!(
+        code(&rtc(
+            &folder,
+            &["render", "tiny.yaml", "--no-prune", "-o", "whole.png"]
+        )),
+        0
+    );
     let bytes = |name| fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("verified.png") == bytes("whole.png"));
 }

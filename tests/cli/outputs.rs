@@ -9,17 +9,30 @@ fn until_it_listens(child: &mut Child) {
     let status = format!("/proc/{}/status", child.id());
     let listens = || {
         let text = fs::read_to_string(&status).unwrap_or_default();
-        let mask = text.lines().find_map(|line| line.strip_prefix("SigCgt:")).map(str::trim).unwrap_or("0");
+        let mask = text
+            .lines()
+            .find_map(|line| line.strip_prefix("SigCgt:"))
+            .map(str::trim)
+            .unwrap_or("0");
         u64::from_str_radix(mask, 16).unwrap() & 2 != 0
     };
     while !listens() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be interrupted");
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended before it could be interrupted"
+        );
         std::thread::yield_now();
     }
 }
 
 fn kill(child: &Child, signal: &str) {
-    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+    assert!(
+        Command::new("kill")
+            .args([signal, &child.id().to_string()])
+            .status()
+            .unwrap()
+            .success()
+    );
 }
 
 /// A soft light whose every point takes a shadow ray.
@@ -35,20 +48,48 @@ fn a_signal_ends_a_pixel_that_would_last_for_years() {
     let folder = folder();
     fs::write(folder.path().join("soft.yaml"), SOFT).unwrap();
     // What mirrors must have something to show, or no lobe is followed.
-    let behind =
-        "- {type: sphere, position: [0, 0, 90], radius: 20, material: {color: [0, 1, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
-    let glossy = SOFT.replace("glossySamples: 1", "glossySamples: 4000000000").replace("4000000000\nMax", "1\nMax");
+    let behind = "- {type: sphere, position: [0, 0, 90], radius: 20, material: {color: [0, 1, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
+    let glossy = SOFT
+        .replace("glossySamples: 1", "glossySamples: 4000000000")
+        .replace("4000000000\nMax", "1\nMax");
     fs::write(folder.path().join("glossy.yaml"), glossy + behind).unwrap();
     let before = names(folder.path());
     let cases: [&[&str]; 5] = [
         &["soft.yaml"],
         &["glossy.yaml"],
         &["ball.json", "--size", "1x1", "--supersampling", "60000"],
-        &["ball.json", "--size", "1x1", "--integrator", "path", "--spp", "4000000000"],
-        &["ball.json", "--size", "1x1", "--supersampling", "60000", "--verify-effects"],
+        &[
+            "ball.json",
+            "--size",
+            "1x1",
+            "--integrator",
+            "path",
+            "--spp",
+            "4000000000",
+        ],
+        &[
+            "ball.json",
+            "--size",
+            "1x1",
+            "--supersampling",
+            "60000",
+            "--verify-effects",
+        ],
     ];
     for (case, signal) in cases.iter().zip(["-INT", "-TERM"].into_iter().cycle()) {
-        let args = [&["render", "--allow-huge", "--threads", "1", "-q", "-o", "x.png"], *case].concat();
+        let args = [
+            &[
+                "render",
+                "--allow-huge",
+                "--threads",
+                "1",
+                "-q",
+                "-o",
+                "x.png",
+            ],
+            *case,
+        ]
+        .concat();
         let mut child = command(folder.path(), &args).spawn().unwrap();
         until_it_listens(&mut child);
         kill(&child, signal);
@@ -62,9 +103,22 @@ fn a_signal_ends_a_pixel_that_would_last_for_years() {
 fn who_is_killed_while_rendering_leaves_no_draft() {
     let folder = folder();
     let before = names(folder.path());
-    let args = ["render", "ball.json", "--size", "4000x3000", "--supersampling", "8", "--threads", "1", "--allow-huge"];
+    let args = [
+        "render",
+        "ball.json",
+        "--size",
+        "4000x3000",
+        "--supersampling",
+        "8",
+        "--threads",
+        "1",
+        "--allow-huge",
+    ];
     for _ in 0..3 {
-        let mut child = command(folder.path(), &args).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = command(folder.path(), &args)
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
         until_it_listens(&mut child);
         kill(&child, "-KILL");
         child.wait().unwrap();
@@ -73,7 +127,13 @@ fn who_is_killed_while_rendering_leaves_no_draft() {
 }
 
 fn pipe(folder: &TempDir) {
-    assert!(Command::new("mkfifo").arg(folder.path().join("pipe.png")).status().unwrap().success());
+    assert!(
+        Command::new("mkfifo")
+            .arg(folder.path().join("pipe.png"))
+            .status()
+            .unwrap()
+            .success()
+    );
 }
 
 #[cfg(target_os = "linux")]
@@ -97,8 +157,19 @@ fn a_pipe_gets_all_of_the_picture() {
     let folder = folder();
     pipe(&folder);
     // 600 × 600 pixels of noise-free shading are still more than a pipe holds.
-    let args = ["render", "ball.json", "-q", "--size", "600x600", "--supersampling", "1", "-o"];
-    let mut child = command(folder.path(), &[&args[..], &["pipe.png"]].concat()).spawn().unwrap();
+    let args = [
+        "render",
+        "ball.json",
+        "-q",
+        "--size",
+        "600x600",
+        "--supersampling",
+        "1",
+        "-o",
+    ];
+    let mut child = command(folder.path(), &[&args[..], &["pipe.png"]].concat())
+        .spawn()
+        .unwrap();
     let piped = fs::read(folder.path().join("pipe.png")).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(0));
     assert!(piped == rtc(&folder, &[&args[..], &["-"]].concat()).stdout);
@@ -110,14 +181,24 @@ fn a_pipe_gets_all_of_the_picture() {
 fn the_second_signal_ends_who_does_not_hear_the_first() {
     let folder = folder();
     let sphere = "    {\"shape\": {\"sphere\": {\"center\": [0, 0, 0], \"radius\": 10}}, \"material\": 0},\n";
-    fs::write(folder.path().join("many.json"), scene_with(sphere, &sphere.repeat(5000))).unwrap();
-    let mut child = command(folder.path(), &["compile", "many.json"]).stdout(Stdio::piped()).spawn().unwrap();
+    fs::write(
+        folder.path().join("many.json"),
+        scene_with(sphere, &sphere.repeat(5000)),
+    )
+    .unwrap();
+    let mut child = command(folder.path(), &["compile", "many.json"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
     until_it_listens(&mut child);
     kill(&child, "-INT");
     kill(&child, "-INT");
     while child.try_wait().unwrap().is_none() {
         // Two signals at once may come as one.
-        let _ = Command::new("kill").args(["-INT", &child.id().to_string()]).stderr(Stdio::null()).status();
+        let _ = Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .stderr(Stdio::null())
+            .status();
     }
     assert_eq!(child.wait().unwrap().code(), Some(130));
 }
@@ -130,8 +211,15 @@ fn no_input_is_written_over() {
                     - {type: mesh, file: m.obj, position: [0, 0, 0], scale: 1, material: {color: [1, 1, 1], ka: 1, kd: 1, \
                     ks: 0, n: 1}}\n";
     fs::write(folder.path().join("scene.yaml"), textured).unwrap();
-    fs::write(folder.path().join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-q", "-o", "t.png"])), 0);
+    fs::write(
+        folder.path().join("m.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    assert_eq!(
+        code(&rtc(&folder, &["render", "ball.json", "-q", "-o", "t.png"])),
+        0
+    );
     symlink("t.png", folder.path().join("link.png")).unwrap();
     let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
     let before = ["scene.yaml", "m.obj", "t.png", "ball.json"].map(read);
@@ -142,16 +230,30 @@ fn no_input_is_written_over() {
         &["render", "scene.yaml", "--bits", "8", "-o", "m.obj"],
         &["compile", "scene.yaml", "-o", "scene.yaml"],
         &["compile", "scene.yaml", "--emit", "ir", "-o", "m.obj"],
-        &["compile", "ball.json", "-o", "../../../../../../../../../proc/self/cwd/ball.json"],
+        &[
+            "compile",
+            "ball.json",
+            "-o",
+            "../../../../../../../../../proc/self/cwd/ball.json",
+        ],
         &["cost", "ball.json", "-o", "x.txt", "--html", "ball.json"],
     ];
     for args in cases {
         let refused = rtc(&folder, args);
         assert_eq!(code(&refused), 2, "{args:?}: {}", stderr(&refused));
-        assert!(args.contains(&"m.obj") || stderr(&refused).contains(": it is an input of this run\n"), "{args:?}");
-        assert!(["scene.yaml", "m.obj", "t.png", "ball.json"].map(read) == before, "{args:?}");
+        assert!(
+            args.contains(&"m.obj") || stderr(&refused).contains(": it is an input of this run\n"),
+            "{args:?}"
+        );
+        assert!(
+            ["scene.yaml", "m.obj", "t.png", "ball.json"].map(read) == before,
+            "{args:?}"
+        );
     }
-    assert_eq!(code(&rtc(&folder, &["render", "scene.yaml", "-o", "other.png"])), 0);
+    assert_eq!(
+        code(&rtc(&folder, &["render", "scene.yaml", "-o", "other.png"])),
+        0
+    );
 }
 
 #[test]
@@ -160,29 +262,57 @@ fn a_link_to_nothing_is_followed() {
     fs::create_dir(folder.path().join("sub")).unwrap();
     symlink("second.png", folder.path().join("first.png")).unwrap();
     symlink("sub/../new.png", folder.path().join("second.png")).unwrap();
-    assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-q", "-o", "first.png"])), 0);
-    let is_link = |name: &str| fs::symlink_metadata(folder.path().join(name)).unwrap().is_symlink();
+    assert_eq!(
+        code(&rtc(
+            &folder,
+            &["render", "ball.json", "-q", "-o", "first.png"]
+        )),
+        0
+    );
+    let is_link = |name: &str| {
+        fs::symlink_metadata(folder.path().join(name))
+            .unwrap()
+            .is_symlink()
+    };
     assert!(is_link("first.png") && is_link("second.png") && !is_link("new.png"));
-    assert!(fs::read(folder.path().join("new.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(
+        fs::read(folder.path().join("new.png"))
+            .unwrap()
+            .starts_with(b"\x89PNG")
+    );
     symlink("b.png", folder.path().join("a.png")).unwrap();
     symlink("a.png", folder.path().join("b.png")).unwrap();
     let refused = rtc(&folder, &["render", "ball.json", "-q", "-o", "a.png"]);
-    assert_eq!(stderr(&refused), "error: can't write `a.png`: too many links\n");
+    assert_eq!(
+        stderr(&refused),
+        "error: can't write `a.png`: too many links\n"
+    );
 }
 
 /// What `sh` makes of a line in which `RTC` is the program.
 fn sh(folder: &TempDir, line: &str) -> Output {
     let line = line.replace("RTC", env!("CARGO_BIN_EXE_rtc"));
-    Command::new("sh").current_dir(folder.path()).args(["-c", &line]).output().unwrap()
+    Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", &line])
+        .output()
+        .unwrap()
 }
 
 #[test]
 fn a_closed_standard_output_is_said() {
     let folder = folder();
-    for line in ["RTC compile ball.json >&-", "RTC render -q ball.json -o - >&-"] {
+    for line in [
+        "RTC compile ball.json >&-",
+        "RTC render -q ball.json -o - >&-",
+    ] {
         let refused = sh(&folder, line);
         let said = "error: can't write standard output: it is closed; give `-o FILE`\n";
-        assert_eq!((code(&refused), stderr(&refused).as_str()), (2, said), "{line}");
+        assert_eq!(
+            (code(&refused), stderr(&refused).as_str()),
+            (2, said),
+            "{line}"
+        );
     }
     assert_eq!(code(&sh(&folder, "RTC compile ball.json >/dev/null")), 0);
     assert_eq!(code(&sh(&folder, "RTC compile ball.json -o x.json >&-")), 0);
@@ -194,9 +324,18 @@ fn messages_name_the_output_and_not_the_draft() {
     let folder = folder();
     symlink("/dev/full", folder.path().join("full.png")).unwrap();
     let full = rtc(&folder, &["render", "-q", "ball.json", "-o", "full.png"]);
-    assert_eq!(stderr(&full), "error: can't write `full.png`: No space left on device (os error 28)\n");
+    assert_eq!(
+        stderr(&full),
+        "error: can't write `full.png`: No space left on device (os error 28)\n"
+    );
     let before = names(folder.path());
-    let large = sh(&folder, "trap '' XFSZ; ulimit -f 0; exec RTC render -q ball.json -o x.png");
-    assert_eq!(stderr(&large), "error: can't write `x.png`: File too large (os error 27)\n");
+    let large = sh(
+        &folder,
+        "trap '' XFSZ; ulimit -f 0; exec RTC render -q ball.json -o x.png",
+    );
+    assert_eq!(
+        stderr(&large),
+        "error: can't write `x.png`: File too large (os error 27)\n"
+    );
     assert_eq!((code(&large), names(folder.path())), (2, before));
 }

@@ -6,16 +6,49 @@ use std::fs;
 #[test]
 fn a_study_is_written_in_the_form_asked_for() {
     let folder = folder();
-    fs::write(folder.path().join("depth.json"), scene_with("\"phong\",", "\"zbuffer\",")).unwrap();
-    let table = rtc(&folder, &["cost", "depth.json", "--effort", "quick", "--html", "page.html"]);
+    fs::write(
+        folder.path().join("depth.json"),
+        scene_with("\"phong\",", "\"zbuffer\","),
+    )
+    .unwrap();
+    let table = rtc(
+        &folder,
+        &[
+            "cost",
+            "depth.json",
+            "--effort",
+            "quick",
+            "--html",
+            "page.html",
+        ],
+    );
     assert_eq!(code(&table), 0, "{}", stderr(&table));
-    assert!(String::from_utf8(table.stdout).unwrap().starts_with("depth.json, xxh3:") && table.stderr.is_empty());
-    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().ends_with("</html>\n"));
+    assert!(
+        String::from_utf8(table.stdout)
+            .unwrap()
+            .starts_with("depth.json, xxh3:")
+            && table.stderr.is_empty()
+    );
+    assert!(
+        fs::read_to_string(folder.path().join("page.html"))
+            .unwrap()
+            .ends_with("</html>\n")
+    );
     let csv = rtc(&folder, &["cost", "depth.json", "--format", "csv"]);
     assert_eq!(String::from_utf8(csv.stdout).unwrap().lines().count(), 2);
-    assert_eq!(code(&rtc(&folder, &["cost", "depth.json", "--format", "json", "-o", "cost.json"])), 0);
-    let json: serde_json::Value = serde_json::from_slice(&fs::read(folder.path().join("cost.json")).unwrap()).unwrap();
-    assert_eq!((json["schema"].as_str(), json["about"]["scene"].as_str()), (Some("rtc-cost/1"), Some("depth.json")));
+    assert_eq!(
+        code(&rtc(
+            &folder,
+            &["cost", "depth.json", "--format", "json", "-o", "cost.json"]
+        )),
+        0
+    );
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(folder.path().join("cost.json")).unwrap()).unwrap();
+    assert_eq!(
+        (json["schema"].as_str(), json["about"]["scene"].as_str()),
+        (Some("rtc-cost/1"), Some("depth.json"))
+    );
     assert_eq!(code(&rtc(&folder, &["cost", "bad.json"])), 1);
 }
 
@@ -25,16 +58,34 @@ fn a_plan_is_explained_to_people_and_to_programs() {
     let table = rtc(&folder, &["compile", "ball.json", "--explain"]);
     let text = String::from_utf8(table.stdout.clone()).unwrap();
     assert_eq!(code(&table), 0);
-    assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
-    assert!(text.contains("shadows") && text.contains("E-REFR") && text.contains("kernel: "), "{text}");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
+    assert!(
+        text.contains("shadows") && text.contains("E-REFR") && text.contains("kernel: "),
+        "{text}"
+    );
     let json = rtc(&folder, &["compile", "ball.json", "--explain=json"]);
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
     let effects = json["effects"].as_array().unwrap();
-    let shadows = effects.iter().find(|row| row["effect"] == "shadows").unwrap();
+    let shadows = effects
+        .iter()
+        .find(|row| row["effect"] == "shadows")
+        .unwrap();
     assert_eq!(shadows["verdict"], "needed");
-    assert!(shadows["rays"].as_u64() > Some(0) && json["rays"].as_u64() <= json["raysUnpruned"].as_u64());
+    assert!(
+        shadows["rays"].as_u64() > Some(0)
+            && json["rays"].as_u64() <= json["raysUnpruned"].as_u64()
+    );
     assert_eq!(names(folder.path()).len(), 3, "no IR is written");
-    assert_eq!(code(&rtc(&folder, &["compile", "ball.json", "--explain", "-o", "ir.json"])), 0);
+    assert_eq!(
+        code(&rtc(
+            &folder,
+            &["compile", "ball.json", "--explain", "-o", "ir.json"]
+        )),
+        0
+    );
     assert!(folder.path().join("ir.json").exists());
 }
 
@@ -42,7 +93,10 @@ fn a_plan_is_explained_to_people_and_to_programs() {
 fn rules_can_be_switched_off_and_change_no_byte() {
     let folder = folder();
     let render = |name: &str, extra: &[&str]| {
-        let output = rtc(&folder, &[&["render", "ball.json", "-o", name], extra].concat());
+        let output = rtc(
+            &folder,
+            &[&["render", "ball.json", "-o", name], extra].concat(),
+        );
         assert_eq!(code(&output), 0, "{extra:?}: {}", stderr(&output));
         fs::read(folder.path().join(name)).unwrap()
     };
@@ -53,9 +107,16 @@ fn rules_can_be_switched_off_and_change_no_byte() {
     assert_eq!(render("approx.png", &["--approx"]), planned);
     for arithmetic in ["plain", "f32"] {
         let by = ["--arithmetic", arithmetic, "--verify-effects"];
-        assert_eq!(render("verified.png", &by), render("planned.png", &by[..2]), "{arithmetic}");
+        assert_eq!(
+            render("verified.png", &by),
+            render("planned.png", &by[..2]),
+            "{arithmetic}"
+        );
     }
-    assert_eq!(code(&rtc(&folder, &["render", "ball.json", "--no-prune=E-NONE"])), 2);
+    assert_eq!(
+        code(&rtc(&folder, &["render", "ball.json", "--no-prune=E-NONE"])),
+        2
+    );
     let rule = rtc(&folder, &["explain", "E-SPEC"]);
     assert!(String::from_utf8(rule.stdout).unwrap().contains("ks is 0"));
 }

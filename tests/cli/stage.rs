@@ -1,4 +1,5 @@
-//! View and light from the command line: they mean the same as in a scene, and what they can't mean is refused.
+//! View and light from the command line: they mean the same as in a scene, and what they can't mean
+//! is refused.
 
 use super::{SCENE, code, command, names, stderr};
 use base64::Engine as _;
@@ -12,9 +13,19 @@ use tempfile::TempDir;
 
 /// A white Lambert square of side 2 that faces +z, before a camera at (0, 0, 3).
 fn square() -> Value {
-    let corners: [[f32; 3]; 6] =
-        [[-1., -1., 0.], [1., -1., 0.], [1., 1., 0.], [-1., -1., 0.], [1., 1., 0.], [-1., 1., 0.]];
-    let bytes: Vec<u8> = corners.as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect();
+    let corners: [[f32; 3]; 6] = [
+        [-1., -1., 0.],
+        [1., -1., 0.],
+        [1., 1., 0.],
+        [-1., -1., 0.],
+        [1., 1., 0.],
+        [-1., 1., 0.],
+    ];
+    let bytes: Vec<u8> = corners
+        .as_flattened()
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect();
     json!({
         "asset": {"version": "2.0"}, "extensionsUsed": ["KHR_materials_specular"],
         "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
@@ -41,7 +52,8 @@ fn square() -> Value {
 fn sunny() -> Value {
     let mut asset = square();
     asset["extensionsUsed"] = json!(["KHR_materials_specular", "KHR_lights_punctual"]);
-    asset["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}});
+    asset["extensions"] =
+        json!({"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 2}]}});
     asset["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
     asset
 }
@@ -61,7 +73,9 @@ const GREY_SKY: &[u8] = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n\x80\
 
 /// A scene of the course that holds an asset, seen as the square is from `eye`, 16 pixels high.
 fn holding(eye: &str, center: &str, rest: &str) -> String {
-    format!("Camera: {{eye: {eye}, center: {center}, up: [0, 1, 0], viewSize: [24, 16], fov: 30}}\n{rest}")
+    format!(
+        "Camera: {{eye: {eye}, center: {center}, up: [0, 1, 0], viewSize: [24, 16], fov: 30}}\n{rest}"
+    )
 }
 
 fn folder() -> TempDir {
@@ -78,7 +92,9 @@ fn folder() -> TempDir {
 }
 
 fn rtc(folder: &Path, words: &str) -> Output {
-    command(folder, &words.split_whitespace().collect::<Vec<_>>()).output().unwrap()
+    command(folder, &words.split_whitespace().collect::<Vec<_>>())
+        .output()
+        .unwrap()
 }
 
 /// The bytes of the picture that `rtc render` makes.
@@ -94,7 +110,9 @@ fn decode(bytes: &[u8]) -> Result<Pixels, DecodeError> {
 
 /// The values of all channels of a picture.
 fn values(folder: &Path, words: &str) -> Vec<u8> {
-    decode(&picture(folder, &format!("{words} --size 8x8"))).unwrap().bytes
+    decode(&picture(folder, &format!("{words} --size 8x8")))
+        .unwrap()
+        .bytes
 }
 
 #[test]
@@ -132,14 +150,34 @@ fn what_contradicts_itself_or_is_out_of_range_is_refused() {
     for (words, finding) in found {
         let output = rtc(folder.path(), &format!("render {words}"));
         assert_eq!(code(&output), 1, "{words}");
-        assert!(stderr(&output).contains(&format!("error[{finding}]")), "{words}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains(&format!("error[{finding}]")),
+            "{words}: {}",
+            stderr(&output)
+        );
     }
-    for words in ["ball.yaml --time 1", "ball.json --time 1", "square.gltf --time 1"] {
+    for words in [
+        "ball.yaml --time 1",
+        "ball.json --time 1",
+        "square.gltf --time 1",
+    ] {
         let output = rtc(folder.path(), &format!("render {words} -o -"));
         assert_eq!(code(&output), 0, "{words}: {}", stderr(&output));
-        assert!(stderr(&output).contains("warning[GL049]"), "{words}: {}", stderr(&output));
+        assert!(
+            stderr(&output).contains("warning[GL049]"),
+            "{words}: {}",
+            stderr(&output)
+        );
     }
-    let before = ["ball.json", "ball.yaml", "beside.yaml", "broken.hdr", "sky.hdr", "square.gltf", "sunny.gltf"];
+    let before = [
+        "ball.json",
+        "ball.yaml",
+        "beside.yaml",
+        "broken.hdr",
+        "sky.hdr",
+        "square.gltf",
+        "sunny.gltf",
+    ];
     assert_eq!(names(folder.path()), before);
 }
 
@@ -148,9 +186,21 @@ fn a_view_asked_for_is_that_of_a_camera_there() {
     let folder = folder();
     let show = |words: &str| picture(folder.path(), words);
     let beside = show("beside.yaml");
-    assert_eq!(show("ball.yaml --eye 7,2,8 --center 1,2,0"), beside, "the angle of the picture stays");
-    assert_eq!(show("ball.yaml --eye 7,2,8"), beside, "the middle of the scene is that of the ball");
-    assert_eq!(show("ball.yaml --eye 7,2,8 --up 0,3,0"), beside, "only the direction counts");
+    assert_eq!(
+        show("ball.yaml --eye 7,2,8 --center 1,2,0"),
+        beside,
+        "the angle of the picture stays"
+    );
+    assert_eq!(
+        show("ball.yaml --eye 7,2,8"),
+        beside,
+        "the middle of the scene is that of the ball"
+    );
+    assert_eq!(
+        show("ball.yaml --eye 7,2,8 --up 0,3,0"),
+        beside,
+        "only the direction counts"
+    );
     assert_ne!(show("ball.yaml"), beside);
     assert_eq!(
         show("ball.yaml --yfov 50"),
@@ -158,15 +208,26 @@ fn a_view_asked_for_is_that_of_a_camera_there() {
         "a wider lens stays in its place"
     );
     assert_ne!(show("ball.yaml --yfov 50"), show("ball.yaml"));
-    assert!(!show("ball.yaml --eye 1,9,0").is_empty(), "from above some direction is up");
+    assert!(
+        !show("ball.yaml --eye 1,9,0").is_empty(),
+        "from above some direction is up"
+    );
 }
 
 #[test]
 fn a_camera_is_found_by_its_name_that_of_its_node_and_its_index() {
     let folder = folder();
-    let show = |words: &str| picture(folder.path(), &format!("square.gltf --size 8x8 --spp 4 {words}"));
+    let show = |words: &str| {
+        picture(
+            folder.path(),
+            &format!("square.gltf --size 8x8 --spp 4 {words}"),
+        )
+    };
     let (first, wide) = (show(""), show("--camera wide"));
-    assert_eq!([show("--camera front"), show("--camera 0")], [first.clone(), first.clone()]);
+    assert_eq!(
+        [show("--camera front"), show("--camera 0")],
+        [first.clone(), first.clone()]
+    );
     assert_eq!(show("--camera 1"), wide);
     assert_ne!(first, wide);
 }
@@ -177,10 +238,21 @@ fn a_sun_asked_for_is_the_light_of_an_asset() {
     let show = |words: &str| picture(folder.path(), &format!("{words} --size 8x8 --spp 4"));
     let sunny = show("sunny.gltf");
     assert_eq!(show("square.gltf --sun 0,0,3,2"), sunny);
-    assert_eq!(show("sunny.gltf --no-scene-lights --sun 0,0,1,2,2,2"), sunny);
+    assert_eq!(
+        show("sunny.gltf --no-scene-lights --sun 0,0,1,2,2,2"),
+        sunny
+    );
     let one = values(folder.path(), "sunny.gltf --spp 4");
-    let two = values(folder.path(), "square.gltf --sun 0,0,1,0.5 --sun 0,0,1,1.5 --spp 4");
-    assert!(one.iter().zip(&two).all(|(one, two)| one.abs_diff(*two) <= 1), "suns add up: {one:?} {two:?}");
+    let two = values(
+        folder.path(),
+        "square.gltf --sun 0,0,1,0.5 --sun 0,0,1,1.5 --spp 4",
+    );
+    assert!(
+        one.iter()
+            .zip(&two)
+            .all(|(one, two)| one.abs_diff(*two) <= 1),
+        "suns add up: {one:?} {two:?}"
+    );
 }
 
 #[test]
@@ -188,19 +260,34 @@ fn a_white_surface_under_an_even_sky_is_the_sky() {
     let folder = folder();
     let grey = 187;
     let even = values(folder.path(), "square.gltf --env-color 0.5 --spp 4");
-    assert!(even.iter().all(|value| value.abs_diff(grey) <= 1), "{even:?}");
+    assert!(
+        even.iter().all(|value| value.abs_diff(grey) <= 1),
+        "{even:?}"
+    );
     let sky = values(folder.path(), "square.gltf --env sky.hdr --spp 64");
     let mean = sky.iter().map(|value| f64::from(*value)).sum::<f64>() / sky.len() as f64;
     assert!((mean - f64::from(grey)).abs() < 2.0, "{mean}");
     let warm = values(folder.path(), "square.gltf --env-color 1,0.5,0 --spp 4");
-    assert!(warm.chunks(3).all(|pixel| pixel[0] >= 254 && pixel[1].abs_diff(grey) <= 1 && pixel[2] == 0), "{warm:?}");
+    assert!(
+        warm.chunks(3)
+            .all(|pixel| pixel[0] >= 254 && pixel[1].abs_diff(grey) <= 1 && pixel[2] == 0),
+        "{warm:?}"
+    );
 }
 
 #[test]
 fn what_has_no_light_stands_in_the_studio() {
     let folder = folder();
-    let told = |words: &str| stderr(&rtc(folder.path(), &format!("render {words} --size 8x8 --spp 4 -v -o x.png")));
-    assert!(told("square.gltf").contains("note[RD003]") && told("sunny.gltf --no-scene-lights").contains("RD003"));
+    let told = |words: &str| {
+        stderr(&rtc(
+            folder.path(),
+            &format!("render {words} --size 8x8 --spp 4 -v -o x.png"),
+        ))
+    };
+    assert!(
+        told("square.gltf").contains("note[RD003]")
+            && told("sunny.gltf --no-scene-lights").contains("RD003")
+    );
     for lit in [
         "sunny.gltf",
         "square.gltf --env-color 0",
@@ -213,9 +300,19 @@ fn what_has_no_light_stands_in_the_studio() {
     let dark = values(folder.path(), "square.gltf --env-color 0 --spp 4");
     assert!(dark.iter().all(|value| *value == 0));
     let studio = values(folder.path(), "square.gltf --spp 64");
-    assert!(studio.iter().all(|value| (40..250).contains(value)), "{studio:?}");
-    assert_eq!(code(&rtc(folder.path(), "compile square.gltf -o square.rtir")), 0);
-    assert_eq!(values(folder.path(), "square.rtir --spp 64"), studio, "the studio is part of the IR");
+    assert!(
+        studio.iter().all(|value| (40..250).contains(value)),
+        "{studio:?}"
+    );
+    assert_eq!(
+        code(&rtc(folder.path(), "compile square.gltf -o square.rtir")),
+        0
+    );
+    assert_eq!(
+        values(folder.path(), "square.rtir --spp 64"),
+        studio,
+        "the studio is part of the IR"
+    );
 }
 
 #[test]
@@ -224,12 +321,24 @@ fn either_integrator_shows_either_kind_of_scene() {
     let show = |words: &str| picture(folder.path(), &format!("{words} --size 12x8"));
     assert_eq!(show("ball.yaml --integrator whitted"), show("ball.yaml"));
     let paths = values(folder.path(), "ball.yaml --integrator path --spp 16");
-    assert!(paths.iter().any(|value| *value > 100) && show("ball.yaml --integrator path") != show("ball.yaml"));
+    assert!(
+        paths.iter().any(|value| *value > 100)
+            && show("ball.yaml --integrator path") != show("ball.yaml")
+    );
     let sun = "ball.yaml --sun 1,1,1,3";
-    assert_eq!(show(sun), show(&format!("{sun} --integrator path")), "a sun is seen by paths");
-    assert_ne!(show(&format!("{sun} --integrator whitted")), show("ball.yaml"), "and by Whitted, if he is to");
+    assert_eq!(
+        show(sun),
+        show(&format!("{sun} --integrator path")),
+        "a sun is seen by paths"
+    );
+    assert_ne!(
+        show(&format!("{sun} --integrator whitted")),
+        show("ball.yaml"),
+        "and by Whitted, if he is to"
+    );
     for asset in ["square.gltf", "sunny.gltf"] {
-        let middle = values(folder.path(), &format!("{asset} --integrator whitted"))[3 * (4 * 8 + 4)];
+        let middle =
+            values(folder.path(), &format!("{asset} --integrator whitted"))[3 * (4 * 8 + 4)];
         assert!(middle > 100, "{asset}: {middle}");
     }
 }
@@ -237,15 +346,32 @@ fn either_integrator_shows_either_kind_of_scene() {
 #[test]
 fn a_turntable_is_so_many_pictures_all_around() {
     let folder = folder();
-    let made = rtc(folder.path(), "render beside.yaml --turntable 3 -o out-%02d.png");
-    assert_eq!((code(&made), stderr(&made).lines().count()), (0, 3), "{}", stderr(&made));
+    let made = rtc(
+        folder.path(),
+        "render beside.yaml --turntable 3 -o out-%02d.png",
+    );
+    assert_eq!(
+        (code(&made), stderr(&made).lines().count()),
+        (0, 3),
+        "{}",
+        stderr(&made)
+    );
     let frame = |number: u32| fs::read(folder.path().join(format!("out-0{number}.png"))).unwrap();
-    assert_eq!(frame(1), picture(folder.path(), "beside.yaml"), "the first is the view of the scene");
+    assert_eq!(
+        frame(1),
+        picture(folder.path(), "beside.yaml"),
+        "the first is the view of the scene"
+    );
     assert!(frame(1) != frame(2) && frame(2) != frame(3) && frame(1) != frame(3));
-    assert_eq!(code(&rtc(folder.path(), "render beside.yaml -q --turntable 1")), 0);
+    assert_eq!(
+        code(&rtc(folder.path(), "render beside.yaml -q --turntable 1")),
+        0
+    );
     let made = ["beside-0001.png", "out-01.png", "out-02.png", "out-03.png"];
-    let pictures: Vec<_> =
-        names(folder.path()).into_iter().filter(|name| !name.contains("gltf") && name.ends_with(".png")).collect();
+    let pictures: Vec<_> = names(folder.path())
+        .into_iter()
+        .filter(|name| !name.contains("gltf") && name.ends_with(".png"))
+        .collect();
     assert_eq!(pictures, made);
 }
 
@@ -260,17 +386,38 @@ fn an_asset_that_a_scene_holds_looks_as_it_does_alone() {
     let alone = |words: &str| picture(folder.path(), &format!("{words} {view}"));
     let square = "Objects:\n- {type: gltf, file: square.gltf}\n";
     let sun = "Lights:\n- {type: sun, direction: [0, 0, 1], irradiance: 2}\n";
-    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sun}{square}")), alone("square.gltf --sun 0,0,1,2"));
+    assert_eq!(
+        hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sun}{square}")),
+        alone("square.gltf --sun 0,0,1,2")
+    );
     let sky = "Environment: {file: sky.hdr}\n";
-    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sky}{square}")), alone("square.gltf --env sky.hdr"));
+    assert_eq!(
+        hold("[0, 0, 3]", "[0, 0, 0]", &format!("{sky}{square}")),
+        alone("square.gltf --env sky.hdr")
+    );
     let sunny = "Objects:\n- {type: gltf, file: sunny.gltf}\n";
-    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", sunny), alone("sunny.gltf"), "its lights count");
-    assert_eq!(hold("[0, 0, 3]", "[0, 0, 0]", square), alone("square.gltf"), "without light it stands in the studio");
+    assert_eq!(
+        hold("[0, 0, 3]", "[0, 0, 0]", sunny),
+        alone("sunny.gltf"),
+        "its lights count"
+    );
+    assert_eq!(
+        hold("[0, 0, 3]", "[0, 0, 0]", square),
+        alone("square.gltf"),
+        "without light it stands in the studio"
+    );
     let moved = "Objects:\n- {type: gltf, file: sunny.gltf, position: [4, 0, 0], scale: 2, rotation: [0, 1.5707963267948966, 0]}\n";
-    let moved = decode(&hold("[10, 0, 0]", "[4, 0, 0]", moved)).unwrap().bytes;
+    let moved = decode(&hold("[10, 0, 0]", "[4, 0, 0]", moved))
+        .unwrap()
+        .bytes;
     let first = decode(&alone("sunny.gltf")).unwrap().bytes;
     assert!(
-        moved.iter().zip(&first).filter(|(a, b)| a.abs_diff(**b) > 1).count() < 30,
+        moved
+            .iter()
+            .zip(&first)
+            .filter(|(a, b)| a.abs_diff(**b) > 1)
+            .count()
+            < 30,
         "moved, turned and scaled alike"
     );
 }
@@ -279,26 +426,46 @@ fn an_asset_that_a_scene_holds_looks_as_it_does_alone() {
 fn an_angle_in_a_scene_is_that_of_the_command_line() {
     let folder = folder();
     let ball = course("[1, 2, 10]");
-    let wide = ball.replace("up: [0, 0.5, 0]", "up: [0, 1, 0], fov: 50").replace("[1, 2, 10]", "[7, 4, 8]");
+    let wide = ball
+        .replace("up: [0, 0.5, 0]", "up: [0, 1, 0], fov: 50")
+        .replace("[1, 2, 10]", "[7, 4, 8]");
     fs::write(folder.path().join("wide.yaml"), wide).unwrap();
-    let expected = picture(folder.path(), "ball.yaml --eye 7,4,8 --center 1,2,0 --up 0,2,0 --yfov 50");
+    let expected = picture(
+        folder.path(),
+        "ball.yaml --eye 7,4,8 --center 1,2,0 --up 0,2,0 --yfov 50",
+    );
     assert_eq!(picture(folder.path(), "wide.yaml"), expected);
-    assert_eq!(picture(folder.path(), "ball.yaml --eye 7,4,8 --yfov 50"), expected);
+    assert_eq!(
+        picture(folder.path(), "ball.yaml --eye 7,4,8 --yfov 50"),
+        expected
+    );
 }
 
-/// The sky is bright towards −x; turned by a quarter about y it is bright towards the camera, or away from it.
+/// The sky is bright towards −x; turned by a quarter about y it is bright towards the camera, or
+/// away from it.
 #[test]
 fn an_environment_is_turned_as_a_shape_is() {
     let folder = folder();
     let sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x00\x00\x00\x00";
     fs::write(folder.path().join("half.hdr"), sky).unwrap();
     let front = |rotation: &str| {
-        let ball =
-            "{type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}";
-        let rest = format!("Environment: {{file: half.hdr, rotation: {rotation}}}\nObjects:\n- {ball}\n");
-        fs::write(folder.path().join("turned.yaml"), holding("[0, 0, 9]", "[0, 0, 0]", &rest)).unwrap();
+        let ball = "{type: sphere, position: [0, 0, 0], radius: 1, material: {color: [1, 1, 1], ka: 0, kd: 1, ks: 0, n: 1}}";
+        let rest =
+            format!("Environment: {{file: half.hdr, rotation: {rotation}}}\nObjects:\n- {ball}\n");
+        fs::write(
+            folder.path().join("turned.yaml"),
+            holding("[0, 0, 9]", "[0, 0, 0]", &rest),
+        )
+        .unwrap();
         values(folder.path(), "turned.yaml --spp 64")[3 * (4 * 8 + 4)]
     };
-    let (bright, side, dark) = (front("[0, 1.5708, 0]"), front("[0, 0, 0]"), front("[0, -1.5708, 0]"));
-    assert!(bright > side + 20 && side > dark + 20, "{bright} {side} {dark}");
+    let (bright, side, dark) = (
+        front("[0, 1.5708, 0]"),
+        front("[0, 0, 0]"),
+        front("[0, -1.5708, 0]"),
+    );
+    assert!(
+        bright > side + 20 && side > dark + 20,
+        "{bright} {side} {dark}"
+    );
 }

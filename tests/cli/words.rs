@@ -16,15 +16,23 @@ fn values_are_clipped_in_messages() {
         format!("MaxRecursionDepth: \"{long}\""),
         format!("Objects: [{{type: {long}}}]"),
         format!("Objects: [{{type: sphere, position: [0, 0, 0], radius: 1, material: {texture}}}]"),
-        format!("Objects: [{{type: mesh, file: ../{long}/{long}/x, position: [0, 0, 0], scale: 1}}]"),
+        format!(
+            "Objects: [{{type: mesh, file: ../{long}/{long}/x, position: [0, 0, 0], scale: 1}}]"
+        ),
         format!("{{\"irVersion\": 3, \"{long}\": 1}}"),
-        scene_with("\"phong\", \"shadows\"", &format!("\"{long}\", \"shadows\"")),
+        scene_with(
+            "\"phong\", \"shadows\"",
+            &format!("\"{long}\", \"shadows\""),
+        ),
         scene_with("\"shadows\": true", &format!("\"shadows\": \"{long}\"")),
         scene_with("[0, 0, 50]", "[0, 0, 1e308]"),
     ];
     let is_short = |what: &str, output: &Output| {
         let said = stderr(output) + &String::from_utf8(output.stdout.clone()).unwrap();
-        assert!(!said.is_empty() && said.lines().all(|line| line.len() < 1500), "{what}: {said}");
+        assert!(
+            !said.is_empty() && said.lines().all(|line| line.len() < 1500),
+            "{what}: {said}"
+        );
     };
     for (number, text) in wrong.iter().enumerate() {
         let name = format!("wrong-{number}");
@@ -55,7 +63,11 @@ fn a_view_from_beyond_all_numbers_is_refused_for_that() {
     for option in ["--eye", "--center"] {
         let refused = rtc(&folder, &["render", "ball.json", option, "1e300,0,0"]);
         assert_eq!(code(&refused), 2);
-        assert!(stderr(&refused).contains("numbers of a scene are at most 1e60 in size"), "{}", stderr(&refused));
+        assert!(
+            stderr(&refused).contains("numbers of a scene are at most 1e60 in size"),
+            "{}",
+            stderr(&refused)
+        );
     }
 }
 
@@ -66,9 +78,22 @@ fn options_stand_under_the_heading_that_is_theirs() {
     for verb in ["render", "compile", "cost"] {
         let help = String::from_utf8(rtc(&folder, &[verb, "--help"]).stdout).unwrap();
         let (options, view) = help.split_once("\nView and light:\n").unwrap();
-        for option in ["--strict", "--lenient", "--color", "--quiet", "--message-format", "--max-errors"] {
-            assert!(options.contains(option) && !view.contains(&format!("{option} ")), "{verb} {option}");
+        for option in [
+            "--strict",
+            "--lenient",
+            "--color",
+            "--quiet",
+            "--message-format",
+            "--max-errors",
+        ] {
+            assert!(
+                options.contains(option) && !view.contains(&format!("{option} ")),
+                "{verb} {option}"
+            );
         }
-        assert!(view.contains("--eye") && view.contains("--integrator"), "{verb}");
+        assert!(
+            view.contains("--eye") && view.contains("--integrator"),
+            "{verb}"
+        );
     }
 }

@@ -2,14 +2,30 @@
 
 use proptest::prelude::*;
 use rtc::ir::{
-    Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance, Lens, Light, Map,
-    Material, MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels, Plane, PointLight, Projection, Punctual,
-    Sampled, Scene, Settings, Shape, Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance,
+    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels,
+    Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape, Sphere, Standard,
+    Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
-    let odd = prop::sample::select(vec![0.0, -0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, -2.2e-308, 0.1, 1e22, 4.0]);
-    prop_oneof![odd, any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |x| x.is_finite())]
+    let odd = prop::sample::select(vec![
+        0.0,
+        -0.0,
+        f64::MAX,
+        f64::MIN_POSITIVE,
+        5e-324,
+        -2.2e-308,
+        0.1,
+        1e22,
+        4.0,
+    ]);
+    prop_oneof![
+        odd,
+        any::<u64>()
+            .prop_map(f64::from_bits)
+            .prop_filter("finite", |x| x.is_finite())
+    ]
 }
 
 fn triple() -> impl Strategy<Value = [f64; 3]> {
@@ -22,15 +38,28 @@ fn pair() -> impl Strategy<Value = [f64; 2]> {
 
 /// A text with characters of every length, on both sides of what is long.
 fn text() -> impl Strategy<Value = String> {
-    prop::collection::vec(prop::sample::select(vec!['a', '"', 'ü', '\u{1f408}', '\0']), 0..400)
-        .prop_map(|characters| characters.into_iter().collect())
+    prop::collection::vec(
+        prop::sample::select(vec!['a', '"', 'ü', '\u{1f408}', '\0']),
+        0..400,
+    )
+    .prop_map(|characters| characters.into_iter().collect())
 }
 
 fn image() -> impl Strategy<Value = Image> {
     let bytes = prop::collection::vec(any::<u8>(), 0..400);
     (text(), any::<[u32; 2]>(), bytes).prop_map(|(name, [width, height], pixels)| {
-        let kind = if width % 2 == 0 { Pixels::Rgb8 } else { Pixels::Rgb32f };
-        Image { name, width, height, kind, pixels: pixels.into() }
+        let kind = if width % 2 == 0 {
+            Pixels::Rgb8
+        } else {
+            Pixels::Rgb32f
+        };
+        Image {
+            name,
+            width,
+            height,
+            kind,
+            pixels: pixels.into(),
+        }
     })
 }
 
@@ -45,20 +74,38 @@ fn mesh() -> impl Strategy<Value = Mesh> {
     let uvs = prop::collection::vec(pair(), 0..60);
     let triangles = prop::collection::vec(any::<[u32; 3]>(), 0..60);
     let wide = prop::collection::vec([number(), number(), number(), number()], 0..60);
-    (text(), list(), list(), uvs, wide, triangles).prop_map(|(name, positions, normals, uvs, tangents, triangles)| {
-        let (second_uvs, colors) =
-            (Column::rounded(uvs.iter().map(small)), Column::rounded(tangents.iter().map(small)));
-        let (positions, normals) = (positions.into(), Column::rounded(normals.iter().map(small)));
-        let (uvs, tangents, triangles) = (uvs.into(), tangents.into(), triangles.into());
-        Mesh { name, positions, normals, uvs, second_uvs, tangents, colors, triangles }
-    })
+    (text(), list(), list(), uvs, wide, triangles).prop_map(
+        |(name, positions, normals, uvs, tangents, triangles)| {
+            let (second_uvs, colors) = (
+                Column::rounded(uvs.iter().map(small)),
+                Column::rounded(tangents.iter().map(small)),
+            );
+            let (positions, normals) =
+                (positions.into(), Column::rounded(normals.iter().map(small)));
+            let (uvs, tangents, triangles) = (uvs.into(), tangents.into(), triangles.into());
+            Mesh {
+                name,
+                positions,
+                normals,
+                uvs,
+                second_uvs,
+                tangents,
+                colors,
+                triangles,
+            }
+        },
+    )
 }
 
 fn texture() -> impl Strategy<Value = Texture> {
     let sampled = any::<u32>().prop_map(|image| Sampled {
         image: ImageId(image),
         wrap: [Wrap::Mirror, Wrap::Clamp],
-        filter: if image % 2 == 0 { Filter::Linear } else { Filter::Nearest },
+        filter: if image % 2 == 0 {
+            Filter::Linear
+        } else {
+            Filter::Nearest
+        },
     });
     let image = any::<u32>().prop_map(|image| Texture::Image(ImageId(image)));
     prop_oneof![Just(Texture::Uv), image, sampled.prop_map(Texture::Sampled)]
@@ -66,19 +113,48 @@ fn texture() -> impl Strategy<Value = Texture> {
 
 fn camera() -> impl Strategy<Value = Camera> {
     let lens = (number(), any::<u32>()).prop_map(|(radius, samples)| Lens { radius, samples });
-    (triple(), triple(), triple(), triple(), any::<[u32; 2]>(), lens).prop_map(
-        |(eye, center, right, up, size, lens)| {
-            let projection = if size[0] % 2 == 0 { Projection::Perspective } else { Projection::Orthographic };
-            Camera { eye, center, right, up, size, lens, projection }
-        },
+    (
+        triple(),
+        triple(),
+        triple(),
+        triple(),
+        any::<[u32; 2]>(),
+        lens,
     )
+        .prop_map(|(eye, center, right, up, size, lens)| {
+            let projection = if size[0] % 2 == 0 {
+                Projection::Perspective
+            } else {
+                Projection::Orthographic
+            };
+            Camera {
+                eye,
+                center,
+                right,
+                up,
+                size,
+                lens,
+                projection,
+            }
+        })
 }
 
 fn settings() -> impl Strategy<Value = Settings> {
     let gooch = [number(), number(), number(), number()]
         .prop_map(|[b, y, alpha, beta]| Mode::Gooch(Gooch { b, y, alpha, beta }));
-    let path = any::<u32>().prop_map(|samples| Mode::Path(Path { samples, multiple_scattering: samples % 2 == 0 }));
-    let mode = prop_oneof![Just(Mode::Phong), Just(Mode::Zbuffer), Just(Mode::Normal), gooch, path];
+    let path = any::<u32>().prop_map(|samples| {
+        Mode::Path(Path {
+            samples,
+            multiple_scattering: samples % 2 == 0,
+        })
+    });
+    let mode = prop_oneof![
+        Just(Mode::Phong),
+        Just(Mode::Zbuffer),
+        Just(Mode::Normal),
+        gooch,
+        path
+    ];
     let pattern = prop::sample::select(vec![Pattern::Grid, Pattern::Jitter, Pattern::Random]);
     (mode, any::<bool>(), any::<[u32; 3]>(), pattern).prop_map(
         |(mode, shadows, [max_depth, supersampling, light_samples], pattern)| Settings {
@@ -93,47 +169,86 @@ fn settings() -> impl Strategy<Value = Settings> {
 }
 
 fn light() -> impl Strategy<Value = Light> {
-    let point = (triple(), triple(), number())
-        .prop_map(|(position, color, radius)| Light::Point(PointLight { position, color, radius }));
+    let point = (triple(), triple(), number()).prop_map(|(position, color, radius)| {
+        Light::Point(PointLight {
+            position,
+            color,
+            radius,
+        })
+    });
     let range = || prop::option::of(number());
     let emitter = prop_oneof![
         triple().prop_map(|direction| Emitter::Sun { direction }),
         (triple(), range()).prop_map(|(position, range)| Emitter::Point { position, range }),
-        (triple(), triple(), pair(), range()).prop_map(|(position, direction, [inner_angle, outer_angle], range)| {
-            Emitter::Spot { position, direction, inner_angle, outer_angle, range }
-        }),
+        (triple(), triple(), pair(), range()).prop_map(
+            |(position, direction, [inner_angle, outer_angle], range)| {
+                Emitter::Spot {
+                    position,
+                    direction,
+                    inner_angle,
+                    outer_angle,
+                    range,
+                }
+            }
+        ),
     ];
-    let punctual =
-        (emitter, triple()).prop_map(|(emitter, intensity)| Light::Punctual(Punctual { emitter, intensity }));
+    let punctual = (emitter, triple())
+        .prop_map(|(emitter, intensity)| Light::Punctual(Punctual { emitter, intensity }));
     prop_oneof![point, punctual]
 }
 
 fn environment() -> impl Strategy<Value = Environment> {
     let image = prop::option::of(any::<u32>().prop_map(ImageId));
-    (triple(), image, prop::option::of([triple(), triple(), triple()]))
-        .prop_map(|(radiance, image, image_from_world)| Environment { radiance, image, image_from_world })
+    (
+        triple(),
+        image,
+        prop::option::of([triple(), triple(), triple()]),
+    )
+        .prop_map(|(radiance, image, image_from_world)| Environment {
+            radiance,
+            image,
+            image_from_world,
+        })
 }
 
 /// Materials of glTF with some of the fields other than their defaults.
 fn standard() -> impl Strategy<Value = Material> {
-    let map = (any::<u32>(), 0..2_u32, prop::option::of([triple(), triple()])).prop_map(
-        |(texture, set, texture_from_surface)| Map { texture: TextureId(texture), set, texture_from_surface },
-    );
-    let alpha = prop_oneof![Just(Alpha::Opaque), number().prop_map(Alpha::Mask), Just(Alpha::Blend)];
-    (text(), triple(), prop::option::of(map), alpha, any::<bool>()).prop_map(
-        |(name, [metallic, ior, clearcoat], normal_map, alpha, double_sided)| {
-            Material::Standard(Box::new(Standard {
-                name,
-                metallic,
-                ior,
-                clearcoat,
-                normal_map,
-                alpha,
-                double_sided,
-                ..Standard::default()
-            }))
-        },
+    let map = (
+        any::<u32>(),
+        0..2_u32,
+        prop::option::of([triple(), triple()]),
     )
+        .prop_map(|(texture, set, texture_from_surface)| Map {
+            texture: TextureId(texture),
+            set,
+            texture_from_surface,
+        });
+    let alpha = prop_oneof![
+        Just(Alpha::Opaque),
+        number().prop_map(Alpha::Mask),
+        Just(Alpha::Blend)
+    ];
+    (
+        text(),
+        triple(),
+        prop::option::of(map),
+        alpha,
+        any::<bool>(),
+    )
+        .prop_map(
+            |(name, [metallic, ior, clearcoat], normal_map, alpha, double_sided)| {
+                Material::Standard(Box::new(Standard {
+                    name,
+                    metallic,
+                    ior,
+                    clearcoat,
+                    normal_map,
+                    alpha,
+                    double_sided,
+                    ..Standard::default()
+                }))
+            },
+        )
 }
 
 fn material() -> impl Strategy<Value = Material> {
@@ -142,41 +257,80 @@ fn material() -> impl Strategy<Value = Material> {
 
 fn phong() -> impl Strategy<Value = Material> {
     let map = || prop::option::of(any::<u32>().prop_map(TextureId));
-    let bump = prop::option::of((any::<u32>(), number()))
-        .prop_map(|bump| bump.map(|(texture, height)| Bump { texture: TextureId(texture), height }));
-    (triple(), triple(), triple(), any::<u32>(), [map(), map(), map()], bump).prop_map(
-        |(color, [ka, kd, ks], [n, kt, eta], glossy_samples, [color_map, specular_map, normal_map], bump)| {
-            Material::Phong(Phong {
-                color,
-                ka,
-                kd,
-                ks,
-                n,
-                kt,
-                eta,
-                glossy_samples,
-                color_map,
-                specular_map,
-                normal_map,
-                bump,
-            })
-        },
+    let bump = prop::option::of((any::<u32>(), number())).prop_map(|bump| {
+        bump.map(|(texture, height)| Bump {
+            texture: TextureId(texture),
+            height,
+        })
+    });
+    (
+        triple(),
+        triple(),
+        triple(),
+        any::<u32>(),
+        [map(), map(), map()],
+        bump,
     )
+        .prop_map(
+            |(
+                color,
+                [ka, kd, ks],
+                [n, kt, eta],
+                glossy_samples,
+                [color_map, specular_map, normal_map],
+                bump,
+            )| {
+                Material::Phong(Phong {
+                    color,
+                    ka,
+                    kd,
+                    ks,
+                    n,
+                    kt,
+                    eta,
+                    glossy_samples,
+                    color_map,
+                    specular_map,
+                    normal_map,
+                    bump,
+                })
+            },
+        )
 }
 
 fn surface() -> impl Strategy<Value = Surface> {
     let shape = prop_oneof![
-        (triple(), number(), prop::option::of([triple(), triple(), triple()])).prop_map(
-            |(center, radius, texture_from_world)| Shape::Sphere(Sphere { center, radius, texture_from_world })
-        ),
+        (
+            triple(),
+            number(),
+            prop::option::of([triple(), triple(), triple()])
+        )
+            .prop_map(
+                |(center, radius, texture_from_world)| Shape::Sphere(Sphere {
+                    center,
+                    radius,
+                    texture_from_world
+                })
+            ),
         (triple(), triple()).prop_map(|(center, normal)| Shape::Plane(Plane { center, normal })),
-        ([triple(), triple(), triple()], prop::option::of([pair(), pair(), pair()]))
+        (
+            [triple(), triple(), triple()],
+            prop::option::of([pair(), pair(), pair()])
+        )
             .prop_map(|(vertices, uvs)| Shape::Triangle(Triangle { vertices, uvs })),
-        (any::<u32>(), [triple(), triple(), triple(), triple()]).prop_map(|(mesh, world_from_object)| {
-            Shape::Instance(Instance { mesh: MeshId(mesh), world_from_object })
-        }),
+        (any::<u32>(), [triple(), triple(), triple(), triple()]).prop_map(
+            |(mesh, world_from_object)| {
+                Shape::Instance(Instance {
+                    mesh: MeshId(mesh),
+                    world_from_object,
+                })
+            }
+        ),
     ];
-    (shape, any::<u32>()).prop_map(|(shape, material)| Surface { shape, material: MaterialId(material) })
+    (shape, any::<u32>()).prop_map(|(shape, material)| Surface {
+        shape,
+        material: MaterialId(material),
+    })
 }
 
 prop_compose! {

@@ -40,8 +40,15 @@ fn the_header_does_not_grow_with_what_is_in_sections() {
 fn number_after(file: &[u8], words: &str) -> usize {
     let length = u32::from_le_bytes(file[12..16].try_into().unwrap()) as usize;
     let header = std::str::from_utf8(&file[20..20 + length]).unwrap();
-    let rest = header.split_once(words).unwrap_or_else(|| panic!("{words} is not in {header}")).1;
-    rest.split(|c: char| !c.is_ascii_digit()).next().unwrap().parse().unwrap()
+    let rest = header
+        .split_once(words)
+        .unwrap_or_else(|| panic!("{words} is not in {header}"))
+        .1;
+    rest.split(|c: char| !c.is_ascii_digit())
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap()
 }
 
 /// A scene whose mesh has columns of both precisions.
@@ -64,7 +71,9 @@ fn with_section(file: &[u8], section: usize, edit: impl Fn(&mut [u8])) -> Vec<u8
     let bytes = &mut file[start..start + number("length")];
     edit(bytes);
     let hash = format!("{:016x}", xxhash_rust::xxh3::xxh3_64(bytes));
-    with_header(&file, |header| header.replacen(entry["xxh3"].as_str().unwrap(), &hash, 1))
+    with_header(&file, |header| {
+        header.replacen(entry["xxh3"].as_str().unwrap(), &hash, 1)
+    })
 }
 
 #[test]
@@ -74,10 +83,12 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
     let back = decode(Form::Binary, &file).unwrap();
     assert_eq!(format!("{back:?}"), format!("{scene:?}"));
     assert!(
-        matches!(&back.meshes[0].normals, Column::Single(_)) && matches!(&back.meshes[0].positions, Column::Double(_))
+        matches!(&back.meshes[0].normals, Column::Single(_))
+            && matches!(&back.meshes[0].positions, Column::Double(_))
     );
     let section = |key: &str| number_after(&file, &format!("\"{key}\":"));
-    let [positions, normals, colors, triangles] = ["positions", "normals", "colors", "triangles"].map(section);
+    let [positions, normals, colors, triangles] =
+        ["positions", "normals", "colors", "triangles"].map(section);
     let pixels = section("pixels");
     let cases = [
         ("normals", normals, triangles),
@@ -94,13 +105,25 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
         let bad = with_header(&file, |header| header.replacen(&old, &new, 1));
         assert_eq!(fault(Form::Binary, &bad).0, "IR007", "{new}");
     }
-    for (section, at, number) in [(positions, 8, 0x7ff_u16), (normals, 4, 0x7f8), (colors, 12, 0xff8)] {
+    for (section, at, number) in [
+        (positions, 8, 0x7ff_u16),
+        (normals, 4, 0x7f8),
+        (colors, 12, 0xff8),
+    ] {
         let number = (number << 4).to_le_bytes();
         let size = if section == positions { 8 } else { 4 };
-        let bad = with_section(&file, section, |bytes| bytes[at + size - 2..at + size].copy_from_slice(&number));
+        let bad = with_section(&file, section, |bytes| {
+            bytes[at + size - 2..at + size].copy_from_slice(&number)
+        });
         let (finding, place) = *decode(Form::Binary, &bad).unwrap_err();
-        assert!(finding.code.id == "IR007" && finding.message.contains("is not finite"), "{finding:?}");
-        assert!(place.len() <= 4 * size, "the number is pointed at: {place:?}");
+        assert!(
+            finding.code.id == "IR007" && finding.message.contains("is not finite"),
+            "{finding:?}"
+        );
+        assert!(
+            place.len() <= 4 * size,
+            "the number is pointed at: {place:?}"
+        );
     }
 }
 
@@ -108,7 +131,8 @@ fn columns_of_meshes_are_sections_in_the_precision_of_the_scene() {
 #[test]
 fn sections_that_lie_are_refused() {
     let file = codec::encode(Form::Binary, &meshed()).unwrap();
-    let last = |key: &str, header: &str| header.rfind(&format!("\"{key}\":")).unwrap() + key.len() + 3;
+    let last =
+        |key: &str, header: &str| header.rfind(&format!("\"{key}\":")).unwrap() + key.len() + 3;
     let cases = [
         ("offset", "64", "IR007"),
         ("offset", "18446744073709551615", "IR007"),

@@ -6,18 +6,30 @@ use std::path::Path;
 
 /// The errors of an official report.
 fn official(report: &Path) -> BTreeSet<String> {
-    let report: serde_json::Value = serde_json::from_slice(&std::fs::read(report).unwrap()).unwrap();
+    let report: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(report).unwrap()).unwrap();
     let messages = report["issues"]["messages"].as_array().unwrap();
     let errors = messages.iter().filter(|message| message["severity"] == 0);
-    errors.map(|message| message["code"].as_str().unwrap().to_owned()).collect()
+    errors
+        .map(|message| message["code"].as_str().unwrap().to_owned())
+        .collect()
 }
 
 #[test]
 fn errors_are_those_of_the_official_reports() {
-    let Some(folder) = shared("validator-corpus") else { return };
+    let Some(folder) = shared("validator-corpus") else {
+        return;
+    };
     let (mut models, mut same) = (0, 0);
     for report in files(&folder) {
-        let Some(model) = report.to_str().unwrap().strip_suffix(".report.json").map(Path::new) else { continue };
+        let Some(model) = report
+            .to_str()
+            .unwrap()
+            .strip_suffix(".report.json")
+            .map(Path::new)
+        else {
+            continue;
+        };
         let (expected, found) = (official(&report), errors(&findings(model)));
         models += 1;
         same += usize::from(expected == found);
@@ -28,5 +40,8 @@ fn errors_are_those_of_the_official_reports() {
             println!("{name}: missing {missing:?}, beside {extra:?}");
         }
     }
-    assert!(models > 0 && same == models, "{same} of {models} models have the same errors");
+    assert!(
+        models > 0 && same == models,
+        "{same} of {models} models have the same errors"
+    );
 }

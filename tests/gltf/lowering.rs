@@ -1,4 +1,5 @@
-//! What small assets of our own become: their IR beside the last one approved, and what is the same however it is stored.
+//! What small assets of our own become: their IR beside the last one approved, and what is the same
+//! however it is stored.
 
 use super::make;
 use rtc::codec::{self, Form};
@@ -15,11 +16,20 @@ use rtc::source::SourceMap;
 fn lower(bytes: Vec<u8>, front: front::Options) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("made.gltf", bytes);
-    let options = Options { front, ..Options::default() };
+    let options = Options {
+        front,
+        ..Options::default()
+    };
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
-    let proven = lowered.as_ref().and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
-    let is_small = |finding: &Diagnostic| finding.severity == Severity::Note || finding.code.id == "GL034";
-    assert!(proven.is_some() && sink.kept().iter().all(is_small), "{sink:#?}");
+    let proven = lowered
+        .as_ref()
+        .and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+    let is_small =
+        |finding: &Diagnostic| finding.severity == Severity::Note || finding.code.id == "GL034";
+    assert!(
+        proven.is_some() && sink.kept().iter().all(is_small),
+        "{sink:#?}"
+    );
     lowered.unwrap().scene
 }
 
@@ -29,8 +39,15 @@ fn text(scene: &Scene) -> String {
 
 #[test]
 fn small_assets_become_what_was_approved() {
-    let glass = front::Options { variant: Some("glass".to_owned()), ..front::Options::default() };
-    let moved = front::Options { time: Some(1.0), animation: Some("move".to_owned()), ..front::Options::default() };
+    let glass = front::Options {
+        variant: Some("glass".to_owned()),
+        ..front::Options::default()
+    };
+    let moved = front::Options {
+        time: Some(1.0),
+        animation: Some("move".to_owned()),
+        ..front::Options::default()
+    };
     let cases = [
         ("topology", make::topology(), front::Options::default()),
         ("hierarchy", make::hierarchy(), front::Options::default()),
@@ -47,7 +64,11 @@ fn small_assets_become_what_was_approved() {
 #[test]
 fn at_rest_nothing_moves_and_the_first_material_counts() {
     let rest = lower(make::motion(), front::Options::default());
-    assert_eq!(rest.meshes[0].positions.at(0), [0.0, 0.0, 0.25], "the weight of the mesh itself");
+    assert_eq!(
+        rest.meshes[0].positions.at(0),
+        [0.0, 0.0, 0.25],
+        "the weight of the mesh itself"
+    );
     assert_eq!(rest.meshes[1].positions.at(1), [1.0, 0.0, 0.0]);
     assert!(text(&lower(make::stage(), front::Options::default())).contains("glowing"));
 }
@@ -55,39 +76,78 @@ fn at_rest_nothing_moves_and_the_first_material_counts() {
 #[test]
 fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
     let asked = [
-        front::Options { animation: Some("fly".to_owned()), ..front::Options::default() },
-        front::Options { variant: Some("gold".to_owned()), ..front::Options::default() },
+        front::Options {
+            animation: Some("fly".to_owned()),
+            ..front::Options::default()
+        },
+        front::Options {
+            variant: Some("gold".to_owned()),
+            ..front::Options::default()
+        },
     ];
     for front in asked {
         let (mut map, mut sink) = (SourceMap::default(), Sink::default());
         let file = map.add("made.gltf", make::stage());
-        let options = Options { front, ..Options::default() };
+        let options = Options {
+            front,
+            ..Options::default()
+        };
         assert!(pipeline::load(file, &mut map, &options, &mut sink).is_none());
-        assert!(sink.kept().iter().any(|finding| finding.code.id == "GL048"), "{sink:?}");
+        assert!(
+            sink.kept().iter().any(|finding| finding.code.id == "GL048"),
+            "{sink:?}"
+        );
     }
 }
 
 #[test]
 fn a_mesh_used_twice_is_made_once() {
     let scene = lower(make::hierarchy(), front::Options::default());
-    assert_eq!((scene.meshes.len(), scene.surfaces.len()), (1, 4), "two nodes and two instances of one mesh");
-    assert!(scene.surfaces.iter().all(|surface| matches!(surface.shape, Shape::Instance(_))));
+    assert_eq!(
+        (scene.meshes.len(), scene.surfaces.len()),
+        (1, 4),
+        "two nodes and two instances of one mesh"
+    );
+    assert!(
+        scene
+            .surfaces
+            .iter()
+            .all(|surface| matches!(surface.shape, Shape::Instance(_)))
+    );
 }
 
 /// A few pixels of what a scene shows, to the bit.
 fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
-    Overrides { size: Some([24, 24]), spp: Some(4), ..Overrides::default() }.apply(&mut scene);
-    let lowered = Lowered { scene, origins: Origins::default() };
+    Overrides {
+        size: Some([24, 24]),
+        spp: Some(4),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
+    let lowered = Lowered {
+        scene,
+        origins: Origins::default(),
+    };
     let (options, mut sink) = (Options::default(), Sink::default());
     let proven = pipeline::prove(&lowered, &options, &mut sink).unwrap();
     let plan = Plan::new(&proven, Rules::ALL);
-    let film = pipeline::render(&proven, &plan, &Job::default(), 1, &|_| true).unwrap().unwrap();
-    film.image.pixels.iter().map(|pixel| pixel.map(f64::to_bits)).collect()
+    let film = pipeline::render(&proven, &plan, &Job::default(), 1, &|_| true)
+        .unwrap()
+        .unwrap();
+    film.image
+        .pixels
+        .iter()
+        .map(|pixel| pixel.map(f64::to_bits))
+        .collect()
 }
 
 #[test]
 fn assets_make_the_same_picture_from_either_form_of_the_ir() {
-    let moved = front::Options { time: Some(1.0), animation: Some("move".to_owned()), ..front::Options::default() };
+    let moved = front::Options {
+        time: Some(1.0),
+        animation: Some("move".to_owned()),
+        ..front::Options::default()
+    };
     let cases = [
         (make::hierarchy(), front::Options::default()),
         (make::attributes(), front::Options::default()),
@@ -97,44 +157,75 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
     let (mut names, mut images, mut surroundings) = (0, 0, 0);
     for (bytes, options) in cases {
         let mut scene = lower(bytes, options);
-        let sky = Environment { radiance: [1.0; 3], image: None, image_from_world: None };
+        let sky = Environment {
+            radiance: [1.0; 3],
+            image: None,
+            image_from_world: None,
+        };
         scene.environment.get_or_insert(sky);
         names += scene.names.len();
         images += scene.images.len();
         surroundings += usize::from(scene.environment.is_some());
         let expected = picture(scene.clone());
-        assert!(expected.iter().any(|pixel| *pixel != expected[0]), "something shows");
+        assert!(
+            expected.iter().any(|pixel| *pixel != expected[0]),
+            "something shows"
+        );
         for form in [Form::Text, Form::Binary] {
-            let back = lower(codec::encode(form, &scene).unwrap(), front::Options::default());
+            let back = lower(
+                codec::encode(form, &scene).unwrap(),
+                front::Options::default(),
+            );
             assert_eq!(format!("{back:?}"), format!("{scene:?}"), "{form:?}");
             assert!(picture(back) == expected, "{form:?}");
         }
     }
-    assert!(names > 0 && images > 0 && surroundings > 0, "names, images and surroundings are met");
+    assert!(
+        names > 0 && images > 0 && surroundings > 0,
+        "names, images and surroundings are met"
+    );
 }
 
 /// The torus as Draco, meshopt and quantized data; the last two hold the same numbers.
 #[test]
 fn compressed_tori_are_the_same_torus() {
-    let Some(folder) = super::shared("assets") else { return };
+    let Some(folder) = super::shared("assets") else {
+        return;
+    };
     let mesh = |name: &str| {
         let scene = lower_file(&folder.join(name));
         scene.meshes.into_iter().next().unwrap()
     };
     let (draco, meshopt) = (mesh("own_TorusDraco.glb"), mesh("own_TorusMeshopt.glb"));
     let quantized = mesh("own_TorusQuantized.glb");
-    assert!(corners(&meshopt) == corners(&quantized), "meshopt keeps every bit, in another order");
-    assert_eq!((draco.positions.len(), draco.triangles.len()), (quantized.positions.len(), quantized.triangles.len()));
+    assert!(
+        corners(&meshopt) == corners(&quantized),
+        "meshopt keeps every bit, in another order"
+    );
+    assert_eq!(
+        (draco.positions.len(), draco.triangles.len()),
+        (quantized.positions.len(), quantized.triangles.len())
+    );
 }
 
-/// The triangles by the numbers of their corners, in an order that does not depend on that of the file.
+/// The triangles by the numbers of their corners, in an order that does not depend on that of the
+/// file.
 fn corners(mesh: &Mesh) -> Vec<[Vec<u64>; 3]> {
     let corner = |at: u32| {
         let at = at as usize;
-        let numbers = [&mesh.positions.at(at)[..], &mesh.normals.at(at), &mesh.uvs.at(at)].concat();
+        let numbers = [
+            &mesh.positions.at(at)[..],
+            &mesh.normals.at(at),
+            &mesh.uvs.at(at),
+        ]
+        .concat();
         numbers.into_iter().map(f64::to_bits).collect()
     };
-    let mut triangles: Vec<[Vec<u64>; 3]> = mesh.triangles.iter().map(|triangle| triangle.map(corner)).collect();
+    let mut triangles: Vec<[Vec<u64>; 3]> = mesh
+        .triangles
+        .iter()
+        .map(|triangle| triangle.map(corner))
+        .collect();
     triangles.iter_mut().for_each(|triangle| triangle.sort());
     triangles.sort();
     triangles
@@ -144,18 +235,30 @@ fn lower_file(path: &std::path::Path) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = rtc::source::Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
-    lowered.unwrap_or_else(|| panic!("{}: {sink:?}", path.display())).scene
+    lowered
+        .unwrap_or_else(|| panic!("{}: {sink:?}", path.display()))
+        .scene
 }
 
 #[test]
 fn every_asset_at_hand_is_lowered_and_proven() {
-    let Some(folder) = super::shared("assets") else { return };
-    let is_asset = |path: &std::path::PathBuf| path.extension().is_some_and(|own| own == "glb" || own == "gltf");
+    let Some(folder) = super::shared("assets") else {
+        return;
+    };
+    let is_asset = |path: &std::path::PathBuf| {
+        path.extension()
+            .is_some_and(|own| own == "glb" || own == "gltf")
+    };
     let assets: Vec<_> = super::files(&folder).into_iter().filter(is_asset).collect();
     assert!(assets.len() > 30, "the assets are gone");
     for asset in assets {
         let sink = super::findings(&asset);
-        assert!(!sink.has_errors(), "{}: {:?}", asset.display(), super::errors(&sink));
+        assert!(
+            !sink.has_errors(),
+            "{}: {:?}",
+            asset.display(),
+            super::errors(&sink)
+        );
     }
 }
 
@@ -168,5 +271,8 @@ fn a_camera_that_is_not_there_sees_all_of_it() {
     let half = (up.length() * f64::from(scene.camera.size[1]) / 2.0).atan();
     assert!((half.to_degrees() - 17.5).abs() < 1e-9, "{half}");
     assert!(((ball.radius / eye.distance(ball.center)).asin() - half).abs() < 1e-9);
-    assert!(eye.x > ball.center.x && eye.y > ball.center.y && eye.z > ball.center.z, "a three-quarter view");
+    assert!(
+        eye.x > ball.center.x && eye.y > ball.center.y && eye.z > ball.center.z,
+        "a three-quarter view"
+    );
 }

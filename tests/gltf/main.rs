@@ -1,5 +1,6 @@
-//! glTF against what others say: the corpus of the Khronos validator with its reports, broken files with what they must
-//! end in, and assets that must pass. They lie in `../shared`; where that is absent, a note says so.
+//! glTF against what others say: the corpus of the Khronos validator with its reports, broken files
+//! with what they must end in, and assets that must pass. They lie in `../shared`; where that is
+//! absent, a note says so.
 
 #![expect(
     clippy::unwrap_used,
@@ -20,7 +21,9 @@ mod make;
 
 /// A folder of `../shared/gltf`; a note if there is none.
 fn shared(folder: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/gltf").join(folder);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../shared/gltf")
+        .join(folder);
     let found = path.is_dir().then_some(path);
     if found.is_none() {
         println!("skipped: there is no ../shared/gltf/{folder}");
@@ -34,7 +37,11 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            if path.is_dir() { open.push(path) } else { found.push(path) }
+            if path.is_dir() {
+                open.push(path)
+            } else {
+                found.push(path)
+            }
         }
     }
     found.sort();
@@ -55,6 +62,11 @@ fn findings(path: &Path) -> Sink {
 
 /// The names of the errors among the findings, ours where Khronos has none.
 fn errors(sink: &Sink) -> BTreeSet<String> {
-    let errors = sink.kept().iter().filter(|finding| finding.severity == Severity::Error);
-    errors.map(|finding| finding.alias.unwrap_or(finding.code.id).to_owned()).collect()
+    let errors = sink
+        .kept()
+        .iter()
+        .filter(|finding| finding.severity == Severity::Error);
+    errors
+        .map(|finding| finding.alias.unwrap_or(finding.code.id).to_owned())
+        .collect()
 }

@@ -15,7 +15,8 @@ struct Maker {
 impl Maker {
     fn view(&mut self, bytes: &[u8]) -> usize {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        self.views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
+        self.views
+            .push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
         self.bytes.extend(bytes);
         self.views.len() - 1
     }
@@ -27,10 +28,17 @@ impl Maker {
 
     /// An accessor of floats, with its bounds.
     fn floats(&mut self, kind: &str, width: usize, numbers: &[f32]) -> usize {
-        let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+        let bytes: Vec<u8> = numbers
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect();
         let component = |at: usize| numbers.iter().skip(at).step_by(width).copied();
-        let min: Vec<f32> = (0..width).map(|at| component(at).fold(f32::INFINITY, f32::min)).collect();
-        let max: Vec<f32> = (0..width).map(|at| component(at).fold(f32::NEG_INFINITY, f32::max)).collect();
+        let min: Vec<f32> = (0..width)
+            .map(|at| component(at).fold(f32::INFINITY, f32::min))
+            .collect();
+        let max: Vec<f32> = (0..width)
+            .map(|at| component(at).fold(f32::NEG_INFINITY, f32::max))
+            .collect();
         let view = self.view(&bytes);
         let count = numbers.len() / width;
         self.push(
@@ -41,7 +49,8 @@ impl Maker {
     fn bytes(&mut self, kind: &str, width: usize, bytes: &[u8], is_fraction: bool) -> usize {
         let view = self.view(bytes);
         let count = bytes.len() / width;
-        let accessor = json!({"bufferView": view, "componentType": 5121, "type": kind, "count": count});
+        let accessor =
+            json!({"bufferView": view, "componentType": 5121, "type": kind, "count": count});
         let index = self.push(accessor);
         if is_fraction {
             self.accessors[index]["normalized"] = true.into();
@@ -51,7 +60,10 @@ impl Maker {
 
     fn finish(self, mut asset: Value) -> Vec<u8> {
         asset["asset"] = json!({"version": "2.0"});
-        let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&self.bytes));
+        let uri = format!(
+            "data:application/octet-stream;base64,{}",
+            STANDARD.encode(&self.bytes)
+        );
         if !self.bytes.is_empty() {
             asset["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": uri}]);
             asset["bufferViews"] = self.views.into();
@@ -66,13 +78,20 @@ impl Maker {
 const TRIANGLE: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
 const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0];
 
-/// A strip with indices, a fan without, a sparse accessor without a base, and lines, which do not show.
+/// A strip with indices, a fan without, a sparse accessor without a base, and lines, which do not
+/// show.
 pub(super) fn topology() -> Vec<u8> {
     let mut maker = Maker::default();
     let square = maker.floats("VEC3", 3, &SQUARE);
     let strip = maker.bytes("SCALAR", 1, &[0, 1, 2, 3], false);
-    let (places, moved) =
-        (maker.view(&[1, 2]), maker.view(&[1.0_f32, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat()));
+    let (places, moved) = (
+        maker.view(&[1, 2]),
+        maker.view(
+            &[1.0_f32, 0.0, 0.0, 0.0, 1.0, 0.0]
+                .map(f32::to_le_bytes)
+                .concat(),
+        ),
+    );
     let sparse = maker.push(json!({
         "componentType": 5126, "type": "VEC3", "count": 3, "min": [0, 0, 0], "max": [1, 1, 0],
         "sparse": {"count": 2, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": moved}},
@@ -118,7 +137,12 @@ pub(super) fn attributes() -> Vec<u8> {
         "bufferView": view, "componentType": 5121, "normalized": true, "type": "VEC3", "count": 3,
         "min": [0, 0, 0], "max": [255, 255, 0],
     }));
-    let colors = maker.bytes("VEC4", 4, &[255, 0, 0, 255, 0, 255, 0, 51, 0, 0, 255, 0], true);
+    let colors = maker.bytes(
+        "VEC4",
+        4,
+        &[255, 0, 0, 255, 0, 255, 0, 51, 0, 0, 255, 0],
+        true,
+    );
     let first = maker.floats("VEC2", 2, &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
     let second = maker.floats("VEC2", 2, &[0.5, 0.5, 1.5, 0.5, 0.5, 1.5]);
     maker.finish(json!({
@@ -193,8 +217,7 @@ pub(super) fn stage() -> Vec<u8> {
 
 /// A normal map, turned and scaled, so that tangents are made; the picture is two by one pixels.
 pub(super) fn texture() -> Vec<u8> {
-    const PNG: &str =
-        "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGNoaPj/v6EBAA4AA//GDX4UAAAAAElFTkSuQmCC";
+    const PNG: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGNoaPj/v6EBAA4AA//GDX4UAAAAAElFTkSuQmCC";
     let mut maker = Maker::default();
     let triangle = maker.floats("VEC3", 3, &TRIANGLE);
     let normals = maker.floats("VEC3", 3, &[0.0, 0.0, 1.0].repeat(3));

@@ -1,7 +1,8 @@
 //! The truth about a ray and a shape, in double-double and by other formulas than those under test.
 //!
-//! The ray is moved near the shape without error, where every implicit function has the size of the shape; all roots are
-//! candidates, those that the other conditions allow count. 106 bits leave an error below (1 + κ)·2⁻⁹⁰ of t.
+//! The ray is moved near the shape without error, where every implicit function has the size of the
+//! shape; all roots are candidates, those that the other conditions allow count. 106 bits leave an
+//! error below (1 + κ)·2⁻⁹⁰ of t.
 
 use rtc::ir;
 use rtc::math::{Double, Vec3};
@@ -29,7 +30,11 @@ fn dot(a: Wide, b: Wide) -> Double {
 }
 
 fn cross(a: Wide, b: Wide) -> Wide {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
 }
 
 fn along(a: Wide, b: Wide, s: Double) -> Wide {
@@ -57,7 +62,11 @@ impl Line {
         let f = Vec3::from_array(start.map(Double::rounded));
         let shift = number(-f.dot(ray.direction) / ray.direction.length_squared());
         let d = wide(ray.direction.to_array());
-        Self { from: along(start, d, shift), d, shift }
+        Self {
+            from: along(start, d, shift),
+            d,
+            shift,
+        }
     }
 
     fn at(&self, s: Double) -> Wide {
@@ -72,14 +81,23 @@ fn roots(a: Double, b: Double, c: Double) -> Vec<Double> {
         return Vec::new();
     }
     let root = discriminant.sqrt();
-    let q = if is_negative(b) { root - b } else { number(0.0) - b - root };
-    let quotients = [(q, a), (c, q)].into_iter().filter(|(_, below)| below.rounded() != 0.0);
+    let q = if is_negative(b) {
+        root - b
+    } else {
+        number(0.0) - b - root
+    };
+    let quotients = [(q, a), (c, q)]
+        .into_iter()
+        .filter(|(_, below)| below.rounded() != 0.0);
     quotients.map(|(above, below)| above / below).collect()
 }
 
 /// The first candidate in front, with the normal there.
 fn nearest(line: &Line, candidates: Vec<(Double, Wide)>) -> Option<(Double, Wide)> {
-    let in_front = candidates.into_iter().map(|(s, n)| (line.shift + s, n)).filter(|(t, _)| t.rounded() > 0.0);
+    let in_front = candidates
+        .into_iter()
+        .map(|(s, n)| (line.shift + s, n))
+        .filter(|(t, _)| t.rounded() > 0.0);
     in_front.min_by(|a, b| (a.0 - b.0).rounded().total_cmp(&0.0))
 }
 
@@ -94,10 +112,16 @@ pub(crate) fn truth(shape: &ir::Shape, ray: &Ray) -> Option<Truth> {
         ir::Shape::Torus(s) => (torus(s, ray), s.center, 2.0 * (s.major + s.minor)),
         ir::Shape::Quad(_) | ir::Shape::Disc(_) | ir::Shape::Instance(_) => return None,
     };
-    let Some((t, normal)) = found else { return Some(Truth { t: None, kappa: 0.0 }) };
+    let Some((t, normal)) = found else {
+        return Some(Truth {
+            t: None,
+            kappa: 0.0,
+        });
+    };
     let n = Vec3::from_array(normal.map(Double::rounded)).normalize();
     let t_rounded = t.rounded();
-    let sizes = ray.origin.abs() + Vec3::from_array(anchor).abs() + (ray.direction * t_rounded).abs();
+    let sizes =
+        ray.origin.abs() + Vec3::from_array(anchor).abs() + (ray.direction * t_rounded).abs();
     let kappa = (n.abs().dot(sizes) + extent) / (n.dot(ray.direction) * t_rounded).abs();
     Some(Truth { t: Some(t), kappa })
 }
@@ -132,8 +156,8 @@ fn triangle(vertices: [[f64; 3]; 3], ray: &Ray) -> Option<(Double, Wide)> {
     inside.then(|| plane(a, cross(difference(b, a), difference(c, a)), ray))?
 }
 
-/// The candidates of a round side `a·s² + 2·b·s + c = 0`, with normals, and of the flat ends, all between those ends:
-/// `low ≤ above + rise·s ≤ high`.
+/// The candidates of a round side `a·s² + 2·b·s + c = 0`, with normals, and of the flat ends, all
+/// between those ends: `low ≤ above + rise·s ≤ high`.
 struct Capped {
     side: [Double; 3],
     above: Double,
@@ -145,12 +169,20 @@ impl Capped {
     fn candidates(&self, axis: Wide, normal: impl Fn(Double) -> Wide) -> Vec<(Double, Wide)> {
         let [a, b, c] = self.side;
         let height = |s: Double| self.above + self.rise * s;
-        let between = |s: &Double| !is_negative(height(*s) - self.ends[0]) && !is_negative(self.ends[1] - height(*s));
-        let side = roots(a, b, c).into_iter().filter(between).map(|s| (s, normal(s)));
+        let between = |s: &Double| {
+            !is_negative(height(*s) - self.ends[0]) && !is_negative(self.ends[1] - height(*s))
+        };
+        let side = roots(a, b, c)
+            .into_iter()
+            .filter(between)
+            .map(|s| (s, normal(s)));
         let caps = self.ends.map(|end| (end - self.above) / self.rise);
         let inside = |s: &Double| !is_negative(number(0.0) - ((a * *s + b + b) * *s + c));
         let level = self.rise.rounded() == 0.0;
-        let caps = caps.into_iter().filter(|s| !level && inside(s)).map(|s| (s, axis));
+        let caps = caps
+            .into_iter()
+            .filter(|s| !level && inside(s))
+            .map(|s| (s, axis));
         side.chain(caps).collect()
     }
 }
@@ -177,7 +209,11 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
     let (above, rise) = (dot(line.from, up), dot(line.d, up));
     let left = h2 - above;
     let capped = Capped {
-        side: [h2 * dot(x, x) - r2 * rise * rise, h2 * dot(w, x) + r2 * left * rise, h2 * dot(w, w) - r2 * left * left],
+        side: [
+            h2 * dot(x, x) - r2 * rise * rise,
+            h2 * dot(w, x) + r2 * left * rise,
+            h2 * dot(w, w) - r2 * left * left,
+        ],
         above,
         rise,
         ends: [number(0.0), h2],
@@ -186,12 +222,15 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
     let normal = |s: Double| {
         let radial = cross(up, along(w, x, s));
         let length = dot(radial, radial).sqrt();
-        [0, 1, 2].map(|k| radial[k] / length * h2.sqrt() + up[k] * number(r2.rounded().sqrt()) / h2.sqrt())
+        [0, 1, 2].map(|k| {
+            radial[k] / length * h2.sqrt() + up[k] * number(r2.rounded().sqrt()) / h2.sqrt()
+        })
     };
     nearest(&line, capped.candidates(up, normal))
 }
 
-/// The roots of ‖p‖² + R² − r² = 2R·ρ, squared: between two roots of a derivative there is at most one of the function.
+/// The roots of ‖p‖² + R² − r² = 2R·ρ, squared: between two roots of a derivative there is at most
+/// one of the function.
 fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
     let line = Line::new(ray, s.center);
     let (axis, major, minor) = (wide(s.axis), number(s.major), number(s.minor));
@@ -207,7 +246,11 @@ fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
     };
     // Half of the derivative, and of the second.
     let slope = |s: Double| k(s) * (b + c * s) * two * a2 - r4 * (dot(w, x) + dot(x, x) * s);
-    let bend = [six * c * c * a2, six * b * c * a2, (four * b * b + two * c * k0) * a2 - r4 * dot(x, x)];
+    let bend = [
+        six * c * c * a2,
+        six * b * c * a2,
+        (four * b * b + two * c * k0) * a2 - r4 * dot(x, x),
+    ];
     let reach = number(1.01 * (s.major + s.minor) / ray.direction.length());
     let ends = |mut inner: Vec<Double>| {
         inner.retain(|s| is_negative(*s - reach) && is_negative(number(0.0) - reach - *s));
@@ -222,18 +265,30 @@ fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
         let length = dot(radial, radial).sqrt();
         [0, 1, 2].map(|k| p[k] - radial[k] * major / length)
     };
-    nearest(&line, changes(&ends(critical), value).into_iter().map(|s| (s, normal(s))).collect())
+    nearest(
+        &line,
+        changes(&ends(critical), value)
+            .into_iter()
+            .map(|s| (s, normal(s)))
+            .collect(),
+    )
 }
 
 /// Where a function changes its sign between neighbours of the borders, by bisection.
 fn changes(borders: &[Double], value: impl Fn(Double) -> Double) -> Vec<Double> {
     let sign = |s: Double| is_negative(value(s));
-    let changing = borders.windows(2).filter(|pair| sign(pair[0]) != sign(pair[1]));
+    let changing = borders
+        .windows(2)
+        .filter(|pair| sign(pair[0]) != sign(pair[1]));
     let bisect = |pair: &[Double]| {
         let (mut low, mut high) = (pair[0], pair[1]);
         for _ in 0..110 {
             let middle = (low + high) * number(0.5);
-            if sign(middle) == sign(pair[0]) { low = middle } else { high = middle }
+            if sign(middle) == sign(pair[0]) {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         low
     };

@@ -1,4 +1,5 @@
-//! Families of rays, our own and those of the files: |t − t*| ≤ 2(1 + κ)u|t*|, no hit missed and none invented.
+//! Families of rays, our own and those of the files: |t − t*| ≤ 2(1 + κ)u|t*|, no hit missed and
+//! none invented.
 
 use super::exact::{Truth, sides, truth};
 use super::family::{FAMILIES, Family};
@@ -30,7 +31,10 @@ struct Outcome {
 
 impl Outcome {
     fn of(shape: ir::Shape, ray: &Ray, truth: &Truth) -> Self {
-        let mut outcome = Self { rows: 1, ..Self::default() };
+        let mut outcome = Self {
+            rows: 1,
+            ..Self::default()
+        };
         match (world([shape]).nearest(ray), truth.t) {
             (Some(hit), Some(exact)) => {
                 assert!(hit.t > 0.0 && hit.t.is_finite(), "{ray:?}: {hit:?}");
@@ -62,7 +66,13 @@ impl Outcome {
 
     /// The columns of a row of `benches/hard-cases.md`.
     fn columns(&self) -> String {
-        let Self { rows, missed, invented, worst, worst_of_kappa } = self;
+        let Self {
+            rows,
+            missed,
+            invented,
+            worst,
+            worst_of_kappa,
+        } = self;
         format!("{rows} | {missed} | {invented} | {worst:.1} | {worst_of_kappa:.2}")
     }
 }
@@ -73,18 +83,29 @@ fn rows() -> u64 {
 }
 
 fn family((shape, kind, make): &Family) -> Outcome {
-    let seed = shape.bytes().chain(kind.bytes()).fold(0, |seed: u64, byte| seed.wrapping_mul(31) ^ u64::from(byte));
+    let seed = shape
+        .bytes()
+        .chain(kind.bytes())
+        .fold(0, |seed: u64, byte| seed.wrapping_mul(31) ^ u64::from(byte));
     let row = |index: u64| {
         let (shape, ray) = make(&mut Random::at(seed, index));
-        // Where a ray passes within rounding of an edge either answer is right; closed meshes ask about those.
-        let near_edge = |t: &ir::Triangle| sides(t.vertices, &ray).iter().any(|side| side.abs() < 64.0 * U);
+        // Where a ray passes within rounding of an edge either answer is right; closed meshes ask
+        // about those.
+        let near_edge = |t: &ir::Triangle| {
+            sides(t.vertices, &ray)
+                .iter()
+                .any(|side| side.abs() < 64.0 * U)
+        };
         if matches!(&shape, ir::Shape::Triangle(t) if near_edge(t)) {
             return Outcome::default();
         }
         let truth = truth(&shape, &ray).unwrap();
         Outcome::of(shape, &ray, &truth)
     };
-    (0..rows()).into_par_iter().map(row).reduce(Outcome::default, Outcome::plus)
+    (0..rows())
+        .into_par_iter()
+        .map(row)
+        .reduce(Outcome::default, Outcome::plus)
 }
 
 #[test]
@@ -93,7 +114,11 @@ fn our_own_families() {
     for (shape, kind, make) in FAMILIES {
         let outcome = family(&(shape, kind, make));
         println!("| truth | {shape} {kind} | {} |", outcome.columns());
-        report.line(&format!("{shape} {kind}"), outcome.passes(shape), &outcome.columns());
+        report.line(
+            &format!("{shape} {kind}"),
+            outcome.passes(shape),
+            &outcome.columns(),
+        );
     }
     report.finish();
 }
@@ -118,13 +143,19 @@ fn shape(kind: &str, f: &[f64]) -> ir::Shape {
 #[test]
 fn families_of_the_files() {
     let mut report = Report::default();
-    for family in all().iter().filter(|case| case["rows"].is_array() && case["precision"] == "f64") {
+    for family in all()
+        .iter()
+        .filter(|case| case["rows"].is_array() && case["precision"] == "f64")
+    {
         let kind = family["shape"].as_str().unwrap();
         let (mut outcome, mut apart) = (Outcome::default(), 0.0_f64);
         for row in family["rows"].as_array().unwrap() {
             let row: Vec<f64> = row.as_array().unwrap().iter().map(number).collect();
             let [hit, high, low, kappa] = row[row.len() - 4..].try_into().unwrap();
-            let ray = Ray { origin: Vec3::from_slice(&row[0..3]), direction: Vec3::from_slice(&row[3..6]) };
+            let ray = Ray {
+                origin: Vec3::from_slice(&row[0..3]),
+                direction: Vec3::from_slice(&row[3..6]),
+            };
             let t = (hit == 1.0).then(|| Double::from(high) + Double::from(low));
             let ours = truth(&shape(kind, &row), &ray).unwrap().t;
             assert_eq!(ours.is_some(), t.is_some(), "{}: {ray:?}", id(family));

@@ -1,4 +1,5 @@
-//! Rays start no further off than they must: a gap of 10⁻¹³ of the scale behind a surface is still seen.
+//! Rays start no further off than they must: a gap of 10⁻¹³ of the scale behind a surface is still
+//! seen.
 
 use super::random::{Random, rays, tally};
 use super::solids::{Form, KINDS, Kind, first, hit, icosphere};
@@ -22,14 +23,23 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
     for _ in 0..CHUNK {
         let target = form.target(&mut random);
         let origin = target + random.direction() * (4.0 * size);
-        let ray = Ray { origin, direction: target - origin };
-        let Some(at) = first(&form, &outer, &ray) else { continue };
+        let ray = Ray {
+            origin,
+            direction: target - origin,
+        };
+        let Some(at) = first(&form, &outer, &ray) else {
+            continue;
+        };
         let cosine = ray.direction.normalize().dot(at.normal);
         let from_front = !kind.is_solid() || cosine < 0.0;
         if cosine.abs() < 0.2 || !from_front {
             continue;
         }
-        let behind = if kind.is_solid() || cosine < 0.0 { ray.direction } else { -ray.direction };
+        let behind = if kind.is_solid() || cosine < 0.0 {
+            ray.direction
+        } else {
+            -ray.direction
+        };
         asked += 1;
         let slack = 32.0 * GAP * size / behind.length();
         bad += u64::from(hit(&inner, &at.ray(behind)).is_none_or(|(t, _)| t > slack));
@@ -40,7 +50,11 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
 #[test]
 fn a_gap_of_a_ten_trillionth_is_seen() {
     let mesh = icosphere();
-    let bad = KINDS
-        .map(|(kind, name)| tally("gaps not seen", name, rays(KINDS.len()) / CHUNK, |k| chunk(kind, &mesh, k)).bad);
+    let bad = KINDS.map(|(kind, name)| {
+        tally("gaps not seen", name, rays(KINDS.len()) / CHUNK, |k| {
+            chunk(kind, &mesh, k)
+        })
+        .bad
+    });
     assert_eq!(bad, [0; KINDS.len()]);
 }

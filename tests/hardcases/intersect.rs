@@ -7,12 +7,20 @@ use rtc::render::{Geometry, Ray, World};
 use serde_json::Value;
 
 fn ray(value: &Value) -> Ray {
-    Ray { origin: vector(&value["o"]), direction: vector(&value["d"]) }
+    Ray {
+        origin: vector(&value["o"]),
+        direction: vector(&value["d"]),
+    }
 }
 
 /// The world of a case's shapes, or `None` if one is not built yet.
 fn shapes_of(value: &Value) -> Option<World> {
-    let shapes = value.as_array().unwrap().iter().map(shape).collect::<Option<Vec<_>>>()?;
+    let shapes = value
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(shape)
+        .collect::<Option<Vec<_>>>()?;
     Some(world(shapes))
 }
 
@@ -35,11 +43,18 @@ fn intersection(case: &Value, world: &World) -> (bool, String) {
     let hit = world.nearest(&ray);
     let wanted = expect["hit"].as_bool().unwrap();
     if hit.is_some() != wanted {
-        return (case["require"] == "may", format!("hit {} instead of {wanted}", hit.is_some()));
+        return (
+            case["require"] == "may",
+            format!("hit {} instead of {wanted}", hit.is_some()),
+        );
     }
-    let Some(hit) = hit else { return (true, "miss".to_owned()) };
+    let Some(hit) = hit else {
+        return (true, "miss".to_owned());
+    };
     let t_error = relative_error(hit.t, &expect["t"]);
-    let interaction = world.surfaces[hit.surface].shape.interaction(&ray, hit.t, hit.part);
+    let interaction = world.surfaces[hit.surface]
+        .shape
+        .interaction(&ray, hit.t, hit.part);
     let flip = |n: Vec3| vector_error(n, &expect["n"]);
     let n_error = match tolerance["n_sign"].as_str().unwrap() {
         "either" => flip(interaction.normal).min(flip(-interaction.normal)),
@@ -48,7 +63,10 @@ fn intersection(case: &Value, world: &World) -> (bool, String) {
     let p_error = vector_error(interaction.point, &expect["p"]) / U;
     let within = |error: f64, key: &str| error <= number(&tolerance[key]);
     let passed = within(t_error, "t_u") && within(n_error, "n_abs_u") && within(p_error, "p_abs_u");
-    (passed, format!("t {t_error:.2} u, n {n_error:.2} u, p {p_error:.2} u"))
+    (
+        passed,
+        format!("t {t_error:.2} u, n {n_error:.2} u, p {p_error:.2} u"),
+    )
 }
 
 #[test]
@@ -61,11 +79,15 @@ fn chains() {
         };
         let first = ray(&case["input"]["ray"]);
         let hit = world.nearest(&first).unwrap();
-        let interaction = world.surfaces[hit.surface].shape.interaction(&first, hit.t, hit.part);
+        let interaction = world.surfaces[hit.surface]
+            .shape
+            .interaction(&first, hit.t, hit.part);
         let tolerance = number(&case["tol"]["t2_abs_u"]) * U;
         let directions = case["input"]["secondary_dirs"].as_array().unwrap();
-        for (k, (direction, expect)) in
-            directions.iter().zip(case["expect"]["secondary"].as_array().unwrap()).enumerate()
+        for (k, (direction, expect)) in directions
+            .iter()
+            .zip(case["expect"]["secondary"].as_array().unwrap())
+            .enumerate()
         {
             let direction = vector(direction);
             let next = world.nearest(&interaction.ray(direction));
@@ -73,7 +95,8 @@ fn chains() {
             let passed = match next {
                 Some(next) if wanted => {
                     let slack = tolerance / number(&expect["n_dot_w"]).abs();
-                    next.surface as u64 == expect["shape"].as_u64().unwrap() && error(next.t, &expect["t"]) <= slack
+                    next.surface as u64 == expect["shape"].as_u64().unwrap()
+                        && error(next.t, &expect["t"]) <= slack
                 }
                 Some(_) => false,
                 None => !wanted,
@@ -90,10 +113,18 @@ fn segments_to_lights() {
     for case in cases("occluded") {
         let world = shapes_of(&case["input"]["shapes"]).unwrap();
         let segments = case["input"]["segments"].as_array().unwrap();
-        for (k, (segment, expect)) in segments.iter().zip(case["expect"]["occluded"].as_array().unwrap()).enumerate() {
+        for (k, (segment, expect)) in segments
+            .iter()
+            .zip(case["expect"]["occluded"].as_array().unwrap())
+            .enumerate()
+        {
             let occluded = world.occluded(vector(&segment["from"]), vector(&segment["to"]));
             let passed = occluded == expect.as_bool().unwrap();
-            report.line(&format!("{}.{k}", id(&case)), passed, &format!("occluded: {occluded}"));
+            report.line(
+                &format!("{}.{k}", id(&case)),
+                passed,
+                &format!("occluded: {occluded}"),
+            );
         }
     }
     report.finish();

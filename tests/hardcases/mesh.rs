@@ -13,22 +13,32 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// The icosahedron, each triangle split in four `level` times, on the unit sphere, rounded to f32.
+    /// The icosahedron, each triangle split in four `level` times, on the unit sphere, rounded to
+    /// f32.
     pub(crate) fn icosphere(level: u32) -> Self {
         let g = (1.0 + 5.0_f64.sqrt()) / 2.0;
         let corner = |k: usize| {
             let (a, b) = ([-1.0, 1.0][k & 1], [-g, g][k >> 1 & 1]);
-            [Vec3::new(a, b, 0.0), Vec3::new(0.0, a, b), Vec3::new(b, 0.0, a)][k >> 2]
+            [
+                Vec3::new(a, b, 0.0),
+                Vec3::new(0.0, a, b),
+                Vec3::new(b, 0.0, a),
+            ][k >> 2]
         };
         let vertices = (0..12).map(|k| corner(k).normalize()).collect::<Vec<_>>();
         let near = |i: usize, j: usize| vertices[i].distance(vertices[j]) < 1.2;
         let mut triangles = Vec::new();
-        for (i, j, k) in (0..12).flat_map(|i| (i..12).flat_map(move |j| (j..12).map(move |k| (i, j, k)))) {
+        for (i, j, k) in
+            (0..12).flat_map(|i| (i..12).flat_map(move |j| (j..12).map(move |k| (i, j, k))))
+        {
             if i < j && j < k && near(i, j) && near(j, k) && near(i, k) {
                 triangles.push([i, j, k]);
             }
         }
-        let mut mesh = Self { vertices, triangles };
+        let mut mesh = Self {
+            vertices,
+            triangles,
+        };
         for _ in 0..level {
             mesh.split();
         }
@@ -44,7 +54,8 @@ impl Mesh {
         for [a, b, c] in std::mem::take(&mut self.triangles) {
             let mut middle = |i: usize, j: usize| {
                 *middles.entry((i.min(j), i.max(j))).or_insert_with(|| {
-                    self.vertices.push(((self.vertices[i] + self.vertices[j]) / 2.0).normalize());
+                    self.vertices
+                        .push(((self.vertices[i] + self.vertices[j]) / 2.0).normalize());
                     self.vertices.len() - 1
                 })
             };
@@ -73,10 +84,17 @@ impl Mesh {
     /// The world of one instance of it.
     pub(crate) fn placed(&self, world_from_object: [Vec3; 4]) -> World {
         let map = world_from_object.map(|column| column.to_array());
-        let mut scene = scene([ir::Shape::Instance(ir::Instance { mesh: ir::MeshId(0), world_from_object: map })]);
+        let mut scene = scene([ir::Shape::Instance(ir::Instance {
+            mesh: ir::MeshId(0),
+            world_from_object: map,
+        })]);
         let index = |k: usize| u32::try_from(k).unwrap();
         scene.meshes.push(ir::Mesh {
-            positions: self.vertices.iter().map(|vertex| vertex.to_array()).collect(),
+            positions: self
+                .vertices
+                .iter()
+                .map(|vertex| vertex.to_array())
+                .collect(),
             triangles: self.triangles.iter().map(|t| t.map(index)).collect(),
             ..ir::Mesh::default()
         });

@@ -1,4 +1,5 @@
-//! Random numbers and counts over many rays: ray k of a count is known by the seed and k, on any number of threads.
+//! Random numbers and counts over many rays: ray k of a count is known by the seed and k, on any
+//! number of threads.
 
 use rayon::prelude::*;
 use rtc::math::Vec3;
@@ -60,7 +61,9 @@ impl Random {
 
 /// Rays of each of `rows` counts: as many as `RTC_RAYS` says, or 10⁶ in all.
 pub(crate) fn rays(rows: usize) -> u64 {
-    let count = std::env::var("RTC_RAYS").ok().and_then(|count| count.parse().ok());
+    let count = std::env::var("RTC_RAYS")
+        .ok()
+        .and_then(|count| count.parse().ok());
     count.unwrap_or(1_000_000 / rows as u64)
 }
 
@@ -74,21 +77,46 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    const NONE: Self = Self { rays: 0, bad: 0, first: u64::MAX };
+    const NONE: Self = Self {
+        rays: 0,
+        bad: 0,
+        first: u64::MAX,
+    };
 
     fn plus(self, other: Self) -> Self {
-        Self { rays: self.rays + other.rays, bad: self.bad + other.bad, first: self.first.min(other.first) }
+        Self {
+            rays: self.rays + other.rays,
+            bad: self.bad + other.bad,
+            first: self.first.min(other.first),
+        }
     }
 }
 
-/// Sums over the indices what `judge` finds, (rays, bad ones), and prints a row of `benches/hard-cases.md`.
-pub(crate) fn tally(group: &str, name: &str, indices: u64, judge: impl Fn(u64) -> (u64, u64) + Sync) -> Tally {
+/// Sums over the indices what `judge` finds, (rays, bad ones), and prints a row of
+/// `benches/hard-cases.md`.
+pub(crate) fn tally(
+    group: &str,
+    name: &str,
+    indices: u64,
+    judge: impl Fn(u64) -> (u64, u64) + Sync,
+) -> Tally {
     let one = |index: u64| {
         let (rays, bad) = judge(index);
-        Tally { rays, bad, first: if bad > 0 { index } else { u64::MAX } }
+        Tally {
+            rays,
+            bad,
+            first: if bad > 0 { index } else { u64::MAX },
+        }
     };
-    let sum = (0..indices).into_par_iter().map(one).reduce(|| Tally::NONE, Tally::plus);
-    let first = if sum.bad > 0 { format!(", first at index {}", sum.first) } else { String::new() };
+    let sum = (0..indices)
+        .into_par_iter()
+        .map(one)
+        .reduce(|| Tally::NONE, Tally::plus);
+    let first = if sum.bad > 0 {
+        format!(", first at index {}", sum.first)
+    } else {
+        String::new()
+    };
     println!("| {group} | {name} | {} | {}{first} |", sum.rays, sum.bad);
     sum
 }

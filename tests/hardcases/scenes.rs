@@ -15,7 +15,10 @@ pub(crate) fn white() -> ir::Material {
 
 /// A scene of shapes, each white, seen from afar.
 pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
-    let surface = |shape| ir::Surface { shape, material: ir::MaterialId(0) };
+    let surface = |shape| ir::Surface {
+        shape,
+        material: ir::MaterialId(0),
+    };
     ir::Scene {
         camera: ir::Camera {
             eye: [0.0, 0.0, 10.0],
@@ -23,7 +26,10 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             right: [1.0, 0.0, 0.0],
             up: [0.0, 1.0, 0.0],
             size: [1, 1],
-            lens: ir::Lens { radius: 0.0, samples: 1 },
+            lens: ir::Lens {
+                radius: 0.0,
+                samples: 1,
+            },
             projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
@@ -53,7 +59,12 @@ pub(crate) fn proven(scene: &ir::Scene) -> ValidScene {
 /// The proof, or the codes of the errors.
 pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> {
     let mut sink = Sink::default();
-    let proof = valid::validate(scene, &ir::Origins::default(), &valid::Options::default(), &mut sink);
+    let proof = valid::validate(
+        scene,
+        &ir::Origins::default(),
+        &valid::Options::default(),
+        &mut sink,
+    );
     proof.ok_or_else(|| sink.kept().iter().map(|finding| finding.code.id).collect())
 }
 
@@ -67,7 +78,11 @@ pub(crate) fn prepare(scene: &ir::Scene) -> World {
 }
 
 pub(crate) fn sphere(center: [f64; 3], radius: f64) -> ir::Shape {
-    ir::Shape::Sphere(ir::Sphere { center, radius, texture_from_world: None })
+    ir::Shape::Sphere(ir::Sphere {
+        center,
+        radius,
+        texture_from_world: None,
+    })
 }
 
 pub(crate) fn plane(center: [f64; 3], normal: [f64; 3]) -> ir::Shape {
@@ -75,7 +90,10 @@ pub(crate) fn plane(center: [f64; 3], normal: [f64; 3]) -> ir::Shape {
 }
 
 pub(crate) fn triangle(vertices: [[f64; 3]; 3]) -> ir::Shape {
-    ir::Shape::Triangle(ir::Triangle { vertices, uvs: None })
+    ir::Shape::Triangle(ir::Triangle {
+        vertices,
+        uvs: None,
+    })
 }
 
 /// The shape of a case, or `None` for one that this version does not have.
@@ -88,14 +106,27 @@ pub(crate) fn shape(value: &Value) -> Option<ir::Shape> {
         "plane" => plane(point("center"), point("normal")),
         "triangle" => triangle([0, 1, 2].map(vertices)),
         "disc" => disc(point("center"), point("normal"), length("radius")),
-        "cylinder" => cylinder(point("base"), point("axis"), length("height"), length("radius")),
+        "cylinder" => cylinder(
+            point("base"),
+            point("axis"),
+            length("height"),
+            length("radius"),
+        ),
         "cone" => {
             let axis = vector(&value["axis"]);
-            cone(point("base"), (axis * (length("height") / axis.length())).to_array(), length("radius"))
+            cone(
+                point("base"),
+                (axis * (length("height") / axis.length())).to_array(),
+                length("radius"),
+            )
         }
         "torus" => torus(point("center"), point("axis"), length("R"), length("r")),
         "quad" => {
-            let (origin, u, v) = (vector(&value["origin"]), vector(&value["u"]), vector(&value["v"]));
+            let (origin, u, v) = (
+                vector(&value["origin"]),
+                vector(&value["u"]),
+                vector(&value["v"]),
+            );
             ir::Shape::Quad(ir::Quad {
                 vertices: [origin, origin + u, origin + u + v, origin + v].map(|p| p.to_array()),
             })
@@ -105,11 +136,20 @@ pub(crate) fn shape(value: &Value) -> Option<ir::Shape> {
 }
 
 pub(crate) fn disc(center: [f64; 3], normal: [f64; 3], radius: f64) -> ir::Shape {
-    ir::Shape::Disc(ir::Disc { center, normal, radius })
+    ir::Shape::Disc(ir::Disc {
+        center,
+        normal,
+        radius,
+    })
 }
 
 pub(crate) fn cylinder(base: [f64; 3], axis: [f64; 3], height: f64, radius: f64) -> ir::Shape {
-    ir::Shape::Cylinder(ir::Cylinder { base, axis, height, radius })
+    ir::Shape::Cylinder(ir::Cylinder {
+        base,
+        axis,
+        height,
+        radius,
+    })
 }
 
 pub(crate) fn cone(base: [f64; 3], up: [f64; 3], radius: f64) -> ir::Shape {
@@ -117,5 +157,10 @@ pub(crate) fn cone(base: [f64; 3], up: [f64; 3], radius: f64) -> ir::Shape {
 }
 
 pub(crate) fn torus(center: [f64; 3], axis: [f64; 3], major: f64, minor: f64) -> ir::Shape {
-    ir::Shape::Torus(ir::Torus { center, axis, major, minor })
+    ir::Shape::Torus(ir::Torus {
+        center,
+        axis,
+        major,
+        minor,
+    })
 }

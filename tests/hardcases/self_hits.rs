@@ -23,8 +23,8 @@ const PLACES: [(f64, f64); 10] = [
 /// Rays of one shape.
 const CHUNK: u64 = 64;
 
-/// Half of how far a ray that leaves at `cosine` goes at least before it may meet the shape again; `None` where no such
-/// bound is known. Outward from a convex shape that is for ever.
+/// Half of how far a ray that leaves at `cosine` goes at least before it may meet the shape again;
+/// `None` where no such bound is known. Outward from a convex shape that is for ever.
 fn least(form: &Form, at: &Interaction, outward: bool, cosine: f64) -> Option<f64> {
     let tilted = cosine.min(0.5);
     // A solid with flat ends is asked about only in the middle of its side, where the ends are far.
@@ -59,14 +59,21 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
     for _ in 0..CHUNK {
         let target = form.target(&mut random);
         let origin = target + random.direction() * (size * random.magnitude(1e-2, 1e4));
-        let ray = Ray { origin, direction: target - origin };
-        let Some(at) = first(&form, &shape, &ray) else { continue };
+        let ray = Ray {
+            origin,
+            direction: target - origin,
+        };
+        let Some(at) = first(&form, &shape, &ray) else {
+            continue;
+        };
         let cosine = random.magnitude(1e-6, 1.0);
         let outward = random.uniform() < 0.5;
         let along = at.normal.cross(random.direction()).normalize_or(Vec3::ZERO);
         let up = if outward { at.normal } else { -at.normal };
         let direction = along * (1.0 - cosine * cosine).sqrt() + up * cosine;
-        let Some(least) = least(&form, &at, outward, cosine) else { continue };
+        let Some(least) = least(&form, &at, outward, cosine) else {
+            continue;
+        };
         asked += 1;
         let again = hit(&shape, &at.ray(direction));
         bad += u64::from(again.is_some_and(|(t, _)| t < least));
@@ -77,7 +84,11 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
 #[test]
 fn rays_that_leave_do_not_find_what_they_leave() {
     let mesh = icosphere();
-    let bad = KINDS
-        .map(|(kind, name)| tally("false self-hits", name, rays(KINDS.len()) / CHUNK, |k| chunk(kind, &mesh, k)).bad);
+    let bad = KINDS.map(|(kind, name)| {
+        tally("false self-hits", name, rays(KINDS.len()) / CHUNK, |k| {
+            chunk(kind, &mesh, k)
+        })
+        .bad
+    });
     assert_eq!(bad, [0; KINDS.len()]);
 }

@@ -1,11 +1,12 @@
-//! Shapes of every kind at any scale and place, ready to be hit, and what is known of rays that leave them.
+//! Shapes of every kind at any scale and place, ready to be hit, and what is known of rays that
+//! leave them.
 
 use super::mesh::Mesh;
 use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
-    Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad, Ray, Shape, Shear, Sphere, Torus,
-    Triangle,
+    Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad, Ray, Shape,
+    Shear, Sphere, Torus, Triangle,
 };
 use rtc::valid;
 use std::sync::Arc;
@@ -46,7 +47,10 @@ impl Kind {
 
     /// Whether it has an inside.
     pub(crate) fn is_solid(self) -> bool {
-        matches!(self, Self::Sphere | Self::Cylinder | Self::Cone | Self::Torus | Self::Mesh)
+        matches!(
+            self,
+            Self::Sphere | Self::Cylinder | Self::Cone | Self::Torus | Self::Mesh
+        )
     }
 }
 
@@ -66,20 +70,34 @@ pub(crate) struct Form {
 
 /// An icosphere of 80 triangles for all instances.
 pub(crate) fn icosphere() -> Arc<PreparedMesh> {
-    let Mesh { vertices, triangles } = Mesh::icosphere(1);
+    let Mesh {
+        vertices,
+        triangles,
+    } = Mesh::icosphere(1);
     let index = |corner: usize| u32::try_from(corner).unwrap();
     let mesh = valid::Mesh {
         positions: vertices.iter().map(|vertex| vertex.to_array()).collect(),
-        triangles: triangles.iter().map(|triangle| triangle.map(index)).collect(),
+        triangles: triangles
+            .iter()
+            .map(|triangle| triangle.map(index))
+            .collect(),
         ..valid::Mesh::default()
     };
     Arc::new(PreparedMesh::new(&Arc::new(mesh)))
 }
 
 impl Form {
-    pub(crate) fn random(kind: Kind, random: &mut Random, size: f64, center: Vec3, mesh: &Arc<PreparedMesh>) -> Self {
+    pub(crate) fn random(
+        kind: Kind,
+        random: &mut Random,
+        size: f64,
+        center: Vec3,
+        mesh: &Arc<PreparedMesh>,
+    ) -> Self {
         let axis = random.direction();
-        let side = axis.cross(random.direction()).normalize_or(axis.any_orthonormal_vector());
+        let side = axis
+            .cross(random.direction())
+            .normalize_or(axis.any_orthonormal_vector());
         let other = axis.cross(side) + side * random.between(-0.5, 0.5);
         let radius = size * random.between(0.5, 1.0);
         Self {
@@ -96,10 +114,15 @@ impl Form {
 
     /// The same form `gap` further inside, or behind.
     pub(crate) fn inner(&self, gap: f64) -> Self {
-        let mut inner = Self { mesh: Arc::clone(&self.mesh), ..*self };
+        let mut inner = Self {
+            mesh: Arc::clone(&self.mesh),
+            ..*self
+        };
         match self.kind {
             Kind::Sphere => inner.radius -= gap,
-            Kind::Plane | Kind::Triangle | Kind::Quad | Kind::Patch | Kind::Disc => inner.center -= self.axis * gap,
+            Kind::Plane | Kind::Triangle | Kind::Quad | Kind::Patch | Kind::Disc => {
+                inner.center -= self.axis * gap
+            }
             Kind::Cylinder => {
                 inner.center += self.axis * gap;
                 inner.height -= 2.0 * gap;
@@ -120,12 +143,20 @@ impl Form {
     }
 
     pub(crate) fn shape(&self) -> Shape {
-        let Self { center, axis, sides: [side, other], radius, .. } = *self;
+        let Self {
+            center,
+            axis,
+            sides: [side, other],
+            radius,
+            ..
+        } = *self;
         let face = [center, center + side, center + side + other, center + other];
         match self.kind {
             Kind::Sphere => Shape::Sphere(Sphere { center, radius }, [Vec3::X, Vec3::Y, Vec3::Z]),
             Kind::Plane => Shape::Plane(Plane::new(center, axis)),
-            Kind::Triangle => Shape::Triangle(Triangle::new([face[0], face[1], face[3]]).unwrap(), None),
+            Kind::Triangle => {
+                Shape::Triangle(Triangle::new([face[0], face[1], face[3]]).unwrap(), None)
+            }
             Kind::Quad => Shape::Quad(Box::new(Quad::new(face))),
             Kind::Patch => {
                 let [a, b, c, d] = face;
@@ -137,7 +168,10 @@ impl Form {
             Kind::Torus => Shape::Torus(Torus::new(center, axis, radius, self.minor)),
             Kind::Mesh => {
                 let axes = [side, other, axis * self.height].map(|v| v * (radius / side.length()));
-                Shape::Instance(Box::new(Instance::new(&self.mesh, [axes[0], axes[1], axes[2], center])))
+                Shape::Instance(Box::new(Instance::new(
+                    &self.mesh,
+                    [axes[0], axes[1], axes[2], center],
+                )))
             }
         }
     }
@@ -147,22 +181,34 @@ impl Form {
         let [side, other] = self.sides;
         match self.kind {
             Kind::Triangle | Kind::Quad | Kind::Patch => {
-                let end = if self.kind == Kind::Triangle { 0.48 } else { 0.98 };
+                let end = if self.kind == Kind::Triangle {
+                    0.48
+                } else {
+                    0.98
+                };
                 self.center + side * random.between(0.02, end) + other * random.between(0.02, end)
             }
             Kind::Cylinder | Kind::Cone => {
-                self.center + self.axis * (self.height * random.uniform()) + random.cube() * self.radius
+                self.center
+                    + self.axis * (self.height * random.uniform())
+                    + random.cube() * self.radius
             }
             Kind::Torus => {
-                let around = self.axis.cross(random.direction()).normalize_or(side.normalize());
+                let around = self
+                    .axis
+                    .cross(random.direction())
+                    .normalize_or(side.normalize());
                 self.center + around * self.radius + random.cube() * self.minor
             }
-            Kind::Sphere | Kind::Plane | Kind::Disc | Kind::Mesh => self.center + random.cube() * self.radius,
+            Kind::Sphere | Kind::Plane | Kind::Disc | Kind::Mesh => {
+                self.center + random.cube() * self.radius
+            }
         }
     }
 }
 
-/// The first hit of a ray on one shape, with its normal outward for a solid: a mesh knows no inside.
+/// The first hit of a ray on one shape, with its normal outward for a solid: a mesh knows no
+/// inside.
 pub(crate) fn first(form: &Form, shape: &Shape, ray: &Ray) -> Option<Interaction> {
     let (t, part) = hit(shape, ray)?;
     let mut at = shape.interaction(ray, t, part);

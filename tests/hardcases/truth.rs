@@ -3,13 +3,16 @@
 use rtc::math::{U, Vec3};
 use serde_json::Value;
 
-/// The cases of the files present: of those the variables name, which must exist, or else of `../shared`.
+/// The cases of the files present: of those the variables name, which must exist, or else of
+/// `../shared`.
 pub(crate) fn all() -> Vec<Value> {
     let named = ["RTC_HARDCASES", "RTC_HARDCASES_FAMILIES"].map(|name| std::env::var(name).ok());
     let mut paths: Vec<_> = named.into_iter().flatten().collect();
     if paths.is_empty() {
         let shared = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/numerics/");
-        paths = ["hardcases.json", "hardcases-families.json"].map(|name| format!("{shared}{name}")).to_vec();
+        paths = ["hardcases.json", "hardcases-families.json"]
+            .map(|name| format!("{shared}{name}"))
+            .to_vec();
         paths.retain(|path| {
             std::path::Path::new(path).exists() || {
                 println!("skipped: {path} is not here (set RTC_HARDCASES to name another file)");
@@ -29,7 +32,10 @@ fn read(path: &str) -> Vec<Value> {
 
 /// The single cases of one kind.
 pub(crate) fn cases(kind: &str) -> Vec<Value> {
-    all().into_iter().filter(|case| case["kind"] == kind).collect()
+    all()
+        .into_iter()
+        .filter(|case| case["kind"] == kind)
+        .collect()
 }
 
 pub(crate) fn number(value: &Value) -> f64 {
@@ -74,7 +80,11 @@ impl Report {
     }
 
     pub(crate) fn finish(self) {
-        println!("{} of {} passed", self.count - self.failed.len(), self.count);
+        println!(
+            "{} of {} passed",
+            self.count - self.failed.len(),
+            self.count
+        );
         assert!(self.failed.is_empty(), "{}", self.failed.join("\n"));
     }
 }

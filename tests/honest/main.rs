@@ -23,7 +23,11 @@ fn flat() -> Scene {
 }
 
 fn on(threads: usize, work: impl FnOnce() -> Reached + Send) -> Reached {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(work)
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap()
+        .install(work)
 }
 
 /// With a clock that a ray advances by a microsecond.
@@ -37,7 +41,9 @@ fn with_clock(scene: &Scene, goal: Goal) -> Reached {
         elapsed: &|| Duration::from_micros(rays.load(Relaxed)),
         round: &|_| {},
     };
-    on(1, || approach(&mut world(scene), scene, &order(scene, goal, 0), &watch).unwrap())
+    on(1, || {
+        approach(&mut world(scene), scene, &order(scene, goal, 0), &watch).unwrap()
+    })
 }
 
 /// The promise is 19 of 20; of 24 pictures fewer than 20 keep it by chance once in 3000.
@@ -49,7 +55,11 @@ fn the_error_said_is_kept() {
         let references = references(&scene, 3.0);
         for seed in 1..=4 {
             let reached = render(&scene, 3.0, seed);
-            assert!(reached.error <= 3.0 && reached.error > 0.5, "scene {number}: {}", reached.error);
+            assert!(
+                reached.error <= 3.0 && reached.error > 0.5,
+                "scene {number}: {}",
+                reached.error
+            );
             kept += u32::from(error(&reached, &references) <= reached.error);
         }
     }
@@ -67,7 +77,10 @@ fn threads_change_no_bit() {
 #[test]
 fn samples_go_where_the_noise_is() {
     let samples = render(&scene(8, SIZE), 1.0, 0).samples;
-    assert!(2.0 * samples.least as f64 <= samples.mean && samples.most as f64 >= 2.0 * samples.mean, "{samples:?}");
+    assert!(
+        2.0 * samples.least as f64 <= samples.mean && samples.most as f64 >= 2.0 * samples.mean,
+        "{samples:?}"
+    );
 }
 
 #[test]
@@ -81,28 +94,80 @@ fn a_picture_without_noise_ends_at_once() {
 #[test]
 fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
     let scene = scene(0, [64, 48]);
-    let goal = Goal { error: Some(255.0), time: None };
-    let picture = |crop| {
-        let order = Order { crop, values: Values::Linear, keep_lights: true, ..order(&scene, goal, 0) };
-        let watch = Watch { proceed: &|_| true, elapsed: &|| Duration::ZERO, round: &|_| {} };
-        approach(&mut world(&scene), &scene, &order, &watch).unwrap().image
+    let goal = Goal {
+        error: Some(255.0),
+        time: None,
     };
-    let whole = picture(Crop { x: 0, y: 0, width: 64, height: 48 });
-    let part = picture(Crop { x: 20, y: 10, width: 40, height: 30 });
-    let wanted: Vec<_> = (10..40).flat_map(|y| &whole.pixels[y * 64 + 20..][..40]).copied().collect();
+    let picture = |crop| {
+        let order = Order {
+            crop,
+            values: Values::Linear,
+            keep_lights: true,
+            ..order(&scene, goal, 0)
+        };
+        let watch = Watch {
+            proceed: &|_| true,
+            elapsed: &|| Duration::ZERO,
+            round: &|_| {},
+        };
+        approach(&mut world(&scene), &scene, &order, &watch)
+            .unwrap()
+            .image
+    };
+    let whole = picture(Crop {
+        x: 0,
+        y: 0,
+        width: 64,
+        height: 48,
+    });
+    let part = picture(Crop {
+        x: 20,
+        y: 10,
+        width: 40,
+        height: 30,
+    });
+    let wanted: Vec<_> = (10..40)
+        .flat_map(|y| &whole.pixels[y * 64 + 20..][..40])
+        .copied()
+        .collect();
     assert!(part.pixels == wanted);
 }
 
 #[test]
 fn a_time_is_kept_and_more_of_it_is_less_error() {
     let scene = scene(1, SIZE);
-    let within = |millis| with_clock(&scene, Goal { error: None, time: Some(Duration::from_millis(millis)) });
+    let within = |millis| {
+        with_clock(
+            &scene,
+            Goal {
+                error: None,
+                time: Some(Duration::from_millis(millis)),
+            },
+        )
+    };
     let (short, long) = (within(100), within(1000));
-    assert!(long.error < 0.5 * short.error, "{} and {}", short.error, long.error);
+    assert!(
+        long.error < 0.5 * short.error,
+        "{} and {}",
+        short.error,
+        long.error
+    );
     let rays = [short.counts.rays(), long.counts.rays()];
-    assert!(rays[0] <= 100_000 && (500_000..=1_000_000).contains(&rays[1]), "{rays:?}");
-    let both = with_clock(&scene, Goal { error: Some(5.0), time: Some(Duration::from_secs(1000)) });
-    assert!(both.error <= 5.0 && both.counts.rays() < 1_000_000, "{both:?}");
+    assert!(
+        rays[0] <= 100_000 && (500_000..=1_000_000).contains(&rays[1]),
+        "{rays:?}"
+    );
+    let both = with_clock(
+        &scene,
+        Goal {
+            error: Some(5.0),
+            time: Some(Duration::from_secs(1000)),
+        },
+    );
+    assert!(
+        both.error <= 5.0 && both.counts.rays() < 1_000_000,
+        "{both:?}"
+    );
 }
 
 #[test]
@@ -113,6 +178,12 @@ fn stop_means_stop() {
         elapsed: &|| Duration::ZERO,
         round: &|_| {},
     };
-    let goal = Goal { error: Some(0.01), time: None };
-    assert_eq!(approach(&mut world(&scene), &scene, &order(&scene, goal, 0), &watch).err(), Some(Stopped));
+    let goal = Goal {
+        error: Some(0.01),
+        time: None,
+    };
+    assert_eq!(
+        approach(&mut world(&scene), &scene, &order(&scene, goal, 0), &watch).err(),
+        Some(Stopped)
+    );
 }

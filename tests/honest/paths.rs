@@ -1,4 +1,5 @@
-//! The same promises where paths are traced: the truth is the code of sRGB of what ever more paths lead to.
+//! The same promises where paths are traced: the truth is the code of sRGB of what ever more paths
+//! lead to.
 
 use super::on;
 use super::scenes::{error, references, render};
@@ -21,8 +22,16 @@ fn the_error_said_is_kept_by_paths() {
     let mut kept = 0;
     for seed in 1..=8 {
         let reached = render(&scene, 6.0, seed);
-        assert!(reached.error <= 6.0 && reached.error > 0.5, "{}", reached.error);
-        assert!(reached.samples.most > reached.samples.least, "samples go where the noise is: {:?}", reached.samples);
+        assert!(
+            reached.error <= 6.0 && reached.error > 0.5,
+            "{}",
+            reached.error
+        );
+        assert!(
+            reached.samples.most > reached.samples.least,
+            "samples go where the noise is: {:?}",
+            reached.samples
+        );
         kept += u32::from(error(&reached, &references) <= reached.error);
     }
     assert!(kept >= 6, "{kept} of 8");

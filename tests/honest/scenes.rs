@@ -1,4 +1,5 @@
-//! Made-up scenes with everything that makes noise, and how far a render to a target is from what it promises.
+//! Made-up scenes with everything that makes noise, and how far a render to a target is from what
+//! it promises.
 
 use rtc::diag::Sink;
 use rtc::image::Image;
@@ -12,22 +13,26 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
-/// The scene of a number: balls and boxes on a floor, each with a lens, soft lights, glossy balls, textures and crowds of
-/// small things or without, by the bits of the number.
+/// The scene of a number: balls and boxes on a floor, each with a lens, soft lights, glossy balls,
+/// textures and crowds of small things or without, by the bits of the number.
 pub(crate) fn scene(number: u64, [width, height]: [u32; 2]) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     // Textures are those of the scenes of the repo.
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join("made-up.yaml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("scenes")
+        .join("made-up.yaml");
     let file = map.add_from(&path, text(number, [width, height]).into_bytes());
     let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
     let lowered = lowered.unwrap_or_else(|| panic!("scene {number}: {:?}", sink.kept()));
-    pipeline::prove(&lowered, &Options::default(), &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    pipeline::prove(&lowered, &Options::default(), &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
     lowered.scene
 }
 
 fn text(number: u64, [width, height]: [u32; 2]) -> String {
     let mut chance = Chance::new(number);
-    let mut within = |from: f64, to: f64| from + (to - from) * chance.below(1 << 20) as f64 / f64::from(1 << 20);
+    let mut within =
+        |from: f64, to: f64| from + (to - from) * chance.below(1 << 20) as f64 / f64::from(1 << 20);
     let has = |bit: u64| number >> bit & 1 == 1;
     let mut text = format!(
         "Camera: {{eye: [{:.3}, 4, 12], center: [0, 1, 0], up: [0, {}, 0], viewSize: [{width}, {height}]",
@@ -35,7 +40,10 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
         5.0 / f64::from(height)
     );
     text += &if has(0) {
-        format!(", apertureRadius: {:.3}, apertureSamples: 4}}\n", within(0.1, 0.5))
+        format!(
+            ", apertureRadius: {:.3}, apertureSamples: 4}}\n",
+            within(0.1, 0.5)
+        )
     } else {
         "}\n".to_owned()
     };
@@ -43,18 +51,38 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
     for x in [-6.0, 5.0] {
         let radius = if has(1) { within(0.3, 1.5) } else { 0.0 };
         let shade = within(0.3, 0.7);
-        let _ = writeln!(text, "- {{position: [{x}, 7, 5], color: [{shade:.3}, 0.5, 0.5], radius: {radius:.3}}}");
+        let _ = writeln!(
+            text,
+            "- {{position: [{x}, 7, 5], color: [{shade:.3}, 0.5, 0.5], radius: {radius:.3}}}"
+        );
     }
     text += "Objects:\n- {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.7, ks: 0.1, n: 8}}\n";
     let small = if has(4) { 120 } else { 0 };
     for ball in 0..8 + small {
-        let radius = if ball < 8 { within(0.4, 1.2) } else { within(0.01, 0.06) };
-        let place = [within(-5.0, 5.0), radius + if ball < 8 { 0.0 } else { within(0.0, 2.0) }, within(-4.0, 3.0)];
+        let radius = if ball < 8 {
+            within(0.4, 1.2)
+        } else {
+            within(0.01, 0.06)
+        };
+        let place = [
+            within(-5.0, 5.0),
+            radius + if ball < 8 { 0.0 } else { within(0.0, 2.0) },
+            within(-4.0, 3.0),
+        ];
         let color = match has(3) && ball % 3 == 0 {
             true => "texture: tiles.png".to_owned(),
-            false => format!("color: [{:.3}, {:.3}, {:.3}]", within(0.0, 1.0), within(0.0, 1.0), within(0.0, 1.0)),
+            false => format!(
+                "color: [{:.3}, {:.3}, {:.3}]",
+                within(0.0, 1.0),
+                within(0.0, 1.0),
+                within(0.0, 1.0)
+            ),
         };
-        let glossy = if has(2) && ball % 2 == 0 { ", glossySamples: 4" } else { "" };
+        let glossy = if has(2) && ball % 2 == 0 {
+            ", glossySamples: 4"
+        } else {
+            ""
+        };
         let (ks, n) = (within(0.0, 0.8), within(4.0, 200.0));
         let _ = writeln!(
             text,
@@ -68,23 +96,46 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
 
 /// Renders to an error with a seed, without a clock.
 pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
-    let goal = Goal { error: Some(error), time: None };
-    let watch = Watch { proceed: &|_| true, elapsed: &|| Duration::ZERO, round: &|_| {} };
+    let goal = Goal {
+        error: Some(error),
+        time: None,
+    };
+    let watch = Watch {
+        proceed: &|_| true,
+        elapsed: &|| Duration::ZERO,
+        round: &|_| {},
+    };
     approach(&mut world(scene), scene, &order(scene, goal, seed), &watch).expect("nobody says stop")
 }
 
 /// The world of a sound scene.
 pub(crate) fn world(scene: &Scene) -> AnyWorld {
-    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
-    let proven = pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).expect("the scene is sound");
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
+    let proven = pipeline::prove(&lowered, &Options::default(), &mut Sink::default())
+        .expect("the scene is sound");
     AnyWorld::prepare(&proven, &Plan::new(&proven, Rules::ALL))
 }
 
 /// All of the picture.
 pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     let [width, height] = scene.camera.size;
-    let crop = Crop { x: 0, y: 0, width, height };
-    Order { goal, crop, behind: Behind::Surroundings, values: Values::Display, keep_lights: false, seed }
+    let crop = Crop {
+        x: 0,
+        y: 0,
+        width,
+        height,
+    };
+    Order {
+        goal,
+        crop,
+        behind: Behind::Surroundings,
+        values: Values::Display,
+        keep_lights: false,
+        seed,
+    }
 }
 
 /// Two references of other samples, each with at most a quarter of the error.
@@ -92,10 +143,15 @@ pub(crate) fn references(scene: &Scene, error: f64) -> [Image; 2] {
     [0x5EED, 0xFEED].map(|seed| render(scene, error / 4.0, seed).image)
 }
 
-/// The error of a picture in grey levels: the noise of two independent references cancels in the product.
+/// The error of a picture in grey levels: the noise of two independent references cancels in the
+/// product.
 pub(crate) fn error(reached: &Reached, [a, b]: &[Image; 2]) -> f64 {
     let pixels = reached.image.pixels.iter().zip(&a.pixels).zip(&b.pixels);
-    let products = pixels
-        .flat_map(|((x, a), b)| [0, 1, 2].map(|channel: usize| (x[channel] - a[channel]) * (x[channel] - b[channel])));
-    (products.sum::<f64>() / (3.0 * a.pixels.len() as f64)).max(0.0).sqrt() * LEVELS
+    let products = pixels.flat_map(|((x, a), b)| {
+        [0, 1, 2].map(|channel: usize| (x[channel] - a[channel]) * (x[channel] - b[channel]))
+    });
+    (products.sum::<f64>() / (3.0 * a.pixels.len() as f64))
+        .max(0.0)
+        .sqrt()
+        * LEVELS
 }

@@ -1,5 +1,5 @@
-//! Files made to exhaust the machine end in a finding, or are harmless: texts, assets, images, meshes, and folders of
-//! scenes with what they name.
+//! Files made to exhaust the machine end in a finding, or are harmless: texts, assets, images,
+//! meshes, and folders of scenes with what they name.
 
 #![expect(
     clippy::unwrap_used,

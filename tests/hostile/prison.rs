@@ -1,4 +1,5 @@
-//! Runs rtc with little memory and time: 256 MiB of addresses, 10 CPU-seconds, two threads. Linux alone has both limits.
+//! Runs rtc with little memory and time: 256 MiB of addresses, 10 CPU-seconds, two threads. Linux
+//! alone has both limits.
 
 use super::make::{self, Repro};
 use std::fmt::Write as _;
@@ -36,21 +37,37 @@ fn folder(files: &[(String, Vec<u8>)]) -> TempDir {
 fn run(folder: &Path, arguments: &[String]) -> Outcome {
     let program = env!("CARGO_BIN_EXE_rtc");
     let output = Command::new("sh")
-        .args(["-c", "ulimit -v 262144; ulimit -t 10; exec \"$@\"", "sh", program])
+        .args([
+            "-c",
+            "ulimit -v 262144; ulimit -t 10; exec \"$@\"",
+            "sh",
+            program,
+        ])
         .args(arguments)
         .current_dir(folder)
         .env("RAYON_NUM_THREADS", "2")
         .output()
         .unwrap();
-    Outcome { code: output.status.code(), words: String::from_utf8_lossy(&output.stderr).into_owned() }
+    Outcome {
+        code: output.status.code(),
+        words: String::from_utf8_lossy(&output.stderr).into_owned(),
+    }
 }
 
 /// Runs each, and complains of those that did not end as expected.
 fn try_all(repros: Vec<Repro>) {
     let mut faults = String::new();
-    for Repro { name, files, arguments, expected } in repros {
+    for Repro {
+        name,
+        files,
+        arguments,
+        expected,
+    } in repros
+    {
         let outcome = run(folder(&files).path(), &arguments);
-        let is_fine = expected.map_or(outcome.code == Some(0), |finding| outcome.is_refused(finding));
+        let is_fine = expected.map_or(outcome.code == Some(0), |finding| {
+            outcome.is_refused(finding)
+        });
         if !is_fine {
             writeln!(faults, "{name}: {outcome:?}").unwrap();
         }
@@ -71,13 +88,36 @@ fn pictures_that_there_is_no_memory_for_are_refused_in_words() {
     let folder = folder(&[("scene.yaml".to_owned(), scene.to_vec())]);
     for size in ["65535x65535", "3000x3000"] {
         for output in ["out.png", "out.exr"] {
-            let words = ["render", "scene.yaml", "-q", "--allow-huge", "--size", size, "-o", output];
+            let words = [
+                "render",
+                "scene.yaml",
+                "-q",
+                "--allow-huge",
+                "--size",
+                size,
+                "-o",
+                output,
+            ];
             let outcome = run(folder.path(), &words.map(str::to_owned));
-            let is_told = outcome.words.contains("there is no memory for a picture of ");
-            assert!(outcome.code == Some(2) && is_told, "{size} {output}: {outcome:?}");
+            let is_told = outcome
+                .words
+                .contains("there is no memory for a picture of ");
+            assert!(
+                outcome.code == Some(2) && is_told,
+                "{size} {output}: {outcome:?}"
+            );
         }
     }
-    let words = ["render", "scene.yaml", "-q", "--size", "400x400", "-o", "out.png"].map(str::to_owned);
+    let words = [
+        "render",
+        "scene.yaml",
+        "-q",
+        "--size",
+        "400x400",
+        "-o",
+        "out.png",
+    ]
+    .map(str::to_owned);
     assert_eq!(run(folder.path(), &words).code, Some(0));
 }
 

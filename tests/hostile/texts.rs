@@ -1,7 +1,8 @@
-//! Hostile texts end in a located error, and odd but sound ones are accepted, each within 64 MiB, the text included.
+//! Hostile texts end in a located error, and odd but sound ones are accepted, each within 64 MiB,
+//! the text included.
 //!
-//! One test, because the allocator that watches the memory is one for the whole binary. Work is bounded by the bytes
-//! it allocates in all and by the nodes it looks at (SY011), not by a clock.
+//! One test, because the allocator that watches the memory is one for the whole binary. Work is
+//! bounded by the bytes it allocates in all and by the nodes it looks at (SY011), not by a clock.
 
 #![expect(unsafe_code, reason = "an allocator is unsafe code")]
 
@@ -20,7 +21,10 @@ static PEAK: AtomicUsize = AtomicUsize::new(0);
 // SAFETY: everything is passed on to the system's allocator as it came.
 unsafe impl GlobalAlloc for Watching {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        PEAK.fetch_max(LIVE.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
+        PEAK.fetch_max(
+            LIVE.fetch_add(layout.size(), Relaxed) + layout.size(),
+            Relaxed,
+        );
         // SAFETY: the caller's promise is passed on.
         unsafe { System.alloc(layout) }
     }
@@ -57,7 +61,12 @@ fn check(text: impl FnOnce() -> Vec<u8>) -> (Vec<&'static str>, usize) {
     let proof = lowered.and_then(|lowered| pipeline::prove(&lowered, &options, &mut sink));
     assert_eq!(proof.is_some(), !sink.has_errors());
     let errors = sink.kept().iter().filter(|d| d.severity == Severity::Error);
-    let codes = errors.map(|d| d.primary.as_ref().map(|_| d.code.id).expect("every error has a place"));
+    let codes = errors.map(|d| {
+        d.primary
+            .as_ref()
+            .map(|_| d.code.id)
+            .expect("every error has a place")
+    });
     let mut codes: Vec<_> = codes.collect();
     codes.sort_unstable();
     codes.dedup();
@@ -72,7 +81,12 @@ const SPHERE: &str = "{type: sphere, position: [0, 0, 0], radius: 1, material: {
 fn alias_bomb() -> String {
     let mut text = format!("{EYE}a: &a [x, x, x, x, x, x, x, x, x, x]\n");
     for (name, before) in ('b'..='t').zip('a'..) {
-        writeln!(text, "{name}: &{name} [{}]", vec![format!("*{before}"); 10].join(", ")).unwrap();
+        writeln!(
+            text,
+            "{name}: &{name} [{}]",
+            vec![format!("*{before}"); 10].join(", ")
+        )
+        .unwrap();
     }
     text + "Objects: *t\nLights: *t\n"
 }
@@ -81,7 +95,12 @@ fn alias_bomb() -> String {
 fn merge_bomb() -> String {
     let mut text = format!("{EYE}a: &a {{x: 1}}\n");
     for (name, before) in ('b'..='t').zip('a'..) {
-        writeln!(text, "{name}: &{name} {{<<: [{}]}}", vec![format!("*{before}"); 10].join(", ")).unwrap();
+        writeln!(
+            text,
+            "{name}: &{name} {{<<: [{}]}}",
+            vec![format!("*{before}"); 10].join(", ")
+        )
+        .unwrap();
     }
     text + "Objects:\n- <<: *t\n"
 }
@@ -94,7 +113,9 @@ fn shared_map() -> String {
 }
 
 fn nested_maps(depth: usize) -> String {
-    (0..depth).map(|depth| format!("{:depth$}k:\n", "")).collect()
+    (0..depth)
+        .map(|depth| format!("{:depth$}k:\n", ""))
+        .collect()
 }
 
 fn unknown_keys(different: bool) -> String {
@@ -108,7 +129,11 @@ fn utf16(text: &str) -> Vec<u8> {
 }
 
 /// What a text is, the text, and the codes of its errors; none if it is accepted.
-type Case = (&'static str, Box<dyn FnOnce() -> Vec<u8>>, &'static [&'static str]);
+type Case = (
+    &'static str,
+    Box<dyn FnOnce() -> Vec<u8>>,
+    &'static [&'static str],
+);
 
 fn cases() -> Vec<Case> {
     fn case(text: impl FnOnce() -> String + 'static) -> Box<dyn FnOnce() -> Vec<u8>> {
@@ -117,23 +142,67 @@ fn cases() -> Vec<Case> {
     vec![
         ("alias bomb", case(alias_bomb), &["SC003"]),
         ("merge bomb", case(merge_bomb), &["SC002"]),
-        ("a long map shared by many", case(shared_map), &["SC002", "SY011"]),
+        (
+            "a long map shared by many",
+            case(shared_map),
+            &["SC002", "SY011"],
+        ),
         ("100 000 [", case(|| "[".repeat(100_000)), &["SY009"]),
         ("100 000 {", case(|| "{".repeat(100_000)), &["SY009"]),
-        ("100 000 [ as a value", case(|| format!("{EYE}Lights: {}", "[".repeat(100_000))), &["SY009"]),
+        (
+            "100 000 [ as a value",
+            case(|| format!("{EYE}Lights: {}", "[".repeat(100_000))),
+            &["SY009"],
+        ),
         ("100 000 -", case(|| "- ".repeat(100_000)), &["SY009"]),
         ("100 000 ?", case(|| "? ".repeat(100_000)), &["SY009"]),
         ("maps 2 000 deep", case(|| nested_maps(2_000)), &["SY009"]),
-        ("a plain word of 50 MB", case(|| "a".repeat(50_000_000)), &["SY010"]),
-        ("a quoted word of 50 MB", case(|| ["Eye: \"", &"a ".repeat(25_000_000)].concat()), &["SY010"]),
-        ("a block of 2 MB", case(|| format!("Eye: |\n{}", "  a, b, c\n".repeat(200_000))), &["SY010"]),
-        ("100 000 times the same key", case(|| unknown_keys(false)), &["SY007"]),
+        (
+            "a plain word of 50 MB",
+            case(|| "a".repeat(50_000_000)),
+            &["SY010"],
+        ),
+        (
+            "a quoted word of 50 MB",
+            case(|| ["Eye: \"", &"a ".repeat(25_000_000)].concat()),
+            &["SY010"],
+        ),
+        (
+            "a block of 2 MB",
+            case(|| format!("Eye: |\n{}", "  a, b, c\n".repeat(200_000))),
+            &["SY010"],
+        ),
+        (
+            "100 000 times the same key",
+            case(|| unknown_keys(false)),
+            &["SY007"],
+        ),
         ("UTF-16", Box::new(|| utf16(EYE)), &["SY001"]),
-        ("a megabyte of NUL", Box::new(|| vec![0; 1 << 20]), &["SY004"]),
-        ("a megabyte of line ends", case(|| "\n".repeat(1 << 20)), &["SY006"]),
-        ("self-alias", case(|| format!("{EYE}Objects: &a [*a]\n")), &["SY008"]),
-        ("Objects: null", case(|| format!("{EYE}Objects: null\n")), &["SC003"]),
-        ("100 000 wrong objects", case(|| format!("{EYE}Objects:\n{}", "- 1\n".repeat(100_000))), &["SC003"]),
+        (
+            "a megabyte of NUL",
+            Box::new(|| vec![0; 1 << 20]),
+            &["SY004"],
+        ),
+        (
+            "a megabyte of line ends",
+            case(|| "\n".repeat(1 << 20)),
+            &["SY006"],
+        ),
+        (
+            "self-alias",
+            case(|| format!("{EYE}Objects: &a [*a]\n")),
+            &["SY008"],
+        ),
+        (
+            "Objects: null",
+            case(|| format!("{EYE}Objects: null\n")),
+            &["SC003"],
+        ),
+        (
+            "100 000 wrong objects",
+            case(|| format!("{EYE}Objects:\n{}", "- 1\n".repeat(100_000))),
+            &["SC003"],
+        ),
         ("100 000 unknown keys", case(|| unknown_keys(true)), &[]),
         (
             "one anchor used 100 000 times",
@@ -141,12 +210,36 @@ fn cases() -> Vec<Case> {
             &[],
         ),
         ("byte order mark", case(|| format!("\u{feff}{EYE}")), &[]),
-        ("a tab after a colon", case(|| "Eye:\t[1, 2, 3]\n".to_owned()), &[]),
-        ("a list closed at column 0", case(|| "Eye: [\n1,\n2,\n3\n]\nLights: [\n]\n".to_owned()), &[]),
-        ("keys n and y", case(|| format!("{EYE}RenderMode: gooch\nGoochParameters: {{y: 1}}\nn: 1\n")), &[]),
-        ("merge keys", case(|| format!("{EYE}Objects:\n- &s {SPHERE}- <<: *s\n  radius: 2\n")), &[]),
-        ("no line end at the end", case(|| "Eye: [1, 2, 3]".to_owned()), &[]),
-        ("line ends of Windows", case(|| "Eye: [1, 2, 3]\r\nShadows: true\r\n".to_owned()), &[]),
+        (
+            "a tab after a colon",
+            case(|| "Eye:\t[1, 2, 3]\n".to_owned()),
+            &[],
+        ),
+        (
+            "a list closed at column 0",
+            case(|| "Eye: [\n1,\n2,\n3\n]\nLights: [\n]\n".to_owned()),
+            &[],
+        ),
+        (
+            "keys n and y",
+            case(|| format!("{EYE}RenderMode: gooch\nGoochParameters: {{y: 1}}\nn: 1\n")),
+            &[],
+        ),
+        (
+            "merge keys",
+            case(|| format!("{EYE}Objects:\n- &s {SPHERE}- <<: *s\n  radius: 2\n")),
+            &[],
+        ),
+        (
+            "no line end at the end",
+            case(|| "Eye: [1, 2, 3]".to_owned()),
+            &[],
+        ),
+        (
+            "line ends of Windows",
+            case(|| "Eye: [1, 2, 3]\r\nShadows: true\r\n".to_owned()),
+            &[],
+        ),
     ]
 }
 
@@ -156,7 +249,12 @@ fn hostile_texts_are_refused_and_odd_ones_read_within_bounds() {
     for (name, text, expected) in cases() {
         let (codes, peak) = check(text);
         if codes != expected || peak > LIMIT {
-            writeln!(faults, "{name}: {codes:?} instead of {expected:?}, {} MiB", peak >> 20).unwrap();
+            writeln!(
+                faults,
+                "{name}: {codes:?} instead of {expected:?}, {} MiB",
+                peak >> 20
+            )
+            .unwrap();
         }
     }
     assert!(faults.is_empty(), "{faults}");

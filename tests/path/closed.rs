@@ -15,29 +15,58 @@ fn albedo() -> Vec3 {
 fn under(emitter: Emitter) -> Vec3 {
     let mut scene = scene(16);
     add_square(&mut scene, 0.0, 1.0, lambert(ALBEDO));
-    add_light(&mut scene, Punctual { emitter, intensity: [3.0; 3] });
+    add_light(
+        &mut scene,
+        Punctual {
+            emitter,
+            intensity: [3.0; 3],
+        },
+    );
     middle(&render(&scene))
 }
 
 fn assert_near(found: Vec3, expected: Vec3, tolerance: f64) {
-    assert!((found - expected).abs().max_element() < tolerance * expected.max_element(), "{found}, not {expected}");
+    assert!(
+        (found - expected).abs().max_element() < tolerance * expected.max_element(),
+        "{found}, not {expected}"
+    );
 }
 
 #[test]
 fn a_sun_gives_e_cos_over_pi() {
-    let found = under(Emitter::Sun { direction: [0.6, 0.0, 0.8] });
+    let found = under(Emitter::Sun {
+        direction: [0.6, 0.0, 0.8],
+    });
     assert_near(found, albedo() * (3.0 * 0.8 / PI), 1e-12);
-    assert_eq!(under(Emitter::Sun { direction: [0.0, 0.0, -1.0] }), Vec3::ZERO);
+    assert_eq!(
+        under(Emitter::Sun {
+            direction: [0.0, 0.0, -1.0]
+        }),
+        Vec3::ZERO
+    );
 }
 
 #[test]
 fn a_point_gives_i_cos_over_r_squared() {
-    // 16 samples over four pixels of side 1/8 below a point 2 above: the mean of cos/r² is within 1 % of its middle.
-    let found = under(Emitter::Point { position: [0.0, 0.0, 2.0], range: None });
+    // 16 samples over four pixels of side 1/8 below a point 2 above: the mean of cos/r² is within 1
+    // % of its middle.
+    let found = under(Emitter::Point {
+        position: [0.0, 0.0, 2.0],
+        range: None,
+    });
     assert_near(found, albedo() * (3.0 / 4.0 / PI), 0.01);
-    let short = under(Emitter::Point { position: [0.0, 0.0, 2.0], range: Some(4.0) });
+    let short = under(Emitter::Point {
+        position: [0.0, 0.0, 2.0],
+        range: Some(4.0),
+    });
     assert_near(short, albedo() * (3.0 / 4.0 / PI * (1.0 - 0.0625)), 0.01);
-    assert_eq!(under(Emitter::Point { position: [0.0, 0.0, 2.0], range: Some(1.5) }), Vec3::ZERO);
+    assert_eq!(
+        under(Emitter::Point {
+            position: [0.0, 0.0, 2.0],
+            range: Some(1.5)
+        }),
+        Vec3::ZERO
+    );
 }
 
 #[test]
@@ -61,8 +90,23 @@ fn a_spot_fades_by_the_square_of_the_ramp_of_cosines() {
 fn a_white_sphere_in_a_white_sky_is_not_seen() {
     for (standard, tolerance) in [
         (lambert([1.0; 3]), 1e-9),
-        (Standard { roughness: 0.0, ..Standard::default() }, 1e-9),
-        (Standard { metallic: 0.0, roughness: 0.0, transmission: 1.0, thickness: 1.0, ..Standard::default() }, 1e-9),
+        (
+            Standard {
+                roughness: 0.0,
+                ..Standard::default()
+            },
+            1e-9,
+        ),
+        (
+            Standard {
+                metallic: 0.0,
+                roughness: 0.0,
+                transmission: 1.0,
+                thickness: 1.0,
+                ..Standard::default()
+            },
+            1e-9,
+        ),
     ] {
         let mut scene = scene(64);
         scene.environment = sky(0.7);
@@ -84,7 +128,8 @@ fn a_lambert_sphere_in_a_sky_shows_its_albedo() {
 
 #[test]
 fn a_shining_square_gives_its_form_factor() {
-    // A square of half side a = 1 seen from 1 below its middle: F = 4/π·a/√(1 + a²)·atan(a/√(1 + a²)).
+    // A square of half side a = 1 seen from 1 below its middle: F = 4/π·a/√(1 + a²)·atan(a/√(1 +
+    // a²)).
     let a = 1.0 / 2.0_f64.sqrt();
     let form_factor = 4.0 / PI * a * libm::atan(a);
     let mut scene = scene(256);
@@ -93,14 +138,30 @@ fn a_shining_square_gives_its_form_factor() {
     scene.camera.right = [0.001, 0.0, 0.0];
     scene.camera.up = [0.0, 0.001, 0.0];
     add_square(&mut scene, -1.0, 0.1, lambert(ALBEDO));
-    add_square(&mut scene, 0.0, 1.0, Standard { emissive: [2.0; 3], ..lambert([0.0; 3]) });
+    add_square(
+        &mut scene,
+        0.0,
+        1.0,
+        Standard {
+            emissive: [2.0; 3],
+            ..lambert([0.0; 3])
+        },
+    );
     assert_near(mean(&render(&scene)), albedo() * (2.0 * form_factor), 0.005);
 }
 
 #[test]
 fn a_light_is_as_bright_as_it_says() {
     let mut scene = scene(4);
-    add_square(&mut scene, 0.0, 1.0, Standard { emissive: [5.0, 3.0, 1.0], ..lambert([0.0; 3]) });
+    add_square(
+        &mut scene,
+        0.0,
+        1.0,
+        Standard {
+            emissive: [5.0, 3.0, 1.0],
+            ..lambert([0.0; 3])
+        },
+    );
     assert_eq!(middle(&render(&scene)), Vec3::new(5.0, 3.0, 1.0));
 }
 
@@ -121,18 +182,39 @@ fn what_is_inside_a_body_fades_with_the_way() {
     scene.camera.right = [0.001, 0.0, 0.0];
     scene.camera.up = [0.0, 0.001, 0.0];
     add_sphere(&mut scene, [0.0; 3], 0.75, body);
-    assert_near(mean(&render(&scene)), Vec3::new(0.125, 0.015_625, 1.0), 1e-3);
+    assert_near(
+        mean(&render(&scene)),
+        Vec3::new(0.125, 0.015_625, 1.0),
+        1e-3,
+    );
 }
 
 #[test]
 fn a_white_metal_of_any_roughness_vanishes_in_a_white_furnace() {
     let seen = |roughness: f64, multiple_scattering: bool| {
         let mut scene = scene(64);
-        scene.settings.mode = Mode::Path(Path { samples: 64, multiple_scattering });
+        scene.settings.mode = Mode::Path(Path {
+            samples: 64,
+            multiple_scattering,
+        });
         scene.environment = sky(1.0);
-        add_sphere(&mut scene, [0.0; 3], 0.75, Standard { roughness, base_color: [1.0; 4], ..Standard::default() });
+        add_sphere(
+            &mut scene,
+            [0.0; 3],
+            0.75,
+            Standard {
+                roughness,
+                base_color: [1.0; 4],
+                ..Standard::default()
+            },
+        );
         let film = render(&scene);
-        let inside = film.image.pixels.iter().zip(&film.coverage).filter(|(_, share)| **share == 1.0);
+        let inside = film
+            .image
+            .pixels
+            .iter()
+            .zip(&film.coverage)
+            .filter(|(_, share)| **share == 1.0);
         let inside: Vec<_> = inside.map(|(pixel, _)| pixel[0]).collect();
         inside.iter().sum::<f64>() / inside.len() as f64
     };
@@ -141,5 +223,8 @@ fn a_white_metal_of_any_roughness_vanishes_in_a_white_furnace() {
         assert!((mean - 1.0).abs() < 0.01, "roughness {roughness}: {mean}");
     }
     let lost = 1.0 - seen(1.0, false);
-    assert!(lost > 0.1, "without the light between the facets a rough metal is dark: {lost}");
+    assert!(
+        lost > 0.1,
+        "without the light between the facets a rough metal is dark: {lost}"
+    );
 }

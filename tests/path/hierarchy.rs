@@ -1,4 +1,5 @@
-//! The hierarchy of a world finds what its surfaces find one by one, and veils in it let through what veils beside it do.
+//! The hierarchy of a world finds what its surfaces find one by one, and veils in it let through
+//! what veils beside it do.
 
 use super::{add_light, add_square, lambert, material, prove, render, scene, sky};
 use rtc::ir::{Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface};
@@ -10,7 +11,9 @@ use rtc::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
@@ -24,25 +27,40 @@ fn waves(rows: u32) -> Mesh {
     };
     let cell = |k: u32| {
         let at = k % rows + k / rows * (rows + 1);
-        [[at, at + 1, at + rows + 2], [at, at + rows + 2, at + rows + 1]]
+        [
+            [at, at + 1, at + rows + 2],
+            [at, at + rows + 2, at + rows + 1],
+        ]
     };
     let positions = (0..(rows + 1) * (rows + 1)).map(corner).collect();
-    Mesh { positions, triangles: (0..rows * rows).flat_map(cell).collect(), ..Mesh::default() }
+    Mesh {
+        positions,
+        triangles: (0..rows * rows).flat_map(cell).collect(),
+        ..Mesh::default()
+    }
 }
 
 fn place(scene: &mut Scene, mesh: u32, world_from_object: [[f64; 3]; 4], standard: Standard) {
     let material = material(scene, standard);
-    let shape = Shape::Instance(Instance { mesh: MeshId(mesh), world_from_object });
+    let shape = Shape::Instance(Instance {
+        mesh: MeshId(mesh),
+        world_from_object,
+    });
     scene.surfaces.push(Surface { shape, material });
 }
 
-/// What the surfaces say one by one: the nearest hit, and of several at one t that of the first surface.
+/// What the surfaces say one by one: the nearest hit, and of several at one t that of the first
+/// surface.
 fn one_by_one(world: &World<Prepared>, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray);
-    let hits = world.surfaces.iter().enumerate().filter_map(|(surface, found)| {
-        let (t, part) = found.shape.intersect(ray, &shear, f64::INFINITY)?;
-        Some(Hit { t, surface, part })
-    });
+    let hits = world
+        .surfaces
+        .iter()
+        .enumerate()
+        .filter_map(|(surface, found)| {
+            let (t, part) = found.shape.intersect(ray, &shear, f64::INFINITY)?;
+            Some(Hit { t, surface, part })
+        });
     hits.min_by(|a, b| a.t.total_cmp(&b.t))
 }
 
@@ -52,12 +70,29 @@ fn the_world_finds_what_its_surfaces_find() {
     scene.meshes = vec![waves(12), waves(70), waves(300)];
     let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let at = |[x, y, z]: [[f64; 3]; 3], origin| [x, y, z, origin];
-    // Once and several times, two at the very same place, mirrored, small, and too many triangles to be merged.
+    // Once and several times, two at the very same place, mirrored, small, and too many triangles
+    // to be merged.
     for origin in [[0.0; 3], [0.5, 0.2, -0.4], [0.5, 0.2, -0.4]] {
         place(&mut scene, 0, at(axes, origin), lambert([0.5; 3]));
     }
-    place(&mut scene, 0, at([[0.0, -0.02, 0.0], [0.01, 0.0, 0.0], [0.0, 0.0, -0.03]], [0.3; 3]), lambert([0.5; 3]));
-    place(&mut scene, 1, at([[0.6, 0.5, 0.0], [-0.5, 0.6, 0.3], [0.2, 0.0, 1.0]], [0.1, 0.0, 1.0]), lambert([0.5; 3]));
+    place(
+        &mut scene,
+        0,
+        at(
+            [[0.0, -0.02, 0.0], [0.01, 0.0, 0.0], [0.0, 0.0, -0.03]],
+            [0.3; 3],
+        ),
+        lambert([0.5; 3]),
+    );
+    place(
+        &mut scene,
+        1,
+        at(
+            [[0.6, 0.5, 0.0], [-0.5, 0.6, 0.3], [0.2, 0.0, 1.0]],
+            [0.1, 0.0, 1.0],
+        ),
+        lambert([0.5; 3]),
+    );
     place(&mut scene, 2, at(axes, [0.0, 0.0, -0.9]), lambert([0.5; 3]));
     place(&mut scene, 2, at(axes, [0.2, 0.1, -1.0]), lambert([0.5; 3]));
     super::add_sphere(&mut scene, [-0.5, -0.5, 0.2], 0.4, lambert([0.5; 3]));
@@ -67,7 +102,10 @@ fn the_world_finds_what_its_surfaces_find() {
     for _ in 0..20_000 {
         let mut cube = || Vec3::new(number(), number(), number());
         let (origin, target) = (cube() * 3.0, cube());
-        let ray = Ray { origin, direction: target - origin };
+        let ray = Ray {
+            origin,
+            direction: target - origin,
+        };
         let (found, expected) = (world.nearest(&ray), one_by_one(&world, &ray));
         assert_eq!(found, expected, "{ray:?}");
         hits += u32::from(found.is_some());
@@ -82,22 +120,45 @@ fn the_world_finds_what_its_surfaces_find() {
 
 #[test]
 fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
-    let veil = |red: f64| Standard { base_color: [red, 0.5, 0.5, 0.5], alpha: Alpha::Blend, ..lambert([0.5; 3]) };
+    let veil = |red: f64| Standard {
+        base_color: [red, 0.5, 0.5, 0.5],
+        alpha: Alpha::Blend,
+        ..lambert([0.5; 3])
+    };
     let pictures = [false, true].map(|as_meshes| {
         let mut scene = scene(16);
         scene.environment = sky(0.5);
-        let emitter = Emitter::Sun { direction: [0.1, 0.2, 1.0] };
-        add_light(&mut scene, Punctual { emitter, intensity: [2.0; 3] });
+        let emitter = Emitter::Sun {
+            direction: [0.1, 0.2, 1.0],
+        };
+        add_light(
+            &mut scene,
+            Punctual {
+                emitter,
+                intensity: [2.0; 3],
+            },
+        );
         add_square(&mut scene, 0.0, 1.0, lambert([0.8; 3]));
         let flat = Mesh {
-            positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]].into(),
+            positions: vec![
+                [-1.0, -1.0, 0.0],
+                [1.0, -1.0, 0.0],
+                [1.0, 1.0, 0.0],
+                [-1.0, 1.0, 0.0],
+            ]
+            .into(),
             uvs: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into(),
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..Mesh::default()
         };
         scene.meshes = vec![flat];
         for (z, red) in [(0.25, 0.2), (0.5, 0.5), (0.75, 0.9)] {
-            let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, z]];
+            let axes = [
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+                [0.0, 0.0, z],
+            ];
             match as_meshes {
                 true => place(&mut scene, 0, axes, veil(red)),
                 false => add_square(&mut scene, z, 1.0, veil(red)),
@@ -107,7 +168,9 @@ fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
     });
     let [triangles, meshes] = &pictures;
     for (index, (a, b)) in triangles.iter().zip(meshes).enumerate() {
-        let off = (Vec3::from_array(*a) - Vec3::from_array(*b)).abs().max_element();
+        let off = (Vec3::from_array(*a) - Vec3::from_array(*b))
+            .abs()
+            .max_element();
         assert!(off < 1e-9, "pixel {index}: {a:?} and {b:?}");
     }
 }

@@ -1,4 +1,5 @@
-//! The path integrator against closed forms, against itself by other ways, and the laws it shares with the others.
+//! The path integrator against closed forms, against itself by other ways, and the laws it shares
+//! with the others.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -12,18 +13,23 @@ mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path, Pattern, Phong,
-    Projection, Punctual, Scene, Settings, Shape, Sphere, Standard, Surface, Triangle,
+    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path,
+    Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard, Surface,
+    Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Basic, Behind, Film, Job, Seeds, Strategy, Stride, Values, World};
 use rtc::valid::{self, ValidScene};
 
-/// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at the origin.
+/// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
+/// the origin.
 fn scene(samples: u32) -> Scene {
     let settings = Settings {
-        mode: Mode::Path(Path { samples, multiple_scattering: false }),
+        mode: Mode::Path(Path {
+            samples,
+            multiple_scattering: false,
+        }),
         shadows: true,
         max_depth: 8,
         supersampling: 1,
@@ -36,7 +42,10 @@ fn scene(samples: u32) -> Scene {
         right: [0.125, 0.0, 0.0],
         up: [0.0, 0.125, 0.0],
         size: [16, 16],
-        lens: Lens { radius: 0.0, samples: 1 },
+        lens: Lens {
+            radius: 0.0,
+            samples: 1,
+        },
         projection: Projection::Perspective,
     };
     Scene {
@@ -56,7 +65,12 @@ fn scene(samples: u32) -> Scene {
 /// Lambert's surface, if the specular reflection is left away.
 fn lambert(color: [f64; 3]) -> Standard {
     let [r, g, b] = color;
-    Standard { base_color: [r, g, b, 1.0], metallic: 0.0, specular: 0.0, ..Standard::default() }
+    Standard {
+        base_color: [r, g, b, 1.0],
+        metallic: 0.0,
+        specular: 0.0,
+        ..Standard::default()
+    }
 }
 
 fn material(scene: &mut Scene, standard: Standard) -> MaterialId {
@@ -68,21 +82,36 @@ fn material(scene: &mut Scene, standard: Standard) -> MaterialId {
 fn add_quad(scene: &mut Scene, [a, b, c, d]: [[f64; 3]; 4], standard: Standard) {
     let material = material(scene, standard);
     let uv = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    for (vertices, uvs) in [([a, b, c], [uv[0], uv[1], uv[2]]), ([a, c, d], [uv[0], uv[2], uv[3]])] {
-        let shape = Shape::Triangle(Triangle { vertices, uvs: Some(uvs) });
+    for (vertices, uvs) in [
+        ([a, b, c], [uv[0], uv[1], uv[2]]),
+        ([a, c, d], [uv[0], uv[2], uv[3]]),
+    ] {
+        let shape = Shape::Triangle(Triangle {
+            vertices,
+            uvs: Some(uvs),
+        });
         scene.surfaces.push(Surface { shape, material });
     }
 }
 
 /// A square that faces +z at height z, of half the side given.
 fn add_square(scene: &mut Scene, z: f64, half: f64, standard: Standard) {
-    let corners = [[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]];
+    let corners = [
+        [-half, -half, z],
+        [half, -half, z],
+        [half, half, z],
+        [-half, half, z],
+    ];
     add_quad(scene, corners, standard);
 }
 
 fn add_sphere(scene: &mut Scene, center: [f64; 3], radius: f64, standard: Standard) {
     let material = material(scene, standard);
-    let shape = Shape::Sphere(Sphere { center, radius, texture_from_world: None });
+    let shape = Shape::Sphere(Sphere {
+        center,
+        radius,
+        texture_from_world: None,
+    });
     scene.surfaces.push(Surface { shape, material });
 }
 
@@ -91,12 +120,21 @@ fn add_light(scene: &mut Scene, light: Punctual) {
 }
 
 fn sky(radiance: f64) -> Option<Environment> {
-    Some(Environment { radiance: [radiance; 3], image: None, image_from_world: None })
+    Some(Environment {
+        radiance: [radiance; 3],
+        image: None,
+        image_from_world: None,
+    })
 }
 
 fn prove(scene: &Scene) -> ValidScene {
     let mut sink = Sink::default();
-    let proof = valid::validate(scene, &Origins::default(), &valid::Options::default(), &mut sink);
+    let proof = valid::validate(
+        scene,
+        &Origins::default(),
+        &valid::Options::default(),
+        &mut sink,
+    );
     proof.unwrap_or_else(|| panic!("{sink:?}"))
 }
 
@@ -111,7 +149,9 @@ const JOB: Job = Job {
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = prove(scene);
-    let valid::Mode::Path(path) = proof.settings().mode else { panic!("no paths") };
+    let valid::Mode::Path(path) = proof.settings().mode else {
+        panic!("no paths")
+    };
     World::<Basic>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
         .render_paths(path, strategy, &JOB, &|_| true)
         .unwrap()
@@ -124,7 +164,11 @@ fn render(scene: &Scene) -> Film {
 
 fn mean(film: &Film) -> Vec3 {
     let pixels = &film.image.pixels;
-    pixels.iter().map(|pixel| Vec3::from_array(*pixel)).sum::<Vec3>() / pixels.len() as f64
+    pixels
+        .iter()
+        .map(|pixel| Vec3::from_array(*pixel))
+        .sum::<Vec3>()
+        / pixels.len() as f64
 }
 
 /// The four pixels in the middle.

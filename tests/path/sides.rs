@@ -10,12 +10,25 @@ const GREEN: Vec3 = Vec3::Y;
 /// What shows its colour as it is.
 fn flat(color: Vec3) -> Standard {
     let [r, g, b] = color.to_array();
-    Standard { unlit: true, base_color: [r, g, b, 1.0], ..Standard::default() }
+    Standard {
+        unlit: true,
+        base_color: [r, g, b, 1.0],
+        ..Standard::default()
+    }
 }
 
 /// A square at height z that fills the view and faces away from it.
 fn add_back(scene: &mut Scene, z: f64, standard: Standard) {
-    add_quad(scene, [[-3.0, -3.0, z], [-3.0, 3.0, z], [3.0, 3.0, z], [3.0, -3.0, z]], standard);
+    add_quad(
+        scene,
+        [
+            [-3.0, -3.0, z],
+            [-3.0, 3.0, z],
+            [3.0, 3.0, z],
+            [3.0, -3.0, z],
+        ],
+        standard,
+    );
 }
 
 /// What is seen of a green wall through what `add` puts before it.
@@ -30,8 +43,20 @@ fn before_a_wall(add: impl Fn(&mut Scene)) -> Scene {
 fn a_one_sided_square_is_seen_from_the_front_alone() {
     let front = before_a_wall(|scene| add_square(scene, 0.0, 3.0, flat(RED)));
     let back = before_a_wall(|scene| add_back(scene, 0.0, flat(RED)));
-    let both = before_a_wall(|scene| add_back(scene, 0.0, Standard { double_sided: true, ..flat(RED) }));
-    assert_eq!([front, back, both].map(|scene| mean(&render(&scene))), [RED, GREEN, RED]);
+    let both = before_a_wall(|scene| {
+        add_back(
+            scene,
+            0.0,
+            Standard {
+                double_sided: true,
+                ..flat(RED)
+            },
+        )
+    });
+    assert_eq!(
+        [front, back, both].map(|scene| mean(&render(&scene))),
+        [RED, GREEN, RED]
+    );
 }
 
 #[test]
@@ -39,16 +64,30 @@ fn coverage_and_layers_go_by_what_is_seen() {
     let mut scene = scene(4);
     add_back(&mut scene, 0.0, flat(RED));
     let proof = prove(&scene);
-    let job = Job { behind: Behind::Nothing, ..JOB };
-    let film = rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap();
+    let job = Job {
+        behind: Behind::Nothing,
+        ..JOB
+    };
+    let film =
+        rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap();
     assert!(film.coverage.iter().all(|share| *share == 0.0) && film.counts.hits == 0);
     // The wall's triangles come third and fourth.
     let proof = prove(&before_a_wall(|scene| add_back(scene, 0.0, flat(RED))));
-    let crop = Crop { x: 0, y: 0, width: 16, height: 16 };
+    let crop = Crop {
+        x: 0,
+        y: 0,
+        width: 16,
+        height: 16,
+    };
     let wanted = [Aov::Instance, Aov::Depth];
     let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
     let layers = world.layers(&wanted, crop, &|| true).unwrap();
-    assert!(layers.values.chunks(2).all(|pixel| pixel[0] >= 3.0 && (pixel[1] - 5.0).abs() < 1e-5));
+    assert!(
+        layers
+            .values
+            .chunks(2)
+            .all(|pixel| pixel[0] >= 3.0 && (pixel[1] - 5.0).abs() < 1e-5)
+    );
 }
 
 #[test]
@@ -56,7 +95,15 @@ fn its_shadow_stays() {
     let lit = |back: bool| {
         let mut scene = scene(4);
         add_square(&mut scene, 0.0, 3.0, lambert([1.0; 3]));
-        add_light(&mut scene, Punctual { emitter: Emitter::Sun { direction: [0.0, 0.0, 1.0] }, intensity: [1.0; 3] });
+        add_light(
+            &mut scene,
+            Punctual {
+                emitter: Emitter::Sun {
+                    direction: [0.0, 0.0, 1.0],
+                },
+                intensity: [1.0; 3],
+            },
+        );
         if back {
             add_back(&mut scene, 1.0, lambert([1.0; 3]));
         }
@@ -69,17 +116,37 @@ fn its_shadow_stays() {
 
 #[test]
 fn the_front_of_a_mirrored_instance_is_that_of_its_mesh() {
-    // The mesh faces +z; a mirror image in x still does, though it goes round the other way, and one in z does not.
-    for (axes, expected) in [([1.0, 1.0], RED), ([-1.0, 1.0], RED), ([1.0, -1.0], GREEN), ([-1.0, -1.0], GREEN)] {
+    // The mesh faces +z; a mirror image in x still does, though it goes round the other way, and
+    // one in z does not.
+    for (axes, expected) in [
+        ([1.0, 1.0], RED),
+        ([-1.0, 1.0], RED),
+        ([1.0, -1.0], GREEN),
+        ([-1.0, -1.0], GREEN),
+    ] {
         let scene = before_a_wall(|scene| {
             scene.meshes.push(Mesh {
-                positions: vec![[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.0], [-3.0, 3.0, 0.0]].into(),
+                positions: vec![
+                    [-3.0, -3.0, 0.0],
+                    [3.0, -3.0, 0.0],
+                    [3.0, 3.0, 0.0],
+                    [-3.0, 3.0, 0.0],
+                ]
+                .into(),
                 triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
                 ..Mesh::default()
             });
-            let world_from_object = [[axes[0], 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, axes[1]], [0.0; 3]];
+            let world_from_object = [
+                [axes[0], 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, axes[1]],
+                [0.0; 3],
+            ];
             let material = material(scene, flat(RED));
-            let shape = Shape::Instance(Instance { mesh: MeshId(0), world_from_object });
+            let shape = Shape::Instance(Instance {
+                mesh: MeshId(0),
+                world_from_object,
+            });
             scene.surfaces.push(Surface { shape, material });
         });
         assert_eq!(mean(&render(&scene)), expected, "{axes:?}");
@@ -89,7 +156,15 @@ fn the_front_of_a_mirrored_instance_is_that_of_its_mesh() {
 #[test]
 fn a_mirror_shows_the_back() {
     let mut scene = scene(4);
-    add_square(&mut scene, 0.0, 3.0, Standard { roughness: 0.0, ..Standard::default() });
+    add_square(
+        &mut scene,
+        0.0,
+        3.0,
+        Standard {
+            roughness: 0.0,
+            ..Standard::default()
+        },
+    );
     // Behind the eye, and facing away from the mirror.
     add_square(&mut scene, 6.0, 30.0, flat(RED));
     assert!((mean(&render(&scene)) - RED).abs().max_element() < 1e-9);
@@ -97,17 +172,34 @@ fn a_mirror_shows_the_back() {
 
 #[test]
 fn what_transmits_is_seen_from_behind() {
-    let pane = Standard { transmission: 1.0, metallic: 0.0, roughness: 0.0, ior: 1.0, ..flat(GREEN) };
+    let pane = Standard {
+        transmission: 1.0,
+        metallic: 0.0,
+        roughness: 0.0,
+        ior: 1.0,
+        ..flat(GREEN)
+    };
     let mut scene = scene(4);
     scene.environment = sky(1.0);
-    add_back(&mut scene, 0.0, Standard { unlit: false, ..pane });
+    add_back(
+        &mut scene,
+        0.0,
+        Standard {
+            unlit: false,
+            ..pane
+        },
+    );
     assert!((mean(&render(&scene)) - GREEN).abs().max_element() < 1e-9);
 }
 
 #[test]
 fn a_ray_behind_a_veil_is_still_one_of_the_camera() {
     let scene = before_a_wall(|scene| {
-        let hole = Standard { base_color: [1.0, 1.0, 1.0, 0.0], alpha: Alpha::Mask(0.5), ..flat(RED) };
+        let hole = Standard {
+            base_color: [1.0, 1.0, 1.0, 0.0],
+            alpha: Alpha::Mask(0.5),
+            ..flat(RED)
+        };
         add_square(scene, 1.0, 3.0, hole);
         add_back(scene, 0.5, flat(RED));
         add_back(scene, 0.0, flat(RED));
@@ -115,19 +207,49 @@ fn a_ray_behind_a_veil_is_still_one_of_the_camera() {
     assert_eq!(mean(&render(&scene)), GREEN);
 }
 
-/// The inside of an octahedron with the normals of a ball, or others, under lights and a sky outside: no path takes light
-/// from the side of a face where it does not go on.
+/// The inside of an octahedron with the normals of a ball, or others, under lights and a sky
+/// outside: no path takes light from the side of a face where it does not go on.
 #[test]
 fn no_light_enters_a_closed_smooth_mesh() {
-    let corners =
-        [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
-    let triangles: Vec<[u32; 3]> =
-        vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
-    let tilted =
-        [[1.0, 0.8, 0.0], [-1.0, 0.5, 0.9], [0.7, 1.0, 0.0], [0.0, -1.0, 0.9], [0.9, 0.0, 1.0], [0.6, 0.7, -1.0]];
-    let mirror = Standard { roughness: 0.0, double_sided: true, ..Standard::default() };
+    let corners = [
+        [1.0, 0.0, 0.0],
+        [-1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+    ];
+    let triangles: Vec<[u32; 3]> = vec![
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    let tilted = [
+        [1.0, 0.8, 0.0],
+        [-1.0, 0.5, 0.9],
+        [0.7, 1.0, 0.0],
+        [0.0, -1.0, 0.9],
+        [0.9, 0.0, 1.0],
+        [0.6, 0.7, -1.0],
+    ];
+    let mirror = Standard {
+        roughness: 0.0,
+        double_sided: true,
+        ..Standard::default()
+    };
     for normals in [corners, tilted] {
-        for standard in [Standard { double_sided: true, ..lambert([0.9; 3]) }, mirror.clone()] {
+        for standard in [
+            Standard {
+                double_sided: true,
+                ..lambert([0.9; 3])
+            },
+            mirror.clone(),
+        ] {
             let mut scene = scene(16);
             (scene.settings.max_depth, scene.environment) = (50, sky(1.0));
             (scene.camera.eye, scene.camera.center) = ([0.1, 0.05, -0.02], [0.3, 0.2, -0.4]);
@@ -139,16 +261,46 @@ fn no_light_enters_a_closed_smooth_mesh() {
             });
             let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
             let material = material(&mut scene, standard);
-            let shape = Shape::Instance(Instance { mesh: MeshId(0), world_from_object });
+            let shape = Shape::Instance(Instance {
+                mesh: MeshId(0),
+                world_from_object,
+            });
             scene.surfaces.push(Surface { shape, material });
             for direction in [[3.0, 4.0, 5.0], [-1.0, 0.2, 0.1], [0.3, -1.0, -0.4]] {
-                add_light(&mut scene, Punctual { emitter: Emitter::Sun { direction }, intensity: [5.0; 3] });
+                add_light(
+                    &mut scene,
+                    Punctual {
+                        emitter: Emitter::Sun { direction },
+                        intensity: [5.0; 3],
+                    },
+                );
             }
-            let emitter = Emitter::Point { position: [0.5, 0.6, 0.2], range: None };
-            add_light(&mut scene, Punctual { emitter, intensity: [5.0; 3] });
+            let emitter = Emitter::Point {
+                position: [0.5, 0.6, 0.2],
+                range: None,
+            };
+            add_light(
+                &mut scene,
+                Punctual {
+                    emitter,
+                    intensity: [5.0; 3],
+                },
+            );
             let film = render(&scene);
-            assert!(film.counts.hits == 16 * 256 && film.counts.mirror > 16 * 256, "{:?}", film.counts);
-            assert_eq!(film.image.pixels.iter().flatten().filter(|value| **value != 0.0).count(), 0);
+            assert!(
+                film.counts.hits == 16 * 256 && film.counts.mirror > 16 * 256,
+                "{:?}",
+                film.counts
+            );
+            assert_eq!(
+                film.image
+                    .pixels
+                    .iter()
+                    .flatten()
+                    .filter(|value| **value != 0.0)
+                    .count(),
+                0
+            );
         }
     }
 }

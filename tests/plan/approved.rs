@@ -1,6 +1,7 @@
-//! Plans as approved: for each made-up scene what the picture needs and by which rules the rest is left out, beside a hash
-//! of all that its plans say, with all rules, with every other one and with none. `RTC_UPDATE=1 cargo test --test plan`
-//! rewrites `tests/plan/approved.txt`: what then differs is what changed.
+//! Plans as approved: for each made-up scene what the picture needs and by which rules the rest is
+//! left out, beside a hash of all that its plans say, with all rules, with every other one and with
+//! none. `RTC_UPDATE=1 cargo test --test plan` rewrites `tests/plan/approved.txt`: what then
+//! differs is what changed.
 
 use super::dice::Dice;
 use super::{proven, root};
@@ -12,17 +13,24 @@ use xxhash_rust::xxh3::xxh3_64;
 
 const SCENES: u64 = 250;
 
-/// A made-up scene; by turns as it is, with tiny round things, seen from so far that rounding blurs it, alone and from afar,
-/// and with the pixels sampled through a pinhole.
+/// A made-up scene; by turns as it is, with tiny round things, seen from so far that rounding blurs
+/// it, alone and from afar, and with the pixels sampled through a pinhole.
 fn scene(seed: u64) -> Scene {
     let mut scene = Dice::new(seed).scene();
     match seed % 4 {
-        1 => scene.surfaces.iter_mut().for_each(|surface| match &mut surface.shape {
-            Shape::Sphere(Sphere { radius, .. }) | Shape::Disc(Disc { radius, .. }) => *radius *= 1e-4,
-            Shape::Cylinder(Cylinder { radius, .. }) | Shape::Cone(Cone { radius, .. }) => *radius *= 1e-3,
-            Shape::Torus(Torus { minor, .. }) => *minor *= 1e-3,
-            Shape::Plane(_) | Shape::Triangle(_) | Shape::Quad(_) | Shape::Instance(_) => {}
-        }),
+        1 => scene
+            .surfaces
+            .iter_mut()
+            .for_each(|surface| match &mut surface.shape {
+                Shape::Sphere(Sphere { radius, .. }) | Shape::Disc(Disc { radius, .. }) => {
+                    *radius *= 1e-4
+                }
+                Shape::Cylinder(Cylinder { radius, .. }) | Shape::Cone(Cone { radius, .. }) => {
+                    *radius *= 1e-3
+                }
+                Shape::Torus(Torus { minor, .. }) => *minor *= 1e-3,
+                Shape::Plane(_) | Shape::Triangle(_) | Shape::Quad(_) | Shape::Instance(_) => {}
+            }),
         2 if seed % 8 == 2 => {
             scene.camera.eye[0] += 1e15;
             scene.camera.center[0] += 1e15;
@@ -41,13 +49,30 @@ fn line(seed: u64) -> String {
     let scene = proven(&scene(seed));
     let plan = Plan::new(&scene, Rules::ALL);
     let is_other = |rule: &Rule| (*rule as u64 ^ seed).is_multiple_of(2);
-    let others = Rule::ALL.into_iter().filter(is_other).fold(Rules::NONE, Rules::with);
-    let mut all = format!("{plan:?}{:?}{:?}", Plan::new(&scene, others), Plan::new(&scene, Rules::NONE));
+    let others = Rule::ALL
+        .into_iter()
+        .filter(is_other)
+        .fold(Rules::NONE, Rules::with);
+    let mut all = format!(
+        "{plan:?}{:?}{:?}",
+        Plan::new(&scene, others),
+        Plan::new(&scene, Rules::NONE)
+    );
     for arithmetic in [Arithmetic::Plain, Arithmetic::F32] {
-        let _ = write!(all, "{:?}{:?}", Plan::by(arithmetic, &scene, Rules::ALL), loss(&scene, arithmetic));
+        let _ = write!(
+            all,
+            "{:?}{:?}",
+            Plan::by(arithmetic, &scene, Rules::ALL),
+            loss(&scene, arithmetic)
+        );
     }
     let pixels = (0..9).flat_map(|y| (0..11).map(move |x| [x, y]));
-    all += &format!("{:?}", pixels.map(|pixel| plan.region.sight(pixel)).collect::<Vec<_>>());
+    all += &format!(
+        "{:?}",
+        pixels
+            .map(|pixel| plan.region.sight(pixel))
+            .collect::<Vec<_>>()
+    );
     let mut line = format!("{seed:3} {:016x}", xxh3_64(all.as_bytes()));
     for verdict in plan.verdicts.iter().filter(|verdict| verdict.of.is_none()) {
         match (verdict.state, verdict.rule) {
@@ -62,7 +87,9 @@ fn line(seed: u64) -> String {
 #[test]
 #[expect(clippy::disallowed_methods, reason = "it keeps its table")]
 fn plans_are_as_approved() {
-    let found = (0..SCENES).map(|seed| line(seed) + "\n").collect::<String>();
+    let found = (0..SCENES)
+        .map(|seed| line(seed) + "\n")
+        .collect::<String>();
     let path = root("tests/plan/approved.txt");
     if std::env::var_os("RTC_UPDATE").is_some() {
         fs::write(path, found).unwrap();
@@ -71,17 +98,31 @@ fn plans_are_as_approved() {
     let approved = fs::read_to_string(path).unwrap();
     let differ = |(found, approved): &(&str, &str)| found != approved;
     let first = found.lines().zip(approved.lines()).find(differ);
-    assert!(found == approved, "the first that differs, found and approved: {first:#?}");
+    assert!(
+        found == approved,
+        "the first that differs, found and approved: {first:#?}"
+    );
 }
 
 /// A hash names no culprit: what people read is said in full.
 #[test]
 fn effects_and_states_are_named_as_in_the_books() {
     let plan = Plan::new(&proven(&Dice::new(0).scene()), Rules::ALL);
-    let mut names = plan.verdicts.iter().filter(|verdict| verdict.of.is_none()).map(|verdict| verdict.effect.name());
+    let mut names = plan
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.of.is_none())
+        .map(|verdict| verdict.effect.name());
     let wanted = "depth buffer, normal buffer, surfaces, direct light, shadows, soft light, highlight, bounces, mirror, \
                   glossy mirror, refraction, textures, corner normals, normal maps, lens, supersampling";
     assert!(names.by_ref().eq(wanted.split(", ")));
-    assert_eq!([State::Needed, State::Pruned, State::Absent].map(State::name), ["needed", "pruned", "absent"]);
-    assert!(Rule::ALL.iter().all(|rule| rule.text().ends_with('.') && rule.text().len() > 20));
+    assert_eq!(
+        [State::Needed, State::Pruned, State::Absent].map(State::name),
+        ["needed", "pruned", "absent"]
+    );
+    assert!(
+        Rule::ALL
+            .iter()
+            .all(|rule| rule.text().ends_with('.') && rule.text().len() > 20)
+    );
 }

@@ -5,11 +5,21 @@ use super::stage::{ball, first_light, material, matt, texture, with};
 use rtc::ir::{Phong, Scene, Texture, TextureId};
 use rtc::plan::{Plan, Rule, Rules};
 
-/// Two balls that show each other without end, of which one point adds ks + kt of what it sees, and of a white light
-/// (ka + kd) · 0.8 + ks = 1.1 at most.
+/// Two balls that show each other without end, of which one point adds ks + kt of what it sees, and
+/// of a white light (ka + kd) · 0.8 + ks = 1.1 at most.
 fn mirrors() -> Scene {
-    let phong = Phong { color: [0.8, 0.2, 0.4], ka: 0.3, kd: 0.7, ks: 0.3, kt: 0.1, ..matt() };
-    let mut scene = with(&[(ball([-1.2, 0.0, 0.0], 1.0), phong.clone()), (ball([1.2, 0.0, 0.0], 1.0), phong)]);
+    let phong = Phong {
+        color: [0.8, 0.2, 0.4],
+        ka: 0.3,
+        kd: 0.7,
+        ks: 0.3,
+        kt: 0.1,
+        ..matt()
+    };
+    let mut scene = with(&[
+        (ball([-1.2, 0.0, 0.0], 1.0), phong.clone()),
+        (ball([1.2, 0.0, 0.0], 1.0), phong),
+    ]);
     scene.settings.max_depth = 60;
     scene
 }
@@ -18,8 +28,8 @@ fn depth(scene: &Scene) -> u32 {
     Plan::new(&proven(scene), Rules::ALL.with(Rule::Cut)).max_depth
 }
 
-/// That as many bounces are left as keep the rest below half a level: Σ weightⁱ over all i above that, times what a point
-/// adds of the light.
+/// That as many bounces are left as keep the rest below half a level: Σ weightⁱ over all i above
+/// that, times what a point adds of the light.
 fn is_cut(scene: &Scene, weight: f64, point: f64) {
     for bounces in [1, 4, 9] {
         let powers = (0..=bounces).fold(1.0, |power, _| power * weight);
@@ -37,7 +47,14 @@ fn bounces_are_cut_off_where_the_rest_is_half_a_level() {
     is_cut(&mirrors(), 0.4, 1.1);
     // A rest of just half a level is not below it.
     let mut exact = mirrors();
-    let phong = Phong { color: [1.0; 3], ka: 0.25, kd: 0.5, ks: 0.25, kt: 0.25, ..matt() };
+    let phong = Phong {
+        color: [1.0; 3],
+        ka: 0.25,
+        kd: 0.5,
+        ks: 0.25,
+        kt: 0.25,
+        ..matt()
+    };
     (0..2).for_each(|index| *material(&mut exact, index) = phong.clone());
     first_light(&mut exact).color = [0.5 / 255.0; 3];
     assert_eq!(depth(&exact), 1);
@@ -89,7 +106,12 @@ fn a_texture_counts_by_its_value_or_as_white_where_it_has_several() {
 fn nothing_is_cut_off_where_bounces_add_as_much_as_the_first_or_have_no_bound() {
     for (ks, kt) in [(0.5, 0.5), (0.9, 0.9)] {
         let mut clear = mirrors();
-        (0..2).for_each(|index| (material(&mut clear, index).ks, material(&mut clear, index).kt) = (ks, kt));
+        (0..2).for_each(|index| {
+            (
+                material(&mut clear, index).ks,
+                material(&mut clear, index).kt,
+            ) = (ks, kt)
+        });
         assert_eq!(depth(&clear), 60);
     }
     let mut scene = mirrors();

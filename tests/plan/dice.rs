@@ -1,5 +1,5 @@
-//! Random scenes: each effect present, absent, or present with zero weight; places on a coarse grid, so that things touch,
-//! line up and coincide.
+//! Random scenes: each effect present, absent, or present with zero weight; places on a coarse
+//! grid, so that things touch, line up and coincide.
 
 mod extreme;
 
@@ -33,7 +33,11 @@ impl Dice {
     /// A number on a grid of halves, or off it.
     fn number(&mut self, size: u32) -> f64 {
         let number = f64::from(self.roll(4 * size + 1)) / 2.0 - f64::from(size);
-        if self.chance(3) { number + f64::from(self.roll(1000)) * 1e-3 } else { number }
+        if self.chance(3) {
+            number + f64::from(self.roll(1000)) * 1e-3
+        } else {
+            number
+        }
     }
 
     fn point(&mut self, size: u32) -> [f64; 3] {
@@ -42,10 +46,20 @@ impl Dice {
 
     fn axis(&mut self) -> [f64; 3] {
         if self.chance(2) {
-            return self.pick(&[[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+            return self.pick(&[
+                [0.0, 1.0, 0.0],
+                [0.0, 0.0, 1.0],
+                [1.0, 0.0, 0.0],
+                [0.0, -1.0, 0.0],
+                [0.0, 0.0, -1.0],
+            ]);
         }
         let [x, y, z] = self.point(2);
-        if [x, y, z] == [0.0; 3] { [0.0, 1.0, 0.0] } else { [x, y, z] }
+        if [x, y, z] == [0.0; 3] {
+            [0.0, 1.0, 0.0]
+        } else {
+            [x, y, z]
+        }
     }
 
     fn length(&mut self) -> f64 {
@@ -64,9 +78,14 @@ impl Dice {
             images,
             textures,
             meshes: vec![self.mesh(), self.mesh()],
-            materials: (0..materials).map(|_| ir::Material::Phong(self.phong())).collect(),
+            materials: (0..materials)
+                .map(|_| ir::Material::Phong(self.phong()))
+                .collect(),
             surfaces: (0..surfaces)
-                .map(|_| ir::Surface { shape: self.shape(), material: MaterialId(self.roll(materials)) })
+                .map(|_| ir::Surface {
+                    shape: self.shape(),
+                    material: MaterialId(self.roll(materials)),
+                })
                 .collect(),
             names: Vec::new(),
             environment: None,
@@ -74,21 +93,49 @@ impl Dice {
     }
 
     fn camera(&mut self) -> ir::Camera {
-        let eye = if self.chance(4) { self.point(3) } else { [self.number(2), self.number(2), 8.0] };
-        let mut center = if self.chance(4) { self.point(2) } else { [0.0, 0.0, 0.0] };
+        let eye = if self.chance(4) {
+            self.point(3)
+        } else {
+            [self.number(2), self.number(2), 8.0]
+        };
+        let mut center = if self.chance(4) {
+            self.point(2)
+        } else {
+            [0.0, 0.0, 0.0]
+        };
         if center == eye {
             center[0] += 1.0;
         }
         let gaze = Vec3::from_array(center) - Vec3::from_array(eye);
-        let up = if gaze.x == 0.0 && gaze.z == 0.0 { Vec3::Z } else { Vec3::Y };
+        let up = if gaze.x == 0.0 && gaze.z == 0.0 {
+            Vec3::Z
+        } else {
+            Vec3::Y
+        };
         let (right, up) = view_basis(gaze, up * self.pick(&[0.1, 0.5, 1.0])).unwrap();
-        let lens = ir::Lens { radius: self.pick(&[0.0, 0.0, 0.0, 0.5]), samples: 1 + self.roll(3) };
+        let lens = ir::Lens {
+            radius: self.pick(&[0.0, 0.0, 0.0, 0.5]),
+            samples: 1 + self.roll(3),
+        };
         let (center, right, up) = (center, right.to_array(), up.to_array());
-        ir::Camera { eye, center, right, up, size: [11, 9], lens, projection: ir::Projection::Perspective }
+        ir::Camera {
+            eye,
+            center,
+            right,
+            up,
+            size: [11, 9],
+            lens,
+            projection: ir::Projection::Perspective,
+        }
     }
 
     fn settings(&mut self) -> ir::Settings {
-        let gooch = ir::Gooch { b: 0.55, y: 0.3, alpha: 0.25, beta: self.pick(&[0.0, 0.5]) };
+        let gooch = ir::Gooch {
+            b: 0.55,
+            y: 0.3,
+            alpha: 0.25,
+            beta: self.pick(&[0.0, 0.5]),
+        };
         let mode = match self.roll(8) {
             0 => ir::Mode::Zbuffer,
             1 => ir::Mode::Normal,
@@ -100,7 +147,12 @@ impl Dice {
             shadows: !self.chance(4),
             max_depth: self.pick(&[0, 1, 2, 3]),
             supersampling: self.pick(&[1, 2, 2, 3]),
-            pattern: self.pick(&[ir::Pattern::Grid, ir::Pattern::Grid, ir::Pattern::Jitter, ir::Pattern::Random]),
+            pattern: self.pick(&[
+                ir::Pattern::Grid,
+                ir::Pattern::Grid,
+                ir::Pattern::Jitter,
+                ir::Pattern::Random,
+            ]),
             light_samples: self.pick(&[1, 1, 3]),
         }
     }
@@ -108,16 +160,30 @@ impl Dice {
     fn light(&mut self) -> ir::Light {
         let color = self.pick(&[[0.0; 3], [1.0; 3], [1.0, 0.0, 0.5], [0.3, 0.7, 0.2]]);
         let size = self.pick(&[4, 12]);
-        ir::Light::Point(ir::PointLight { position: self.point(size), color, radius: self.pick(&[0.0, 0.0, 0.5]) })
+        ir::Light::Point(ir::PointLight {
+            position: self.point(size),
+            color,
+            radius: self.pick(&[0.0, 0.0, 0.5]),
+        })
     }
 
     fn textures(&mut self) -> (Vec<ir::Image>, Vec<Texture>) {
         let image = |value: &dyn Fn(u8) -> u8| {
             let pixels = (0..12).map(value).collect();
             let (kind, pixels) = (ir::Pixels::Rgb8, pixels);
-            ir::Image { name: "dice".to_owned(), width: 2, height: 2, kind, pixels }
+            ir::Image {
+                name: "dice".to_owned(),
+                width: 2,
+                height: 2,
+                kind,
+                pixels,
+            }
         };
-        let images = vec![image(&|k| 20 * k), image(&|k| [90, 180, 30][usize::from(k) % 3]), image(&|_| 0)];
+        let images = vec![
+            image(&|k| 20 * k),
+            image(&|k| [90, 180, 30][usize::from(k) % 3]),
+            image(&|_| 0),
+        ];
         let image = |k| Texture::Image(ImageId(k));
         (images, vec![image(0), image(1), image(2), Texture::Uv])
     }
@@ -127,7 +193,10 @@ impl Dice {
     }
 
     fn phong(&mut self) -> ir::Phong {
-        let bump = self.map().map(|texture| ir::Bump { texture, height: 0.5 });
+        let bump = self.map().map(|texture| ir::Bump {
+            texture,
+            height: 0.5,
+        });
         ir::Phong {
             color: self.pick(&[[0.0; 3], [1.0, 0.5, 0.2], [0.2, 0.9, 0.7], [1.0; 3]]),
             ka: self.pick(&[0.0, 0.2]),
@@ -152,10 +221,20 @@ impl Dice {
             let other = if tilt { [0.6, 0.0, 0.8] } else { normal };
             vec![normal, normal, other, other]
         });
-        let uvs = if self.chance(2) { vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] } else { Vec::new() };
+        let uvs = if self.chance(2) {
+            vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        } else {
+            Vec::new()
+        };
         ir::Mesh {
             name: "tent".to_owned(),
-            positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.5], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.5]].into(),
+            positions: vec![
+                [-1.0, -1.0, 0.0],
+                [1.0, -1.0, 0.5],
+                [1.0, 1.0, 0.0],
+                [-1.0, 1.0, 0.5],
+            ]
+            .into(),
             normals: normals.into(),
             uvs: uvs.into(),
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
@@ -165,29 +244,62 @@ impl Dice {
 
     fn shape(&mut self) -> ir::Shape {
         match self.roll(11) {
-            0..=2 => {
-                ir::Shape::Sphere(ir::Sphere { center: self.point(3), radius: self.length(), texture_from_world: None })
-            }
-            3 => ir::Shape::Plane(ir::Plane { center: self.point(4), normal: self.axis() }),
+            0..=2 => ir::Shape::Sphere(ir::Sphere {
+                center: self.point(3),
+                radius: self.length(),
+                texture_from_world: None,
+            }),
+            3 => ir::Shape::Plane(ir::Plane {
+                center: self.point(4),
+                normal: self.axis(),
+            }),
             4 => {
                 let vertices = [self.point(3), self.point(3), self.point(3)];
-                let uvs = self.chance(2).then_some([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+                let uvs = self
+                    .chance(2)
+                    .then_some([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
                 ir::Shape::Triangle(ir::Triangle { vertices, uvs })
             }
             5 => self.quad(),
-            6 => ir::Shape::Disc(ir::Disc { center: self.point(3), normal: self.axis(), radius: self.length() }),
+            6 => ir::Shape::Disc(ir::Disc {
+                center: self.point(3),
+                normal: self.axis(),
+                radius: self.length(),
+            }),
             7 => {
                 let (base, axis, height) = (self.point(3), self.axis(), self.length());
-                ir::Shape::Cylinder(ir::Cylinder { base, axis, height, radius: self.length() })
+                ir::Shape::Cylinder(ir::Cylinder {
+                    base,
+                    axis,
+                    height,
+                    radius: self.length(),
+                })
             }
-            8 => ir::Shape::Cone(ir::Cone { base: self.point(3), up: self.axis(), radius: self.length() }),
+            8 => ir::Shape::Cone(ir::Cone {
+                base: self.point(3),
+                up: self.axis(),
+                radius: self.length(),
+            }),
             9 => {
                 let (center, axis) = (self.point(3), self.axis());
-                ir::Shape::Torus(ir::Torus { center, axis, major: self.length(), minor: self.length() * 0.5 })
+                ir::Shape::Torus(ir::Torus {
+                    center,
+                    axis,
+                    major: self.length(),
+                    minor: self.length() * 0.5,
+                })
             }
             _ => {
-                let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.5, 0.5], [0.0, -0.5, 1.0], self.point(3)];
-                ir::Shape::Instance(ir::Instance { mesh: MeshId(self.roll(2)), world_from_object })
+                let world_from_object = [
+                    [1.0, 0.0, 0.0],
+                    [0.0, 1.5, 0.5],
+                    [0.0, -0.5, 1.0],
+                    self.point(3),
+                ];
+                ir::Shape::Instance(ir::Instance {
+                    mesh: MeshId(self.roll(2)),
+                    world_from_object,
+                })
             }
         }
     }
@@ -195,7 +307,13 @@ impl Dice {
     /// A parallelogram, or four corners anywhere.
     fn quad(&mut self) -> ir::Shape {
         let [a, b, d] = [self.point(3), self.point(3), self.point(3)];
-        let c = if self.chance(3) { self.point(3) } else { [0, 1, 2].map(|k| b[k] + d[k] - a[k]) };
-        ir::Shape::Quad(ir::Quad { vertices: [a, b, c, d] })
+        let c = if self.chance(3) {
+            self.point(3)
+        } else {
+            [0, 1, 2].map(|k| b[k] + d[k] - a[k])
+        };
+        ir::Shape::Quad(ir::Quad {
+            vertices: [a, b, c, d],
+        })
     }
 }

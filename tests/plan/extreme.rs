@@ -1,5 +1,6 @@
-//! The laws of a scene, whatever is in it: rules, threads and forms of the IR change no bit, nothing that was left out would
-//! show, and every value is finite. 64 made-up scenes each time, others where `RTC_SCENES` names them, as 0..2000.
+//! The laws of a scene, whatever is in it: rules, threads and forms of the IR change no bit,
+//! nothing that was left out would show, and every value is finite. 64 made-up scenes each time,
+//! others where `RTC_SCENES` names them, as 0..2000.
 
 use super::dice::Dice;
 use super::{bits, film, proven};
@@ -14,7 +15,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 fn is_sound(scene: &Scene) -> bool {
-    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
     pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).is_some()
 }
 
@@ -28,22 +32,52 @@ fn decoded(form: Form, scene: &Scene) -> Scene {
 fn broken(scene: &Scene) -> Option<String> {
     let valid = proven(scene);
     let unpruned = film(&valid, Rules::NONE, Values::Linear);
-    if let Some(index) = unpruned.image.pixels.iter().position(|pixel| !pixel.iter().all(|value| value.is_finite())) {
-        return Some(format!("pixel {index} is {:?}", unpruned.image.pixels[index]));
+    if let Some(index) = unpruned
+        .image
+        .pixels
+        .iter()
+        .position(|pixel| !pixel.iter().all(|value| value.is_finite()))
+    {
+        return Some(format!(
+            "pixel {index} is {:?}",
+            unpruned.image.pixels[index]
+        ));
     }
     let wanted = bits(&unpruned);
     let pruned = film(&valid, Rules::ALL, Values::Linear);
-    let differing = bits(&pruned).iter().zip(&wanted).filter(|(a, b)| a != b).count();
+    let differing = bits(&pruned)
+        .iter()
+        .zip(&wanted)
+        .filter(|(a, b)| a != b)
+        .count();
     if differing > 0 {
-        let changes = |rule: &Rule| bits(&film(&valid, Rules::NONE.with(*rule), Values::Linear)) != wanted;
-        let culprits: Vec<_> = Rule::ALL.into_iter().filter(changes).map(Rule::name).collect();
-        return Some(format!("the rules change {differing} values; by itself does each of {culprits:?}"));
+        let changes =
+            |rule: &Rule| bits(&film(&valid, Rules::NONE.with(*rule), Values::Linear)) != wanted;
+        let culprits: Vec<_> = Rule::ALL
+            .into_iter()
+            .filter(changes)
+            .map(Rule::name)
+            .collect();
+        return Some(format!(
+            "the rules change {differing} values; by itself does each of {culprits:?}"
+        ));
     }
-    let (plan, job) = (Plan::new(&valid, Rules::ALL), Job { values: Values::Linear, ..Job::default() });
-    if let Err(fault) = pipeline::verify(&valid, &plan, &job, 1, &|_| true).unwrap().unwrap() {
+    let (plan, job) = (
+        Plan::new(&valid, Rules::ALL),
+        Job {
+            values: Values::Linear,
+            ..Job::default()
+        },
+    );
+    if let Err(fault) = pipeline::verify(&valid, &plan, &job, 1, &|_| true)
+        .unwrap()
+        .unwrap()
+    {
         return Some(format!("{fault:?}"));
     }
-    let alone = pipeline::render(&valid, &plan, &job, 1, &|_| true).unwrap().unwrap();
+    let alone = pipeline::render(&valid, &plan, &job, 1, &|_| true)
+        .unwrap()
+        .unwrap();
     if bits(&alone) != wanted || alone.counts != pruned.counts {
         return Some("one thread makes another picture than two".to_owned());
     }
@@ -78,7 +112,12 @@ fn smallest(mut scene: Scene) -> Scene {
         |scene| scene.settings.light_samples = 1,
         |scene| scene.camera.lens.radius = 0.0,
         |scene| scene.environment = None,
-        |scene| scene.meshes.iter_mut().for_each(|mesh| mesh.normals = Vec::<[f64; 3]>::new().into()),
+        |scene| {
+            scene
+                .meshes
+                .iter_mut()
+                .for_each(|mesh| mesh.normals = Vec::<[f64; 3]>::new().into())
+        },
     ];
     for cut in cuts {
         let mut less = scene.clone();
@@ -89,12 +128,18 @@ fn smallest(mut scene: Scene) -> Scene {
 }
 
 /// Scenes that broke a law once.
-const FOUND: [u64; 12] = [1243, 1635, 3321, 5438, 11865, 12376, 25322, 38809, 38838, 43900, 44689, 58013];
+const FOUND: [u64; 12] = [
+    1243, 1635, 3321, 5438, 11865, 12376, 25322, 38809, 38838, 43900, 44689, 58013,
+];
 
 /// The scenes to be looked at.
 fn seeds() -> Vec<u64> {
-    let Ok(wanted) = std::env::var("RTC_SCENES") else { return (0..64).chain(FOUND).collect() };
-    let ends = wanted.split_once("..").and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    let Ok(wanted) = std::env::var("RTC_SCENES") else {
+        return (0..64).chain(FOUND).collect();
+    };
+    let ends = wanted
+        .split_once("..")
+        .and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
     let (from, to) = ends.expect("RTC_SCENES is a range, as 0..2000");
     (from..to).collect()
 }
@@ -114,17 +159,35 @@ fn laws_hold_for_scenes_of_all_kinds() {
             first.get_or_insert(scene);
         }
     }
-    assert!(8 * refused <= scenes, "{refused} of {scenes} scenes are refused");
-    let shown = first.map(|scene| codec::encode(Form::Text, &smallest(scene)).unwrap()).unwrap_or_default();
-    assert!(faults.is_empty(), "{faults}{}", String::from_utf8_lossy(&shown));
+    assert!(
+        8 * refused <= scenes,
+        "{refused} of {scenes} scenes are refused"
+    );
+    let shown = first
+        .map(|scene| codec::encode(Form::Text, &smallest(scene)).unwrap())
+        .unwrap_or_default();
+    assert!(
+        faults.is_empty(),
+        "{faults}{}",
+        String::from_utf8_lossy(&shown)
+    );
 }
 
 /// What is never made is never tested.
 #[test]
 fn scenes_of_all_kinds_are_made() {
     let mut seen = BTreeSet::new();
-    let word = |value: &dyn std::fmt::Debug| format!("{value:?}").split([' ', '(']).next().unwrap().to_owned();
-    for scene in (0..64).map(|seed| Dice::new(seed).extreme()).filter(is_sound) {
+    let word = |value: &dyn std::fmt::Debug| {
+        format!("{value:?}")
+            .split([' ', '('])
+            .next()
+            .unwrap()
+            .to_owned()
+    };
+    for scene in (0..64)
+        .map(|seed| Dice::new(seed).extreme())
+        .filter(is_sound)
+    {
         seen.insert(word(&scene.settings.mode));
         seen.insert(word(&scene.camera.projection));
         seen.extend(scene.surfaces.iter().map(|surface| word(&surface.shape)));
@@ -133,17 +196,54 @@ fn scenes_of_all_kinds_are_made() {
             rtc::ir::Light::Punctual(light) => word(&light.emitter),
         }));
         seen.extend(scene.materials.iter().map(|material| word(&material)));
+        seen.extend(scene.environment.map(|environment| {
+            if environment.image.is_some() {
+                "image"
+            } else {
+                "color"
+            }
+            .to_owned()
+        }));
+        let size = scene
+            .camera
+            .right
+            .iter()
+            .fold(0.0, |size: f64, step| size.max(step.abs()));
         seen.extend(
-            scene.environment.map(|environment| if environment.image.is_some() { "image" } else { "color" }.to_owned()),
-        );
-        let size = scene.camera.right.iter().fold(0.0, |size: f64, step| size.max(step.abs()));
-        seen.extend(
-            [("tiny", size < 1e-30), ("huge", size > 1e30)].iter().filter(|kind| kind.1).map(|kind| kind.0.to_owned()),
+            [("tiny", size < 1e-30), ("huge", size > 1e30)]
+                .iter()
+                .filter(|kind| kind.1)
+                .map(|kind| kind.0.to_owned()),
         );
     }
-    let modes = ["Phong", "Zbuffer", "Normal", "Gooch", "Path", "Perspective", "Orthographic"];
-    let shapes = ["Sphere", "Plane", "Triangle", "Quad", "Disc", "Cylinder", "Cone", "Torus", "Instance"];
-    let others = ["soft or hard", "Sun", "Point", "Spot", "Standard", "image", "color", "tiny", "huge"];
-    let missing: Vec<_> = modes.iter().chain(&shapes).chain(&others).filter(|kind| !seen.contains(**kind)).collect();
+    let modes = [
+        "Phong",
+        "Zbuffer",
+        "Normal",
+        "Gooch",
+        "Path",
+        "Perspective",
+        "Orthographic",
+    ];
+    let shapes = [
+        "Sphere", "Plane", "Triangle", "Quad", "Disc", "Cylinder", "Cone", "Torus", "Instance",
+    ];
+    let others = [
+        "soft or hard",
+        "Sun",
+        "Point",
+        "Spot",
+        "Standard",
+        "image",
+        "color",
+        "tiny",
+        "huge",
+    ];
+    let missing: Vec<_> = modes
+        .iter()
+        .chain(&shapes)
+        .chain(&others)
+        .filter(|kind| !seen.contains(**kind))
+        .collect();
     assert!(missing.is_empty(), "{missing:?} of {seen:?}");
 }

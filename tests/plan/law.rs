@@ -1,4 +1,5 @@
-//! The law: with and without the rules the film has the same bits, in both kinds of values, and no rule costs a ray.
+//! The law: with and without the rules the film has the same bits, in both kinds of values, and no
+//! rule costs a ray.
 
 use super::dice::Dice;
 use super::stage::{ball, disc, first_light, matt, shiny, with};
@@ -22,21 +23,31 @@ fn faults(scene: &Scene, sets: &[(String, Rules)]) -> Vec<String> {
     let scene = proven(scene);
     let mut faults = Vec::new();
     // What is clamped can only hide a difference; one set shows that it is clamped alike.
-    let kinds: &[Values] = if sets.len() == 1 { &[Values::Linear, Values::Display] } else { &[Values::Linear] };
+    let kinds: &[Values] = if sets.len() == 1 {
+        &[Values::Linear, Values::Display]
+    } else {
+        &[Values::Linear]
+    };
     for values in kinds.iter().copied() {
         let unpruned = film(&scene, Rules::NONE, values);
         for (name, rules) in sets {
             let pruned = film(&scene, *rules, values);
             if bits(&pruned) != bits(&unpruned) {
-                let same = |(a, b): (&[f64; 3], &[f64; 3])| a.map(f64::to_bits) == b.map(f64::to_bits);
+                let same =
+                    |(a, b): (&[f64; 3], &[f64; 3])| a.map(f64::to_bits) == b.map(f64::to_bits);
                 let pixels = || pruned.image.pixels.iter().zip(&unpruned.image.pixels);
                 let first = pixels().position(|pair| !same(pair)).unwrap();
                 let (a, b) = (pruned.image.pixels[first], unpruned.image.pixels[first]);
                 let count = pixels().filter(|pair| !same(*pair)).count();
-                faults.push(format!("{name}: {count} pixels, the first is {first}: {a:?} instead of {b:?}"));
+                faults.push(format!(
+                    "{name}: {count} pixels, the first is {first}: {a:?} instead of {b:?}"
+                ));
             }
             if pruned.counts.rays() > unpruned.counts.rays() {
-                faults.push(format!("{name}: {:?} rays instead of {:?}", pruned.counts, unpruned.counts));
+                faults.push(format!(
+                    "{name}: {:?} rays instead of {:?}",
+                    pruned.counts, unpruned.counts
+                ));
             }
         }
     }
@@ -47,7 +58,12 @@ fn obey(folder: &str, sets: &[(String, Rules)]) {
     for path in files(folder) {
         let Some(scene) = scene(&path) else { continue };
         let faults = faults(&small(scene), sets);
-        assert!(faults.is_empty(), "{}:\n{}", file_name(&path), faults.join("\n"));
+        assert!(
+            faults.is_empty(),
+            "{}:\n{}",
+            file_name(&path),
+            faults.join("\n")
+        );
     }
 }
 
@@ -90,40 +106,75 @@ fn each_rule_leaves_something_out_of_some_scene() {
     idle.retain(|rule| !BY_RAYS.contains(rule));
     for seed in 0..1000 {
         let plan = Plan::new(&proven(&Dice::new(seed).scene()), Rules::ALL);
-        let fired = |rule: &Rule| plan.verdicts.iter().any(|verdict| verdict.rule == Some(*rule));
+        let fired = |rule: &Rule| {
+            plan.verdicts
+                .iter()
+                .any(|verdict| verdict.rule == Some(*rule))
+        };
         idle.retain(|rule| !fired(rule));
     }
     assert!(idle.is_empty(), "never fired: {idle:?}");
 }
 
 /// The rules that leave out single rays, which no verdict is on.
-const BY_RAYS: [Rule; 4] = [Rule::ShadowFacing, Rule::PixelMiss, Rule::PixelFlat, Rule::Cut];
+const BY_RAYS: [Rule; 4] = [
+    Rule::ShadowFacing,
+    Rule::PixelMiss,
+    Rule::PixelFlat,
+    Rule::Cut,
+];
 
 #[test]
 fn the_rules_of_single_rays_leave_out_rays_of_their_kind() {
-    let ball_on_wall = with(&[(ball([1.0, 0.0, 1.5], 1.0), shiny()), (disc([0.0; 3], 1.5), shiny())]);
+    let ball_on_wall = with(&[
+        (ball([1.0, 0.0, 1.5], 1.0), shiny()),
+        (disc([0.0; 3], 1.5), shiny()),
+    ]);
     let counts = |scene: &Scene, rules| film(&proven(scene), rules, Values::Linear).counts;
     let saved = |scene: &Scene, rule| {
-        let (less, more) = (counts(scene, Rules::NONE.with(rule)), counts(scene, Rules::NONE));
-        [more.camera - less.camera, more.shadow - less.shadow, more.mirror - less.mirror]
+        let (less, more) = (
+            counts(scene, Rules::NONE.with(rule)),
+            counts(scene, Rules::NONE),
+        );
+        [
+            more.camera - less.camera,
+            more.shadow - less.shadow,
+            more.mirror - less.mirror,
+        ]
     };
     let [camera, shadow, mirror] = saved(&ball_on_wall, Rule::ShadowFacing);
-    assert!(camera == 0 && shadow > 0 && mirror == 0, "away from the light a ball asks nobody");
+    assert!(
+        camera == 0 && shadow > 0 && mirror == 0,
+        "away from the light a ball asks nobody"
+    );
     let [camera, shadow, mirror] = saved(&ball_on_wall, Rule::PixelMiss);
-    assert!(camera > 0 && shadow == 0 && mirror == 0, "where nothing shows there is nothing to shade");
+    assert!(
+        camera > 0 && shadow == 0 && mirror == 0,
+        "where nothing shows there is nothing to shade"
+    );
     let mut dark = with(&[(disc([0.0; 3], 9.0), matt())]);
     (dark.settings.supersampling, first_light(&mut dark).position) = (3, [0.0, 0.0, -5.0]);
-    assert_eq!(saved(&dark, Rule::PixelFlat)[0], 24 * 20 * 8, "one of nine rays a pixel");
+    assert_eq!(
+        saved(&dark, Rule::PixelFlat)[0],
+        24 * 20 * 8,
+        "one of nine rays a pixel"
+    );
     let mut deep = with(&[(ball([0.0; 3], 14.0), shiny())]);
     deep.settings.max_depth = 40;
     let [less, more] = [Rules::ALL.with(Rule::Cut), Rules::ALL].map(|rules| counts(&deep, rules));
-    assert!(less.mirror < more.mirror && less.camera == more.camera, "{less:?}, {more:?}");
+    assert!(
+        less.mirror < more.mirror && less.camera == more.camera,
+        "{less:?}, {more:?}"
+    );
 }
 
 #[test]
 fn a_world_that_shows_another_view_keeps_the_law() {
     // The first view leaves out the disc, which stands behind its eye.
-    let mut scene = with(&[(ball([0.0; 3], 1.0), matt()), (disc([0.0, 0.0, 30.0], 2.0), matt())]);
+    let mut scene = with(&[
+        (ball([0.0; 3], 1.0), matt()),
+        (disc([0.0, 0.0, 30.0], 2.0), matt()),
+    ]);
     let first = proven(&scene);
     scene.camera.eye = [0.0, 0.0, 60.0];
     let second = proven(&scene);
@@ -132,7 +183,18 @@ fn a_world_that_shows_another_view_keeps_the_law() {
     let mut world = AnyWorld::prepare(&first, &plans[0]);
     for scene in [second, first] {
         world.change(scene.clone());
-        let seen = world.render(&Job { values: Values::Linear, ..Job::default() }, &|_| true).unwrap();
-        assert_eq!(bits(&seen), bits(&film(&scene, Rules::NONE, Values::Linear)));
+        let seen = world
+            .render(
+                &Job {
+                    values: Values::Linear,
+                    ..Job::default()
+                },
+                &|_| true,
+            )
+            .unwrap();
+        assert_eq!(
+            bits(&seen),
+            bits(&film(&scene, Rules::NONE, Values::Linear))
+        );
     }
 }

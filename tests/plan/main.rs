@@ -1,8 +1,9 @@
-//! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the right reason.
+//! The plan: what is left out adds nothing, what is kept adds something, and who asks is told the
+//! right reason.
 //!
-//! The strength of this suite and of the unit tests of the rules is measured by `benches/mutants.sh`: mutants that survive
-//! want a test. Scenes of the course and of the wild are read from `../shared`; where that is absent, the tests that need it
-//! say so and pass.
+//! The strength of this suite and of the unit tests of the rules is measured by
+//! `benches/mutants.sh`: mutants that survive want a test. Scenes of the course and of the wild are
+//! read from `../shared`; where that is absent, the tests that need it say so and pass.
 
 #![expect(
     clippy::unwrap_used,
@@ -48,8 +49,15 @@ fn files(folder: &str) -> Vec<PathBuf> {
     let (mut open, mut found) = (vec![root(folder)], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
-            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if path.extension().is_some_and(|extension| extension == "yaml" || extension == "yml") {
+            open.extend(
+                fs::read_dir(path)
+                    .unwrap()
+                    .map(|entry| entry.unwrap().path()),
+            );
+        } else if path
+            .extension()
+            .is_some_and(|extension| extension == "yaml" || extension == "yml")
+        {
             found.push(path);
         }
     }
@@ -77,10 +85,19 @@ fn course(name: &str) -> Option<Scene> {
 
 /// The scene with few pixels, samples and bounces.
 fn small(mut scene: Scene) -> Scene {
-    let (sampling, depth) = (scene.settings.supersampling.min(2), scene.settings.max_depth.min(4));
+    let (sampling, depth) = (
+        scene.settings.supersampling.min(2),
+        scene.settings.max_depth.min(4),
+    );
     let size = Some([22, 18]);
-    Overrides { size, supersampling: Some(sampling), depth: Some(depth), spp: Some(2), ..Overrides::default() }
-        .apply(&mut scene);
+    Overrides {
+        size,
+        supersampling: Some(sampling),
+        depth: Some(depth),
+        spp: Some(2),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(3);
     scene.settings.light_samples = scene.settings.light_samples.min(4);
     scene
@@ -88,23 +105,41 @@ fn small(mut scene: Scene) -> Scene {
 
 fn proven(scene: &Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
     pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
-    let job = Job { values, ..Job::default() };
-    pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true).unwrap().unwrap()
+    let job = Job {
+        values,
+        ..Job::default()
+    };
+    pipeline::render(scene, &Plan::new(scene, rules), &job, 2, &|_| true)
+        .unwrap()
+        .unwrap()
 }
 
 fn bits(film: &Film) -> Vec<u64> {
-    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+    film.image
+        .pixels
+        .iter()
+        .flatten()
+        .map(|value| value.to_bits())
+        .collect()
 }
 
 /// The verdict on an effect of the whole scene.
 fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
-    let mut all = plan.verdicts.iter().filter(|verdict| verdict.effect == effect && verdict.of.is_none());
-    let first = all.next().unwrap_or_else(|| panic!("there is a verdict on {effect:?}"));
+    let mut all = plan
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+    let first = all
+        .next()
+        .unwrap_or_else(|| panic!("there is a verdict on {effect:?}"));
     assert!(all.next().is_none(), "there is one verdict on {effect:?}");
     first
 }

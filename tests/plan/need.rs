@@ -1,4 +1,5 @@
-//! No false need: an effect that a scene can be seen to do without, in several ways to say so, is left out in all.
+//! No false need: an effect that a scene can be seen to do without, in several ways to say so, is
+//! left out in all.
 
 use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage, texture, with};
 use super::{fate, verdict};
@@ -22,8 +23,13 @@ fn changed(scene: &Scene, change: impl FnOnce(&mut Scene)) -> Scene {
 
 /// A shiny ball before a shiny wall.
 fn busy() -> Scene {
-    let surfaces = [(ball([0.0, 0.0, 3.0], 1.0), shiny()), (disc([0.0; 3], 4.0), shiny())];
-    changed(&with(&surfaces), |scene| (scene.settings.supersampling, scene.settings.light_samples) = (2, 4))
+    let surfaces = [
+        (ball([0.0, 0.0, 3.0], 1.0), shiny()),
+        (disc([0.0; 3], 4.0), shiny()),
+    ];
+    changed(&with(&surfaces), |scene| {
+        (scene.settings.supersampling, scene.settings.light_samples) = (2, 4)
+    })
 }
 
 fn all(scene: &mut Scene, change: impl Fn(&mut rtc::ir::Phong)) {
@@ -41,10 +47,16 @@ fn highlights() {
     is_not_needed(
         Effect::Highlight,
         &[
-            ("ks is 0", changed(&busy(), |scene| all(scene, |phong| phong.ks = 0.0))),
+            (
+                "ks is 0",
+                changed(&busy(), |scene| all(scene, |phong| phong.ks = 0.0)),
+            ),
             ("the light is black", changed(&busy(), black)),
             ("no light", changed(&busy(), |scene| scene.lights.clear())),
-            ("a depth buffer", changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer)),
+            (
+                "a depth buffer",
+                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+            ),
             ("out of sight", changed(&busy(), unseen)),
         ],
     );
@@ -63,29 +75,60 @@ fn mirrors() {
     is_not_needed(
         Effect::Mirror,
         &[
-            ("ks is 0", changed(&busy(), |scene| all(scene, |phong| phong.ks = 0.0))),
-            ("no bounce", changed(&busy(), |scene| scene.settings.max_depth = 0)),
+            (
+                "ks is 0",
+                changed(&busy(), |scene| all(scene, |phong| phong.ks = 0.0)),
+            ),
+            (
+                "no bounce",
+                changed(&busy(), |scene| scene.settings.max_depth = 0),
+            ),
             ("the mirror is behind the camera", changed(&busy(), aside)),
-            ("a mirror with nothing before it", changed(&busy(), nothing_before)),
+            (
+                "a mirror with nothing before it",
+                changed(&busy(), nothing_before),
+            ),
             ("one ball", with(&[(ball([0.0; 3], 1.0), shiny())])),
-            ("a normal buffer", changed(&busy(), |scene| scene.settings.mode = Mode::Normal)),
+            (
+                "a normal buffer",
+                changed(&busy(), |scene| scene.settings.mode = Mode::Normal),
+            ),
         ],
     );
 }
 
 #[test]
 fn shadows() {
-    let beside = with(&[(ball([0.0; 3], 1.0), matt()), (ball([0.0, -5.0, 0.0], 1.0), matt())]);
+    let beside = with(&[
+        (ball([0.0; 3], 1.0), matt()),
+        (ball([0.0, -5.0, 0.0], 1.0), matt()),
+    ]);
     is_not_needed(
         Effect::Shadows,
         &[
-            ("not asked for", changed(&busy(), |scene| scene.settings.shadows = false)),
+            (
+                "not asked for",
+                changed(&busy(), |scene| scene.settings.shadows = false),
+            ),
             ("one ball", with(&[(ball([0.0; 3], 1.0), matt())])),
             ("one disc", with(&[(disc([0.0; 3], 1.0), matt())])),
             ("nothing between", beside),
-            ("a black light", changed(&busy(), |scene| first_light(scene).color = [0.0; 3])),
-            ("nothing shows light", changed(&busy(), |scene| all(scene, |phong| (phong.kd, phong.ks) = (0.0, 0.0)))),
-            ("black surfaces", changed(&busy(), |scene| all(scene, |phong| (phong.color, phong.ks) = ([0.0; 3], 0.0)))),
+            (
+                "a black light",
+                changed(&busy(), |scene| first_light(scene).color = [0.0; 3]),
+            ),
+            (
+                "nothing shows light",
+                changed(&busy(), |scene| {
+                    all(scene, |phong| (phong.kd, phong.ks) = (0.0, 0.0))
+                }),
+            ),
+            (
+                "black surfaces",
+                changed(&busy(), |scene| {
+                    all(scene, |phong| (phong.color, phong.ks) = ([0.0; 3], 0.0))
+                }),
+            ),
         ],
     );
 }
@@ -99,10 +142,21 @@ fn lights() {
     is_not_needed(
         Effect::DirectLight,
         &[
-            ("black", changed(&busy(), |scene| first_light(scene).color = [0.0; 3])),
-            ("kd and ks are 0", changed(&busy(), |scene| all(scene, |phong| (phong.kd, phong.ks) = (0.0, 0.0)))),
+            (
+                "black",
+                changed(&busy(), |scene| first_light(scene).color = [0.0; 3]),
+            ),
+            (
+                "kd and ks are 0",
+                changed(&busy(), |scene| {
+                    all(scene, |phong| (phong.kd, phong.ks) = (0.0, 0.0))
+                }),
+            ),
             ("behind a wall", changed(&busy(), behind)),
-            ("a depth buffer", changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer)),
+            (
+                "a depth buffer",
+                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+            ),
             ("no surface", stage()),
         ],
     );
@@ -112,8 +166,14 @@ fn lights() {
         Effect::SoftLight,
         &[
             ("no radius", busy()),
-            ("one sample", changed(&soft, |scene| scene.settings.light_samples = 1)),
-            ("black", changed(&soft, |scene| first_light(scene).color = [0.0; 3])),
+            (
+                "one sample",
+                changed(&soft, |scene| scene.settings.light_samples = 1),
+            ),
+            (
+                "black",
+                changed(&soft, |scene| first_light(scene).color = [0.0; 3]),
+            ),
             ("behind a wall", changed(&soft, behind)),
         ],
     );
@@ -121,23 +181,43 @@ fn lights() {
 
 #[test]
 fn lenses_and_samples() {
-    let lens = changed(&busy(), |scene| scene.camera.lens = rtc::ir::Lens { radius: 0.2, samples: 4 });
+    let lens = changed(&busy(), |scene| {
+        scene.camera.lens = rtc::ir::Lens {
+            radius: 0.2,
+            samples: 4,
+        }
+    });
     assert_eq!(fate(&lens, Effect::Lens).0, State::Needed);
     let away = |scene: &mut Scene| scene.camera.center = [0.0, 0.0, 20.0];
     is_not_needed(
         Effect::Lens,
         &[
-            ("no radius", changed(&lens, |scene| scene.camera.lens.radius = 0.0)),
-            ("one sample", changed(&lens, |scene| scene.camera.lens.samples = 1)),
-            ("a depth buffer", changed(&lens, |scene| scene.settings.mode = Mode::Zbuffer)),
+            (
+                "no radius",
+                changed(&lens, |scene| scene.camera.lens.radius = 0.0),
+            ),
+            (
+                "one sample",
+                changed(&lens, |scene| scene.camera.lens.samples = 1),
+            ),
+            (
+                "a depth buffer",
+                changed(&lens, |scene| scene.settings.mode = Mode::Zbuffer),
+            ),
             ("nothing in view", changed(&lens, away)),
         ],
     );
     is_not_needed(
         Effect::Supersampling,
         &[
-            ("a factor of 1", changed(&busy(), |scene| scene.settings.supersampling = 1)),
-            ("a depth buffer", changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer)),
+            (
+                "a factor of 1",
+                changed(&busy(), |scene| scene.settings.supersampling = 1),
+            ),
+            (
+                "a depth buffer",
+                changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
+            ),
             ("nothing in view", changed(&busy(), away)),
         ],
     );
@@ -145,30 +225,54 @@ fn lenses_and_samples() {
 
 #[test]
 fn glossy_lobes_and_refraction() {
-    let glossy = changed(&busy(), |scene| all(scene, |phong| (phong.glossy_samples, phong.kt) = (4, 0.5)));
-    let opaque = changed(&busy(), |scene| all(scene, |phong| phong.glossy_samples = 4));
+    let glossy = changed(&busy(), |scene| {
+        all(scene, |phong| (phong.glossy_samples, phong.kt) = (4, 0.5))
+    });
+    let opaque = changed(&busy(), |scene| {
+        all(scene, |phong| phong.glossy_samples = 4)
+    });
     for effect in [Effect::GlossyReflection, Effect::Refraction] {
         assert_eq!(fate(&glossy, effect).0, State::Needed);
         is_not_needed(
             effect,
             &[
-                ("no bounce", changed(&glossy, |scene| scene.settings.max_depth = 0)),
-                ("another mode", changed(&glossy, |scene| scene.settings.mode = Mode::Normal)),
-                ("nothing in view", changed(&glossy, |scene| scene.camera.center = [0.0, 0.0, 20.0])),
+                (
+                    "no bounce",
+                    changed(&glossy, |scene| scene.settings.max_depth = 0),
+                ),
+                (
+                    "another mode",
+                    changed(&glossy, |scene| scene.settings.mode = Mode::Normal),
+                ),
+                (
+                    "nothing in view",
+                    changed(&glossy, |scene| scene.camera.center = [0.0, 0.0, 20.0]),
+                ),
                 ("not asked for", busy()),
             ],
         );
     }
     let unshiny = changed(&opaque, |scene| all(scene, |phong| phong.ks = 0.0));
-    assert_ne!(fate(&unshiny, Effect::GlossyReflection).0, State::Needed, "of weight 0");
+    assert_ne!(
+        fate(&unshiny, Effect::GlossyReflection).0,
+        State::Needed,
+        "of weight 0"
+    );
 }
 
 #[test]
 fn textures_and_normal_maps() {
     let mapped = changed(&busy(), |scene| {
         let texture = texture(scene, [10, 20, 30], [40, 50, 60]);
-        let bump = Some(Bump { texture, height: 1.0 });
-        let all = rtc::ir::Phong { color_map: Some(texture), bump, ..shiny() };
+        let bump = Some(Bump {
+            texture,
+            height: 1.0,
+        });
+        let all = rtc::ir::Phong {
+            color_map: Some(texture),
+            bump,
+            ..shiny()
+        };
         *material(scene, 0) = all;
     });
     let out_of_sight = |scene: &mut Scene| {
@@ -180,15 +284,28 @@ fn textures_and_normal_maps() {
         is_not_needed(
             effect,
             &[
-                ("no uv", changed(&mapped, |scene| scene.surfaces[0].shape = disc([0.0, 0.0, 3.0], 1.0))),
-                ("unused", changed(&mapped, |scene| scene.surfaces.truncate(0))),
+                (
+                    "no uv",
+                    changed(&mapped, |scene| {
+                        scene.surfaces[0].shape = disc([0.0, 0.0, 3.0], 1.0)
+                    }),
+                ),
+                (
+                    "unused",
+                    changed(&mapped, |scene| scene.surfaces.truncate(0)),
+                ),
                 ("out of sight", changed(&mapped, out_of_sight)),
-                ("a depth buffer", changed(&mapped, |scene| scene.settings.mode = Mode::Zbuffer)),
+                (
+                    "a depth buffer",
+                    changed(&mapped, |scene| scene.settings.mode = Mode::Zbuffer),
+                ),
                 (
                     "no light",
                     changed(&mapped, |scene| {
                         scene.lights.clear();
-                        all(scene, |phong| (phong.ka, phong.kd, phong.ks) = (0.0, 0.0, 0.0));
+                        all(scene, |phong| {
+                            (phong.ka, phong.kd, phong.ks) = (0.0, 0.0, 0.0)
+                        });
                     }),
                 ),
             ],
@@ -196,22 +313,44 @@ fn textures_and_normal_maps() {
     }
 }
 
-/// 0 times infinity is no number: what is not finite is refused, and never left out for a factor of 0.
+/// 0 times infinity is no number: what is not finite is refused, and never left out for a factor of
+/// 0.
 #[test]
 fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
     for color in [f64::INFINITY, f64::NAN, 1e61] {
-        let mut scene = changed(&busy(), |scene| all(scene, |phong| (phong.ka, phong.kd, phong.ks) = (0.0, 0.0, 0.0)));
+        let mut scene = changed(&busy(), |scene| {
+            all(scene, |phong| {
+                (phong.ka, phong.kd, phong.ks) = (0.0, 0.0, 0.0)
+            })
+        });
         first_light(&mut scene).color[1] = color;
         let (mut sink, options) = (Sink::default(), Options::default());
-        let lowered = Lowered { scene, origins: Origins::default() };
-        assert!(pipeline::prove(&lowered, &options, &mut sink).is_none() && sink.has_errors(), "{color}");
+        let lowered = Lowered {
+            scene,
+            origins: Origins::default(),
+        };
+        assert!(
+            pipeline::prove(&lowered, &options, &mut sink).is_none() && sink.has_errors(),
+            "{color}"
+        );
     }
 }
 
 /// Small balls side by side before a wide camera, the first of them mirrors.
 fn many(count: u32, mirrors: u32) -> Scene {
-    let place = |k: u32| [f64::from(k % 40) * 0.8 - 16.0, f64::from(k / 40) - 14.0, 0.0];
-    let balls = (0..count).map(|k| (ball(place(k), 0.3), if k < mirrors { shiny() } else { matt() }));
+    let place = |k: u32| {
+        [
+            f64::from(k % 40) * 0.8 - 16.0,
+            f64::from(k / 40) - 14.0,
+            0.0,
+        ]
+    };
+    let balls = (0..count).map(|k| {
+        (
+            ball(place(k), 0.3),
+            if k < mirrors { shiny() } else { matt() },
+        )
+    });
     let mut scene = with(&balls.collect::<Vec<_>>());
     (scene.camera.right, scene.camera.up) = ([1.5, 0.0, 0.0], [0.0, 1.5, 0.0]);
     scene
@@ -239,40 +378,73 @@ fn too_many_mirrors_are_followed_without_asking() {
         verdict(&plan, Effect::Depth).because.clone()
     };
     assert_eq!(because(1000, 500), "2 bounces: mirrors show mirrors");
-    assert_eq!(because(1001, 500), "2 bounces; too many mirrors to ask which sees which");
+    assert_eq!(
+        because(1001, 500),
+        "2 bounces; too many mirrors to ask which sees which"
+    );
 }
 
 /// The cells of a large picture are several pixels wide.
 #[test]
 fn a_large_picture_is_looked_at_in_coarse_cells() {
     let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
-    (scene.camera.size, scene.camera.right, scene.camera.up) = ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
+    (scene.camera.size, scene.camera.right, scene.camera.up) =
+        ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
     let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
-    let sights = [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
-    assert_eq!(sights, [Sight::Nothing, Sight::Anything, Sight::Nothing, Sight::Nothing]);
+    let sights =
+        [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
+    assert_eq!(
+        sights,
+        [
+            Sight::Nothing,
+            Sight::Anything,
+            Sight::Nothing,
+            Sight::Nothing
+        ]
+    );
 }
 
 #[test]
 fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
     let scene = super::proven(&with(&[(ball([0.0; 3], 1.0), matt())]));
     let region = |rules| Plan::new(&scene, rules).region;
-    let (some, none) = (region(Rules::ALL), region(Rules::ALL.without(Rule::PixelMiss)));
-    assert_eq!([some.sight([0, 0]), none.sight([0, 0])], [Sight::Nothing, Sight::Anything]);
+    let (some, none) = (
+        region(Rules::ALL),
+        region(Rules::ALL.without(Rule::PixelMiss)),
+    );
+    assert_eq!(
+        [some.sight([0, 0]), none.sight([0, 0])],
+        [Sight::Nothing, Sight::Anything]
+    );
     assert!(some.empty_share() > 0.5 && none.empty_share() == 0.0);
 }
 
 #[test]
 fn a_plane_is_never_said_to_spare_itself() {
-    assert_eq!(fate(&with(&[(plane(-1.0), matt())]), Effect::Shadows).0, State::Needed);
+    assert_eq!(
+        fate(&with(&[(plane(-1.0), matt())]), Effect::Shadows).0,
+        State::Needed
+    );
 }
 
 /// What is said of materials takes one look at each surface.
 #[test]
 fn materials_that_show_no_highlight_are_named_and_the_others_are_not() {
-    let scene = with(&[(ball([-1.2, 0.0, 0.0], 1.0), matt()), (ball([1.2, 0.0, 0.0], 1.0), shiny())]);
+    let scene = with(&[
+        (ball([-1.2, 0.0, 0.0], 1.0), matt()),
+        (ball([1.2, 0.0, 0.0], 1.0), shiny()),
+    ]);
     let plan = Plan::new(&super::proven(&scene), Rules::ALL);
     for effect in [Effect::Highlight, Effect::Mirror] {
-        let named = plan.verdicts.iter().filter(|verdict| verdict.effect == effect).filter_map(|verdict| verdict.of);
-        assert_eq!(named.map(|place| place.to_string()).collect::<Vec<_>>(), ["/materials/0"], "{effect:?}");
+        let named = plan
+            .verdicts
+            .iter()
+            .filter(|verdict| verdict.effect == effect)
+            .filter_map(|verdict| verdict.of);
+        assert_eq!(
+            named.map(|place| place.to_string()).collect::<Vec<_>>(),
+            ["/materials/0"],
+            "{effect:?}"
+        );
     }
 }

@@ -1,19 +1,33 @@
-//! What the scenes of the course call for, read off their text by hand: effects needed, and those left out with the rule.
+//! What the scenes of the course call for, read off their text by hand: effects needed, and those
+//! left out with the rule.
 
 use super::{course, proven, verdict};
 use rtc::plan::{Effect, Plan, Rules, State};
 
 use Effect::{
-    DepthBuffer, DirectLight, GlossyReflection, Highlight, Lens, Mirror, NormalBuffer, NormalInterpolation,
-    NormalMapping, Refraction, Shadows, SoftLight, Supersampling, Surfaces, Textures,
+    DepthBuffer, DirectLight, GlossyReflection, Highlight, Lens, Mirror, NormalBuffer,
+    NormalInterpolation, NormalMapping, Refraction, Shadows, SoftLight, Supersampling, Surfaces,
+    Textures,
 };
 
-type Row = (&'static str, &'static [Effect], &'static [(Effect, &'static str)]);
+type Row = (
+    &'static str,
+    &'static [Effect],
+    &'static [(Effect, &'static str)],
+);
 
 /// The scene, the effects it needs beside surfaces, and the rules that left out what it asks for.
 const SCENES: &[Row] = &[
-    ("scene01-normal.yaml", &[NormalBuffer], &[(DirectLight, "E-MODE"), (Highlight, "E-MODE")]),
-    ("scene01-zbuffer.yaml", &[DepthBuffer], &[(DirectLight, "E-MODE"), (Highlight, "E-MODE")]),
+    (
+        "scene01-normal.yaml",
+        &[NormalBuffer],
+        &[(DirectLight, "E-MODE"), (Highlight, "E-MODE")],
+    ),
+    (
+        "scene01-zbuffer.yaml",
+        &[DepthBuffer],
+        &[(DirectLight, "E-MODE"), (Highlight, "E-MODE")],
+    ),
     (
         "blue-earth.yaml",
         &[DirectLight, Textures, Supersampling],
@@ -27,21 +41,63 @@ const SCENES: &[Row] = &[
     ("tori.yaml", &[DirectLight, Highlight], &[]),
     ("scene01.yaml", &[DirectLight, Highlight], &[]),
     ("scene02.yaml", &[DirectLight, Highlight], &[]),
-    ("scene01-ss.yaml", &[DirectLight, Highlight, Supersampling], &[]),
+    (
+        "scene01-ss.yaml",
+        &[DirectLight, Highlight, Supersampling],
+        &[],
+    ),
     ("scene01-gooch.yaml", &[DirectLight, Highlight], &[]),
-    ("mesh.yaml", &[DirectLight, Highlight, Mirror, NormalInterpolation, Supersampling], &[]),
-    ("scene01-shadows.yaml", &[DirectLight, Shadows, Highlight], &[]),
-    ("scene01-lights-shadows.yaml", &[DirectLight, Shadows, Highlight], &[]),
-    ("scene01-reflect-lights-shadows.yaml", &[DirectLight, Shadows, Highlight, Mirror], &[]),
-    ("scene01-camera-ss-reflect-lights-shadows.yaml", &[DirectLight, Shadows, Highlight, Mirror, Supersampling], &[]),
-    ("scene01-texture-ss-reflect-lights-shadows.yaml", &[DirectLight, Shadows, Highlight, Mirror, Textures], &[]),
+    (
+        "mesh.yaml",
+        &[
+            DirectLight,
+            Highlight,
+            Mirror,
+            NormalInterpolation,
+            Supersampling,
+        ],
+        &[],
+    ),
+    (
+        "scene01-shadows.yaml",
+        &[DirectLight, Shadows, Highlight],
+        &[],
+    ),
+    (
+        "scene01-lights-shadows.yaml",
+        &[DirectLight, Shadows, Highlight],
+        &[],
+    ),
+    (
+        "scene01-reflect-lights-shadows.yaml",
+        &[DirectLight, Shadows, Highlight, Mirror],
+        &[],
+    ),
+    (
+        "scene01-camera-ss-reflect-lights-shadows.yaml",
+        &[DirectLight, Shadows, Highlight, Mirror, Supersampling],
+        &[],
+    ),
+    (
+        "scene01-texture-ss-reflect-lights-shadows.yaml",
+        &[DirectLight, Shadows, Highlight, Mirror, Textures],
+        &[],
+    ),
     (
         "scene01-dof-ss-reflect-lights-shadows.yaml",
         &[DirectLight, Shadows, Highlight, Mirror, Lens, Supersampling],
         &[],
     ),
-    ("olympic.yaml", &[DirectLight, Shadows, Highlight, Mirror, Supersampling], &[]),
-    ("small.yaml", &[DirectLight, Shadows, Highlight, Mirror, Supersampling], &[]),
+    (
+        "olympic.yaml",
+        &[DirectLight, Shadows, Highlight, Mirror, Supersampling],
+        &[],
+    ),
+    (
+        "small.yaml",
+        &[DirectLight, Shadows, Highlight, Mirror, Supersampling],
+        &[],
+    ),
 ];
 
 /// All effects there are a verdict on, but those that are others in sum.
@@ -72,7 +128,10 @@ fn the_course_calls_for_what_its_text_says() {
         for effect in EFFECTS {
             let found = verdict(&plan, effect);
             let is_needed = found.state == State::Needed;
-            let rule = pruned.iter().find(|(of, _)| *of == effect).map(|(_, rule)| *rule);
+            let rule = pruned
+                .iter()
+                .find(|(of, _)| *of == effect)
+                .map(|(_, rule)| *rule);
             let wanted = rule.is_none() || rule == found.rule.map(|rule| rule.name());
             if is_needed != needed.contains(&effect) || !wanted {
                 faults.push(format!("{name}: {found:?}"));

@@ -17,13 +17,17 @@ fn lost(scene: &Scene) -> Option<Loss> {
 }
 
 fn is_near(found: f64, wanted: f64) {
-    assert!((found / wanted - 1.0).abs() < 1e-9, "{found:e}, not {wanted:e}");
+    assert!(
+        (found / wanted - 1.0).abs() < 1e-9,
+        "{found:e}, not {wanted:e}"
+    );
 }
 
 /// Below the eye at (0, 0, 10), 1000 away, 990 from the origin.
 const DEEP: [f64; 3] = [0.0, 0.0, -990.0];
 
-/// A mesh of one triangle with its first corner at the middle of its space, turned and stretched and set at `origin`.
+/// A mesh of one triangle with its first corner at the middle of its space, turned and stretched
+/// and set at `origin`.
 fn instance(origin: [f64; 3]) -> Scene {
     let mut scene = one(ball([0.0; 3], 1.0));
     scene.meshes.push(ir::Mesh {
@@ -33,8 +37,14 @@ fn instance(origin: [f64; 3]) -> Scene {
         ..ir::Mesh::default()
     });
     let [x, y, z] = [[1.0, 2.0, 0.0], [-3.0, 0.0, 0.0], [0.0, 1.0, 1.0]];
-    let shape = Shape::Instance(ir::Instance { mesh: ir::MeshId(0), world_from_object: [x, y, z, origin] });
-    scene.surfaces[0] = Surface { shape, ..scene.surfaces[0].clone() };
+    let shape = Shape::Instance(ir::Instance {
+        mesh: ir::MeshId(0),
+        world_from_object: [x, y, z, origin],
+    });
+    scene.surfaces[0] = Surface {
+        shape,
+        ..scene.surfaces[0].clone()
+    };
     scene
 }
 
@@ -42,44 +52,109 @@ fn instance(origin: [f64; 3]) -> Scene {
 fn points_are_off_by_the_rounding_of_their_coordinates_and_of_the_polynomial_over_its_slope() {
     let [right, up] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let corner = |x: f64, y: f64| [x, y, -990.0];
-    let torus = |major: f64, minor: f64| Shape::Torus(ir::Torus { center: DEEP, axis: up, major, minor });
-    let slanted = ir::Plane { center: DEEP, normal: [0.0, 6.0, 8.0] };
+    let torus = |major: f64, minor: f64| {
+        Shape::Torus(ir::Torus {
+            center: DEEP,
+            axis: up,
+            major,
+            minor,
+        })
+    };
+    let slanted = ir::Plane {
+        center: DEEP,
+        normal: [0.0, 6.0, 8.0],
+    };
     let flat = [
-        Shape::Triangle(ir::Triangle { vertices: [DEEP, corner(9.0, 0.0), corner(0.0, 9.0)], uvs: None }),
-        Shape::Quad(ir::Quad { vertices: [DEEP, corner(9.0, 0.0), corner(9.0, 9.0), corner(0.0, 9.0)] }),
-        Shape::Disc(ir::Disc { center: DEEP, normal: right, radius: 9.0 }),
+        Shape::Triangle(ir::Triangle {
+            vertices: [DEEP, corner(9.0, 0.0), corner(0.0, 9.0)],
+            uvs: None,
+        }),
+        Shape::Quad(ir::Quad {
+            vertices: [DEEP, corner(9.0, 0.0), corner(9.0, 9.0), corner(0.0, 9.0)],
+        }),
+        Shape::Disc(ir::Disc {
+            center: DEEP,
+            normal: right,
+            radius: 9.0,
+        }),
     ];
-    let rows = flat.into_iter().map(|shape| (shape, 990.0 + 1000.0)).chain([
-        (plane(-1000.0), 1000.0 + 1000.0),
-        // Its nearest point is (0, −480, −630).
-        (Shape::Plane(slanted), 630.0 + 800.0),
-        (ball(DEEP, 50.0), 990.0 + 1000.0 * 20.0),
-        (ball(DEEP, 5000.0), 990.0 + 1000.0),
-        (Shape::Cylinder(ir::Cylinder { base: DEEP, axis: up, height: 9.0, radius: 50.0 }), 990.0 + 1000.0 * 20.0),
-        (Shape::Cone(ir::Cone { base: DEEP, up, radius: 50.0 }), 990.0 + 1000.0 * 20.0),
-        (torus(40.0, 10.0), 990.0 + 16.0 * 1000.0 * 10.0 * 10.0 * 50.0),
-        (torus(400.0, 300.0), 990.0 + 16.0 * 1000.0 / 0.6),
-        (torus(4000.0, 900.0), 990.0 + 16.0 * 1000.0),
-    ]);
+    let rows = flat
+        .into_iter()
+        .map(|shape| (shape, 990.0 + 1000.0))
+        .chain([
+            (plane(-1000.0), 1000.0 + 1000.0),
+            // Its nearest point is (0, −480, −630).
+            (Shape::Plane(slanted), 630.0 + 800.0),
+            (ball(DEEP, 50.0), 990.0 + 1000.0 * 20.0),
+            (ball(DEEP, 5000.0), 990.0 + 1000.0),
+            (
+                Shape::Cylinder(ir::Cylinder {
+                    base: DEEP,
+                    axis: up,
+                    height: 9.0,
+                    radius: 50.0,
+                }),
+                990.0 + 1000.0 * 20.0,
+            ),
+            (
+                Shape::Cone(ir::Cone {
+                    base: DEEP,
+                    up,
+                    radius: 50.0,
+                }),
+                990.0 + 1000.0 * 20.0,
+            ),
+            (
+                torus(40.0, 10.0),
+                990.0 + 16.0 * 1000.0 * 10.0 * 10.0 * 50.0,
+            ),
+            (torus(400.0, 300.0), 990.0 + 16.0 * 1000.0 / 0.6),
+            (torus(4000.0, 900.0), 990.0 + 16.0 * 1000.0),
+        ]);
     for (shape, units) in rows {
         let loss = lost(&one(shape.clone())).unwrap_or_else(|| panic!("{shape:?} loses something"));
         is_near(loss.error, units * UNIT);
         is_near(loss.excess, units * UNIT / NEAREST);
-        assert_eq!((loss.symptom, loss.surface, loss.surfaces), (Symptom::SelfHit, 0, 1));
+        assert_eq!(
+            (loss.symptom, loss.surface, loss.surfaces),
+            (Symptom::SelfHit, 0, 1)
+        );
     }
     is_near(lost(&instance(DEEP)).unwrap().error, 1990.0 * UNIT);
-    let precise = loss(&proven(&one(ball([0.0, 0.0, -1e6], 1e-3))), Arithmetic::Plain).unwrap();
+    let precise = loss(
+        &proven(&one(ball([0.0, 0.0, -1e6], 1e-3))),
+        Arithmetic::Plain,
+    )
+    .unwrap();
     let distance = 1e6 + 10.0;
-    is_near(precise.error, (1e6 + distance * distance / 1e-3) * f64::EPSILON / 2.0);
+    is_near(
+        precise.error,
+        (1e6 + distance * distance / 1e-3) * f64::EPSILON / 2.0,
+    );
     assert!(loss(&proven(&one(ball(DEEP, 50.0))), Arithmetic::Robust).is_none());
 }
 
 #[test]
 fn a_surface_is_skipped_as_a_whole_if_it_is_no_larger_than_what_is_skipped_before_rays() {
     let corner = |x: f64, y: f64| [x * 1e-4, y * 1e-4, 0.0];
-    let triangle = |b, c| Shape::Triangle(ir::Triangle { vertices: [corner(0.0, 0.0), b, c], uvs: None });
-    let quad = |b, c, d| Shape::Quad(ir::Quad { vertices: [corner(0.0, 0.0), b, c, d] });
-    let disc = |radius| Shape::Disc(ir::Disc { center: [0.0; 3], normal: [0.0, 0.0, 1.0], radius });
+    let triangle = |b, c| {
+        Shape::Triangle(ir::Triangle {
+            vertices: [corner(0.0, 0.0), b, c],
+            uvs: None,
+        })
+    };
+    let quad = |b, c, d| {
+        Shape::Quad(ir::Quad {
+            vertices: [corner(0.0, 0.0), b, c, d],
+        })
+    };
+    let disc = |radius| {
+        Shape::Disc(ir::Disc {
+            center: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            radius,
+        })
+    };
     let excess = |scene: &Scene, size: f64| {
         let loss = lost(scene).unwrap();
         assert_eq!(loss.symptom, Symptom::Skipped);
@@ -87,19 +162,33 @@ fn a_surface_is_skipped_as_a_whole_if_it_is_no_larger_than_what_is_skipped_befor
     };
     excess(&one(triangle(corner(3.0, 4.0), corner(1.0, 0.0))), 5e-4);
     excess(&one(triangle(corner(1.0, 0.0), corner(-3.0, 4.0))), 5e-4);
-    excess(&one(quad(corner(1.0, 0.0), corner(3.0, 4.0), corner(0.0, 2.0))), 5e-4);
+    excess(
+        &one(quad(corner(1.0, 0.0), corner(3.0, 4.0), corner(0.0, 2.0))),
+        5e-4,
+    );
     excess(&one(disc(4e-4)), 4e-4);
-    assert!(lost(&one(disc(1.001e-3))).is_none() && lost(&one(disc(0.999e-3))).is_some(), "from a hundredth on");
+    assert!(
+        lost(&one(disc(1.001e-3))).is_none() && lost(&one(disc(0.999e-3))).is_some(),
+        "from a hundredth on"
+    );
     let mut mesh = instance([0.0; 3]);
-    let Shape::Instance(instance) = &mut mesh.surfaces[0].shape else { panic!("a mesh") };
-    instance.world_from_object = instance.world_from_object.map(|axis| axis.map(|value| value * 1e-4));
+    let Shape::Instance(instance) = &mut mesh.surfaces[0].shape else {
+        panic!("a mesh")
+    };
+    instance.world_from_object = instance
+        .world_from_object
+        .map(|axis| axis.map(|value| value * 1e-4));
     // Its corners are at (6, 7, 1) and (−5, 0, −2).
     excess(&mesh, 86.0_f64.sqrt() * 1e-4);
 }
 
 /// A disc that rays would be skipped before, if it sent any.
 fn sends_rays(change: impl FnOnce(&mut Scene)) -> bool {
-    let mut scene = one(Shape::Disc(ir::Disc { center: [0.0; 3], normal: [0.0, 0.0, 1.0], radius: 1e-4 }));
+    let mut scene = one(Shape::Disc(ir::Disc {
+        center: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        radius: 1e-4,
+    }));
     change(&mut scene);
     lost(&scene).is_some()
 }
@@ -110,14 +199,20 @@ fn only_surfaces_that_send_rays_meet_themselves() {
         (scene.settings.shadows, scene.settings.max_depth) = (false, max_depth);
         *material(scene, 0) = Phong { ks, kt, ..matt() };
     }
-    assert!(sends_rays(|scene| scene.settings.max_depth = 0), "shadow rays");
+    assert!(
+        sends_rays(|scene| scene.settings.max_depth = 0),
+        "shadow rays"
+    );
     assert!(!sends_rays(|scene| scene.lights.clear()), "to no light");
     assert!(!sends_rays(|scene| scene.settings.shadows = false));
     assert!(!sends_rays(|scene| scene.settings.mode = Mode::Normal));
     assert!(sends_rays(|scene| mirror(scene, 1, 0.5, 0.0)), "mirrored");
     assert!(sends_rays(|scene| mirror(scene, 1, 0.0, 0.5)), "refracted");
     assert!(!sends_rays(|scene| mirror(scene, 0, 0.5, 0.5)), "no bounce");
-    assert!(!sends_rays(|scene| mirror(scene, 1, 0.0, 0.0)), "nothing to mirror");
+    assert!(
+        !sends_rays(|scene| mirror(scene, 1, 0.0, 0.0)),
+        "nothing to mirror"
+    );
 }
 
 #[test]
@@ -132,9 +227,17 @@ fn round_things_lose_their_shape_by_a_part_of_their_size() {
     is_near(loss.excess, (990.0 + 1000.0 * 500.0) * UNIT * 512.0 / 2.0);
     assert!(round(100.0).is_none());
     // The tube of a torus is what is shaded.
-    let mut torus = one(Shape::Torus(ir::Torus { center: DEEP, axis: [0.0, 1.0, 0.0], major: 40.0, minor: 10.0 }));
+    let mut torus = one(Shape::Torus(ir::Torus {
+        center: DEEP,
+        axis: [0.0, 1.0, 0.0],
+        major: 40.0,
+        minor: 10.0,
+    }));
     torus.settings.mode = Mode::Normal;
-    is_near(lost(&torus).unwrap().excess, (990.0 + 8e7) * UNIT * 512.0 / 10.0);
+    is_near(
+        lost(&torus).unwrap().excess,
+        (990.0 + 8e7) * UNIT * 512.0 / 10.0,
+    );
 }
 
 #[test]
@@ -146,5 +249,8 @@ fn the_worst_of_the_surfaces_that_lose_something_is_named_and_all_are_counted() 
     assert_eq!((loss.surface, loss.surfaces), (2, 3));
     // Of two alike the first is named.
     let scene = with(&[balls[3].clone(), balls[3].clone()]);
-    assert_eq!(lost(&scene).map(|loss| (loss.surface, loss.surfaces)), Some((0, 2)));
+    assert_eq!(
+        lost(&scene).map(|loss| (loss.surface, loss.surfaces)),
+        Some((0, 2))
+    );
 }

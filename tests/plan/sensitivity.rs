@@ -1,6 +1,9 @@
-//! Sensitivity: the least change of the fact that a rule rests on turns its verdict, and the picture changes.
+//! Sensitivity: the least change of the fact that a rule rests on turns its verdict, and the
+//! picture changes.
 
-use super::stage::{ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with};
+use super::stage::{
+    ball, disc, first_light, light, material, matt, plane, shiny, square, texture, with,
+};
 use super::{bits, fate, film, proven};
 use rtc::ir::{Mode, Scene};
 use rtc::plan::{Effect, Rule, Rules, State};
@@ -12,14 +15,18 @@ fn turns(effect: Effect, rule: Rule, scene: &Scene, change: impl FnOnce(&mut Sce
     flips(effect, scene, change);
 }
 
-/// A scene that does without an effect, and a change after which it is needed and the picture another.
+/// A scene that does without an effect, and a change after which it is needed and the picture
+/// another.
 fn flips(effect: Effect, scene: &Scene, change: impl FnOnce(&mut Scene)) {
     assert_ne!(fate(scene, effect).0, State::Needed, "before");
     let mut changed = scene.clone();
     change(&mut changed);
     assert_eq!(fate(&changed, effect).0, State::Needed, "after");
     let picture = |scene| bits(&film(&proven(scene), Rules::ALL, Values::Linear));
-    assert!(picture(scene) != picture(&changed), "{effect:?}: the change does not show");
+    assert!(
+        picture(scene) != picture(&changed),
+        "{effect:?}: the change does not show"
+    );
 }
 
 fn one_ball() -> Scene {
@@ -27,61 +34,101 @@ fn one_ball() -> Scene {
 }
 
 fn two_balls() -> Scene {
-    with(&[(ball([-1.2, 0.0, 0.0], 1.0), matt()), (ball([1.2, 0.0, 0.0], 1.0), matt())])
+    with(&[
+        (ball([-1.2, 0.0, 0.0], 1.0), matt()),
+        (ball([1.2, 0.0, 0.0], 1.0), matt()),
+    ])
 }
 
 #[test]
 fn a_little_ks_makes_a_highlight_and_a_mirror() {
-    turns(Effect::Highlight, Rule::HighlightKs, &one_ball(), |scene| material(scene, 0).ks = 1e-3);
-    turns(Effect::Mirror, Rule::MirrorKs, &two_balls(), |scene| material(scene, 0).ks = 1e-3);
+    turns(Effect::Highlight, Rule::HighlightKs, &one_ball(), |scene| {
+        material(scene, 0).ks = 1e-3
+    });
+    turns(Effect::Mirror, Rule::MirrorKs, &two_balls(), |scene| {
+        material(scene, 0).ks = 1e-3
+    });
 }
 
 #[test]
 fn a_second_ball_and_a_light_inside_make_shadows() {
-    let shadows = |change: &dyn Fn(&mut Scene)| turns(Effect::Shadows, Rule::ShadowConvex, &one_ball(), change);
-    shadows(&|scene| *scene = with(&[(ball([0.0; 3], 1.0), matt()), (ball([0.75, 1.0, 3.0], 0.25), matt())]));
+    let shadows = |change: &dyn Fn(&mut Scene)| {
+        turns(Effect::Shadows, Rule::ShadowConvex, &one_ball(), change)
+    };
+    shadows(&|scene| {
+        *scene = with(&[
+            (ball([0.0; 3], 1.0), matt()),
+            (ball([0.75, 1.0, 3.0], 0.25), matt()),
+        ])
+    });
     // Seen from inside, a ball hides the light.
     shadows(&|scene| scene.camera.eye = [0.0, 0.0, 0.9]);
-    turns(Effect::Shadows, Rule::ShadowPair, &two_balls(), |scene| first_light(scene).position = [9.0, 0.2, 0.0]);
+    turns(Effect::Shadows, Rule::ShadowPair, &two_balls(), |scene| {
+        first_light(scene).position = [9.0, 0.2, 0.0]
+    });
 }
 
 #[test]
 fn a_plane_between_hides_the_light_and_one_beside_does_not() {
-    let far = with(&[(ball([0.0; 3], 1.0), matt()), (ball([0.0, -50.0, 0.0], 1.0), matt())]);
-    turns(Effect::Shadows, Rule::ShadowPair, &far, |scene| scene.surfaces[1].shape = plane(2.0));
+    let far = with(&[
+        (ball([0.0; 3], 1.0), matt()),
+        (ball([0.0, -50.0, 0.0], 1.0), matt()),
+    ]);
+    turns(Effect::Shadows, Rule::ShadowPair, &far, |scene| {
+        scene.surfaces[1].shape = plane(2.0)
+    });
 }
 
 #[test]
 fn a_light_shines_as_soon_as_it_has_a_colour_and_stands_in_front() {
     let mut black = one_ball();
     first_light(&mut black).color = [0.0; 3];
-    turns(Effect::DirectLight, Rule::LightBlack, &black, |scene| first_light(scene).color = [0.0, 1e-3, 0.0]);
+    turns(Effect::DirectLight, Rule::LightBlack, &black, |scene| {
+        first_light(scene).color = [0.0, 1e-3, 0.0]
+    });
     let mut behind = with(&[(disc([0.0; 3], 2.0), shiny())]);
     first_light(&mut behind).position = [5.0, 0.0, -1e-3];
-    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| first_light(scene).position[2] = 1e-3);
+    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| {
+        first_light(scene).position[2] = 1e-3
+    });
     // Without shadows a highlight shines through.
-    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| scene.settings.shadows = false);
+    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| {
+        scene.settings.shadows = false
+    });
     let mut unlit = one_ball();
     material(&mut unlit, 0).kd = 0.0;
-    turns(Effect::DirectLight, Rule::LightUnreached, &unlit, |scene| material(scene, 0).kd = 1e-3);
+    turns(Effect::DirectLight, Rule::LightUnreached, &unlit, |scene| {
+        material(scene, 0).kd = 1e-3
+    });
 }
 
 #[test]
 fn a_lens_needs_a_radius_and_samples() {
     let mut lens = one_ball();
     lens.camera.lens.samples = 4;
-    turns(Effect::Lens, Rule::Pinhole, &lens, |scene| scene.camera.lens.radius = 1e-3);
-    lens.camera.lens = rtc::ir::Lens { radius: 0.1, samples: 1 };
-    turns(Effect::Lens, Rule::Pinhole, &lens, |scene| scene.camera.lens.samples = 2);
+    turns(Effect::Lens, Rule::Pinhole, &lens, |scene| {
+        scene.camera.lens.radius = 1e-3
+    });
+    lens.camera.lens = rtc::ir::Lens {
+        radius: 0.1,
+        samples: 1,
+    };
+    turns(Effect::Lens, Rule::Pinhole, &lens, |scene| {
+        scene.camera.lens.samples = 2
+    });
 }
 
 #[test]
 fn a_soft_light_needs_a_radius_and_samples() {
     let mut soft = one_ball();
     soft.settings.light_samples = 3;
-    flips(Effect::SoftLight, &soft, |scene| first_light(scene).radius = 1e-3);
+    flips(Effect::SoftLight, &soft, |scene| {
+        first_light(scene).radius = 1e-3
+    });
     (soft.settings.light_samples, first_light(&mut soft).radius) = (1, 0.5);
-    turns(Effect::SoftLight, Rule::SoftPoint, &soft, |scene| scene.settings.light_samples = 2);
+    turns(Effect::SoftLight, Rule::SoftPoint, &soft, |scene| {
+        scene.settings.light_samples = 2
+    });
 }
 
 #[test]
@@ -94,7 +141,10 @@ fn one_texel_makes_a_texture() {
         texture(scene, [7, 8, 9], [7, 8, 10]);
     });
     scene.settings.mode = Mode::Normal;
-    assert_eq!(fate(&scene, Effect::Textures), (State::Pruned, Some(Rule::Mode)));
+    assert_eq!(
+        fate(&scene, Effect::Textures),
+        (State::Pruned, Some(Rule::Mode))
+    );
 }
 
 #[test]
@@ -102,48 +152,78 @@ fn one_corner_makes_normals_worth_interpolating() {
     let (up, tilted) = ([0.0, 0.0, 1.0], [1e-3, 0.0, 1.0]);
     let mut scene = with(&[(ball([3.0, 0.0, 0.0], 0.5), matt())]);
     square(&mut scene, [up; 4]);
-    let lean = |scene: &mut Scene| scene.meshes[0].normals = [up, tilted, up, up].into_iter().collect();
+    let lean =
+        |scene: &mut Scene| scene.meshes[0].normals = [up, tilted, up, up].into_iter().collect();
     turns(Effect::NormalInterpolation, Rule::NormalFlat, &scene, lean);
     lean(&mut scene);
     scene.lights.clear();
-    assert_eq!(fate(&scene, Effect::NormalInterpolation), (State::Pruned, Some(Rule::NormalFlat)));
+    assert_eq!(
+        fate(&scene, Effect::NormalInterpolation),
+        (State::Pruned, Some(Rule::NormalFlat))
+    );
 }
 
 #[test]
 fn a_mirror_shows_what_is_before_it_and_nothing_behind() {
-    let behind = with(&[(disc([0.0; 3], 2.0), shiny()), (ball([0.0, 0.0, -4.0], 1.0), matt())]);
+    let behind = with(&[
+        (disc([0.0; 3], 2.0), shiny()),
+        (ball([0.0, 0.0, -4.0], 1.0), matt()),
+    ]);
     let before = |scene: &mut Scene| scene.surfaces[1].shape = ball([0.0, 0.0, 4.0], 1.0);
     turns(Effect::Mirror, Rule::MirrorUnreached, &behind, before);
     let alone = with(&[(ball([0.0; 3], 1.0), shiny())]);
     let torus = |scene: &mut Scene| {
         let (center, axis) = ([0.0; 3], [0.0, 0.0, 1.0]);
-        scene.surfaces[0].shape = rtc::ir::Shape::Torus(rtc::ir::Torus { center, axis, major: 1.0, minor: 0.5 });
+        scene.surfaces[0].shape = rtc::ir::Shape::Torus(rtc::ir::Torus {
+            center,
+            axis,
+            major: 1.0,
+            minor: 0.5,
+        });
     };
     turns(Effect::Mirror, Rule::MirrorConvex, &alone, torus);
-    let mut shallow = with(&[(ball([-1.2, 0.0, 0.0], 1.0), shiny()), (ball([1.2, 0.0, 0.0], 1.0), shiny())]);
+    let mut shallow = with(&[
+        (ball([-1.2, 0.0, 0.0], 1.0), shiny()),
+        (ball([1.2, 0.0, 0.0], 1.0), shiny()),
+    ]);
     shallow.settings.max_depth = 0;
-    turns(Effect::Mirror, Rule::MirrorDepth, &shallow, |scene| scene.settings.max_depth = 1);
+    turns(Effect::Mirror, Rule::MirrorDepth, &shallow, |scene| {
+        scene.settings.max_depth = 1
+    });
 }
 
 #[test]
 fn what_lets_light_through_refracts() {
-    flips(Effect::Refraction, &two_balls(), |scene| material(scene, 0).kt = 1e-3);
+    flips(Effect::Refraction, &two_balls(), |scene| {
+        material(scene, 0).kt = 1e-3
+    });
     let mut glossy = two_balls();
     material(&mut glossy, 0).glossy_samples = 3;
-    flips(Effect::GlossyReflection, &glossy, |scene| material(scene, 0).ks = 1e-3);
+    flips(Effect::GlossyReflection, &glossy, |scene| {
+        material(scene, 0).ks = 1e-3
+    });
 }
 
 #[test]
 fn samples_of_a_pixel_are_needed_as_soon_as_there_are_two() {
-    flips(Effect::Supersampling, &one_ball(), |scene| scene.settings.supersampling = 2);
+    flips(Effect::Supersampling, &one_ball(), |scene| {
+        scene.settings.supersampling = 2
+    });
 }
 
 #[test]
 fn a_ball_that_comes_into_view_brings_what_it_needs() {
-    let aside = with(&[(ball([0.0; 3], 1.0), matt()), (ball([40.0, 0.0, 0.0], 1.0), shiny())]);
-    turns(Effect::Highlight, Rule::Cull, &aside, |scene| scene.surfaces[1].shape = ball([3.0, 0.0, 0.0], 1.0));
+    let aside = with(&[
+        (ball([0.0; 3], 1.0), matt()),
+        (ball([40.0, 0.0, 0.0], 1.0), shiny()),
+    ]);
+    turns(Effect::Highlight, Rule::Cull, &aside, |scene| {
+        scene.surfaces[1].shape = ball([3.0, 0.0, 0.0], 1.0)
+    });
     let behind = with(&[(ball([0.0, 0.0, 14.0], 1.0), matt())]);
-    turns(Effect::Surfaces, Rule::Cull, &behind, |scene| scene.surfaces[0].shape = ball([0.0, 0.0, 4.0], 1.0));
+    turns(Effect::Surfaces, Rule::Cull, &behind, |scene| {
+        scene.surfaces[0].shape = ball([0.0, 0.0, 4.0], 1.0)
+    });
 }
 
 #[test]
@@ -151,6 +231,9 @@ fn a_second_light_behind_the_disc_is_left_out_alone() {
     let mut scene = with(&[(disc([0.0; 3], 2.0), matt())]);
     scene.lights.push(light([0.0, 0.0, -3.0]));
     let plan = rtc::plan::Plan::new(&proven(&scene), Rules::ALL);
-    assert_eq!([plan.lights[0].direct, plan.lights[1].direct], [true, false]);
+    assert_eq!(
+        [plan.lights[0].direct, plan.lights[1].direct],
+        [true, false]
+    );
     assert!(plan.lights[1].kept, "its ambient term stays");
 }

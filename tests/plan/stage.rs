@@ -1,6 +1,8 @@
 //! A small stage: a ball, a disc and what else a test puts there, seen from (0, 0, 10) along −z.
 
-use rtc::ir::{self, ImageId, Light, Material, MaterialId, Phong, Scene, Shape, Surface, Texture, TextureId};
+use rtc::ir::{
+    self, ImageId, Light, Material, MaterialId, Phong, Scene, Shape, Surface, Texture, TextureId,
+};
 
 /// Matt grey.
 pub(super) fn matt() -> Phong {
@@ -34,7 +36,10 @@ pub(super) fn stage() -> Scene {
             right: [0.25, 0.0, 0.0],
             up: [0.0, 0.25, 0.0],
             size: [24, 20],
-            lens: ir::Lens { radius: 0.0, samples: 1 },
+            lens: ir::Lens {
+                radius: 0.0,
+                samples: 1,
+            },
             projection: ir::Projection::Perspective,
         },
         settings: ir::Settings {
@@ -58,7 +63,11 @@ pub(super) fn stage() -> Scene {
 
 /// A white point light.
 pub(super) fn light(position: [f64; 3]) -> Light {
-    Light::Point(ir::PointLight { position, color: [1.0; 3], radius: 0.0 })
+    Light::Point(ir::PointLight {
+        position,
+        color: [1.0; 3],
+        radius: 0.0,
+    })
 }
 
 /// A stage with the surfaces given, each of a material of its own.
@@ -66,22 +75,36 @@ pub(super) fn with(surfaces: &[(Shape, Phong)]) -> Scene {
     let mut scene = stage();
     for (index, (shape, phong)) in (0_u32..).zip(surfaces) {
         scene.materials.push(Material::Phong(phong.clone()));
-        scene.surfaces.push(Surface { shape: shape.clone(), material: MaterialId(index) });
+        scene.surfaces.push(Surface {
+            shape: shape.clone(),
+            material: MaterialId(index),
+        });
     }
     scene
 }
 
 pub(super) fn ball(center: [f64; 3], radius: f64) -> Shape {
-    Shape::Sphere(ir::Sphere { center, radius, texture_from_world: None })
+    Shape::Sphere(ir::Sphere {
+        center,
+        radius,
+        texture_from_world: None,
+    })
 }
 
 /// A disc that looks along +z.
 pub(super) fn disc(center: [f64; 3], radius: f64) -> Shape {
-    Shape::Disc(ir::Disc { center, normal: [0.0, 0.0, 1.0], radius })
+    Shape::Disc(ir::Disc {
+        center,
+        normal: [0.0, 0.0, 1.0],
+        radius,
+    })
 }
 
 pub(super) fn plane(height: f64) -> Shape {
-    Shape::Plane(ir::Plane { center: [0.0, height, 0.0], normal: [0.0, 1.0, 0.0] })
+    Shape::Plane(ir::Plane {
+        center: [0.0, height, 0.0],
+        normal: [0.0, 1.0, 0.0],
+    })
 }
 
 /// The material of surface `index`.
@@ -91,14 +114,22 @@ pub(super) fn material(scene: &mut Scene, index: usize) -> &mut Phong {
 
 /// The first light.
 pub(super) fn first_light(scene: &mut Scene) -> &mut ir::PointLight {
-    let Light::Point(light) = &mut scene.lights[0] else { panic!("the light of the stage is a point") };
+    let Light::Point(light) = &mut scene.lights[0] else {
+        panic!("the light of the stage is a point")
+    };
     light
 }
 
 /// Adds a texture of 2 × 2 texels, one value but for the last.
 pub(super) fn texture(scene: &mut Scene, value: [u8; 3], last: [u8; 3]) -> TextureId {
     let pixels = [value, value, value, last].concat().into();
-    scene.images.push(ir::Image { name: "stage".to_owned(), width: 2, height: 2, kind: ir::Pixels::Rgb8, pixels });
+    scene.images.push(ir::Image {
+        name: "stage".to_owned(),
+        width: 2,
+        height: 2,
+        kind: ir::Pixels::Rgb8,
+        pixels,
+    });
     scene.textures.push(Texture::Image(ImageId(0)));
     TextureId(0)
 }
@@ -107,13 +138,25 @@ pub(super) fn texture(scene: &mut Scene, value: [u8; 3], last: [u8; 3]) -> Textu
 pub(super) fn square(scene: &mut Scene, normals: [[f64; 3]; 4]) {
     let mesh = ir::Mesh {
         name: "square".to_owned(),
-        positions: vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]].into(),
+        positions: vec![
+            [-1.0, -1.0, 0.0],
+            [1.0, -1.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [-1.0, 1.0, 0.0],
+        ]
+        .into(),
         normals: normals.into_iter().collect(),
         triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
         ..ir::Mesh::default()
     };
     scene.meshes.push(mesh);
     let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-    let shape = Shape::Instance(ir::Instance { mesh: ir::MeshId(0), world_from_object });
-    scene.surfaces.push(Surface { shape, material: MaterialId(0) });
+    let shape = Shape::Instance(ir::Instance {
+        mesh: ir::MeshId(0),
+        world_from_object,
+    });
+    scene.surfaces.push(Surface {
+        shape,
+        material: MaterialId(0),
+    });
 }

@@ -1,5 +1,5 @@
-//! Validation: what the plan leaves out of each scene at hand is simulated and adds nothing; a plan that leaves out too
-//! much is found out, by effect and pixel.
+//! Validation: what the plan leaves out of each scene at hand is simulated and adds nothing; a plan
+//! that leaves out too much is found out, by effect and pixel.
 
 use super::dice::Dice;
 use super::stage::{ball, disc, matt, shiny, with};
@@ -13,7 +13,9 @@ fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Fault> 
     let scene = proven(scene);
     let mut plan = Plan::new(&scene, Rules::ALL);
     change(&mut plan);
-    verify(&scene, &plan, &Job::default(), &|_| true).unwrap().map(drop)
+    verify(&scene, &plan, &Job::default(), &|_| true)
+        .unwrap()
+        .map(drop)
 }
 
 #[test]
@@ -21,7 +23,12 @@ fn nothing_is_left_out_that_would_show_in_a_scene_at_hand() {
     for folder in ["scenes", "../shared/course/scenes", "../shared/wild"] {
         for path in files(folder) {
             let Some(scene) = scene(&path) else { continue };
-            assert_eq!(validate(&small(scene), |_| ()), Ok(()), "{}", file_name(&path));
+            assert_eq!(
+                validate(&small(scene), |_| ()),
+                Ok(()),
+                "{}",
+                file_name(&path)
+            );
         }
     }
 }
@@ -37,7 +44,10 @@ proptest! {
 
 /// A ball before a disc on which its shadow falls, and in which it is mirrored.
 fn busy() -> Scene {
-    with(&[(ball([1.5, 0.0, 3.0], 1.0), matt()), (disc([0.0; 3], 4.0), shiny())])
+    with(&[
+        (ball([1.5, 0.0, 3.0], 1.0), matt()),
+        (disc([0.0; 3], 4.0), shiny()),
+    ])
 }
 
 fn is_found(effect: Effect, change: impl FnOnce(&mut Plan)) {
@@ -56,23 +66,39 @@ fn a_plan_that_leaves_out_too_much_is_found_out() {
 #[test]
 fn a_light_left_out_is_found_at_the_first_pixel_it_shines_on() {
     let fault = validate(&busy(), |plan| plan.lights[0].direct = false).unwrap_err();
-    assert_eq!((fault.effect, fault.what), (Effect::DirectLight, "a light left out shines"));
+    assert_eq!(
+        (fault.effect, fault.what),
+        (Effect::DirectLight, "a light left out shines")
+    );
     let dark = validate(&busy(), |plan| plan.lights[0].kept = false).unwrap_err();
-    assert!(dark.pixel[1] <= fault.pixel[1], "its ambient term shows no later");
+    assert!(
+        dark.pixel[1] <= fault.pixel[1],
+        "its ambient term shows no later"
+    );
 }
 
 /// Only what is asked for changes the picture, and by no more than half a level of 8 bits.
 #[test]
 fn what_is_cut_off_is_too_small_to_see() {
-    let mut scene = with(&[(ball([-1.2, 0.0, 0.0], 1.0), shiny()), (ball([1.2, 0.0, 0.0], 1.0), shiny())]);
+    let mut scene = with(&[
+        (ball([-1.2, 0.0, 0.0], 1.0), shiny()),
+        (ball([1.2, 0.0, 0.0], 1.0), shiny()),
+    ]);
     scene.settings.max_depth = 60;
     let scene = proven(&scene);
     let exact = Plan::new(&scene, Rules::ALL);
     let cut = Plan::new(&scene, Rules::ALL.with(Rule::Cut));
     assert_eq!((exact.max_depth, cut.max_depth), (60, 10));
     assert_eq!(cut.rule_of(Effect::Depth), Some(Rule::Cut));
-    let picture = |plan: &Plan| rtc::render::render(&scene, plan, &Job::default(), &|_| true).unwrap().image.pixels;
+    let picture = |plan: &Plan| {
+        rtc::render::render(&scene, plan, &Job::default(), &|_| true)
+            .unwrap()
+            .image
+            .pixels
+    };
     let pairs = picture(&exact).into_iter().zip(picture(&cut));
-    let most = pairs.flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs())).fold(0.0, f64::max);
+    let most = pairs
+        .flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs()))
+        .fold(0.0, f64::max);
     assert!(most <= 0.5 / 255.0, "{most}");
 }

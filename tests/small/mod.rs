@@ -1,4 +1,5 @@
-//! Scenes small enough to be rendered many times, and their films, for suites that state laws of pictures.
+//! Scenes small enough to be rendered many times, and their films, for suites that state laws of
+//! pictures.
 
 use rtc::diag::Sink;
 use rtc::ir::{Lowered, Origins, Overrides, Scene};
@@ -19,7 +20,10 @@ pub(crate) fn paths() -> Vec<PathBuf> {
 pub(crate) fn scenes_in(folder: &Path) -> Vec<PathBuf> {
     let entries = folder.read_dir().into_iter().flatten();
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
+    paths.retain(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "yaml")
+    });
     paths.sort();
     paths
 }
@@ -31,7 +35,8 @@ pub(crate) fn small(path: &Path) -> Scene {
     reduced(file, &mut map, &Options::default())
 }
 
-/// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples or paths, 4 points of the lens and 8 bounces.
+/// A scene of a source, made small: 48 × 40 pixels, at most 4 sub-samples or paths, 4 points of the
+/// lens and 8 bounces.
 pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> Scene {
     let mut sink = Sink::default();
     let scene = pipeline::load(file, map, options, &mut sink);
@@ -40,8 +45,14 @@ pub(crate) fn reduced(file: FileId, map: &mut SourceMap, options: &Options) -> S
     let sampling = scene.settings.supersampling.min(2);
     let depth = scene.settings.max_depth.min(8);
     let size = Some([48, 40]);
-    Overrides { size, supersampling: Some(sampling), depth: Some(depth), spp: Some(4), ..Overrides::default() }
-        .apply(&mut scene);
+    Overrides {
+        size,
+        supersampling: Some(sampling),
+        depth: Some(depth),
+        spp: Some(4),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
     scene.camera.lens.samples = scene.camera.lens.samples.min(4);
     scene
 }
@@ -57,12 +68,29 @@ pub(crate) const WHOLE: Job = Job {
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
     let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
-    let valid = pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()));
-    pipeline::render(&valid, &Plan::new(&valid, Rules::ALL), job, threads, &|_| true).unwrap().unwrap()
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
+    let valid = pipeline::prove(&lowered, &options, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    pipeline::render(
+        &valid,
+        &Plan::new(&valid, Rules::ALL),
+        job,
+        threads,
+        &|_| true,
+    )
+    .unwrap()
+    .unwrap()
 }
 
 /// The bits of every value.
 pub(crate) fn bits(film: &Film) -> Vec<u64> {
-    film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect()
+    film.image
+        .pixels
+        .iter()
+        .flatten()
+        .map(|value| value.to_bits())
+        .collect()
 }

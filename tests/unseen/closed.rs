@@ -5,7 +5,8 @@ use rtc::ir::Scene;
 use rtc::plan::Rules;
 use rtc::render::Film;
 
-/// The inside of a closed mesh with lights outside, one of them in the plane of a face of the icosahedron.
+/// The inside of a closed mesh with lights outside, one of them in the plane of a face of the
+/// icosahedron.
 fn inside(file: &str, tilt: f64, keys: &str, material: &str) -> Scene {
     let mut scene = scene(&format!(
         "Camera: {{eye: [0.1, 0.05, -0.02], center: [0.5, 0.3, 0.4], up: [0, 1, 0], viewSize: [100, 100], fov: 100}}\n\
@@ -17,29 +18,54 @@ fn inside(file: &str, tilt: f64, keys: &str, material: &str) -> Scene {
     scene
 }
 
-/// Each ray meets the mesh, however often it is mirrored, and shows its ambient term alone: three lights' times 2⁻¹⁰.
+/// Each ray meets the mesh, however often it is mirrored, and shows its ambient term alone: three
+/// lights' times 2⁻¹⁰.
 #[test]
 fn no_light_enters_a_closed_smooth_mesh() {
     let mirrors = "ka: 0.0009765625, kd: 0.5, ks: 1, n: 4";
     let cases = [
         ("", "ka: 0.0009765625, kd: 0.5, ks: 0, n: 1", 1),
         ("MaxRecursionDepth: 50", mirrors, 51),
-        ("MaxRecursionDepth: 3", &format!("{mirrors}, glossySamples: 4"), 4),
+        (
+            "MaxRecursionDepth: 3",
+            &format!("{mirrors}, glossySamples: 4"),
+            4,
+        ),
     ];
-    for (file, tilt) in [("icosahedron.obj", 0.0), ("ball.obj", 0.0), ("icosahedron.obj", 0.9), ("ball.obj", 0.9)] {
+    for (file, tilt) in [
+        ("icosahedron.obj", 0.0),
+        ("ball.obj", 0.0),
+        ("icosahedron.obj", 0.9),
+        ("ball.obj", 0.9),
+    ] {
         for (keys, material, corners) in cases {
             let scene = inside(file, tilt, keys, material);
             let film = film(&scene, Rules::ALL);
             let wanted = f64::from(corners) * 3.0 / 1024.0;
             let seen = film.image.pixels.iter().flatten();
             // A lobe that is all below the surface shows nothing.
-            let is_dark = |value: &&f64| if corners == 4 { **value > wanted * 1.001 } else { **value != wanted };
+            let is_dark = |value: &&f64| {
+                if corners == 4 {
+                    **value > wanted * 1.001
+                } else {
+                    **value != wanted
+                }
+            };
             let count = seen.filter(is_dark).count();
             assert_eq!(count, 0, "{file}, normals tilted by {tilt}, {material}");
-            let bits =
-                |film: &Film| film.image.pixels.iter().flatten().map(|value| value.to_bits()).collect::<Vec<_>>();
+            let bits = |film: &Film| {
+                film.image
+                    .pixels
+                    .iter()
+                    .flatten()
+                    .map(|value| value.to_bits())
+                    .collect::<Vec<_>>()
+            };
             let unpruned = super::film(&scene, Rules::NONE);
-            assert!(bits(&unpruned) == bits(&film), "{file}, {tilt}, {material}: the rules show");
+            assert!(
+                bits(&unpruned) == bits(&film),
+                "{file}, {tilt}, {material}: the rules show"
+            );
         }
     }
 }
@@ -49,6 +75,11 @@ fn no_light_enters_a_closed_smooth_mesh() {
 fn without_shadows_the_geometric_normal_says_nothing() {
     let mut scene = inside("icosahedron.obj", 0.0, "", "ka: 0, kd: 0.5, ks: 0, n: 1");
     scene.settings.shadows = false;
-    let lit = film(&scene, Rules::ALL).image.pixels.iter().filter(|pixel| pixel[0] > 0.0).count();
+    let lit = film(&scene, Rules::ALL)
+        .image
+        .pixels
+        .iter()
+        .filter(|pixel| pixel[0] > 0.0)
+        .count();
     assert!(lit > 100, "{lit} pixels");
 }

@@ -8,25 +8,64 @@ use rtc::plan::Rules;
 const SHAPES: [(&str, f64); 15] = [
     ("sphere, position: [0, 1, 0], radius: 1", 0.0),
     ("plane, position: [0, 0.5, 0], normal: [0.1, 1, 0.2]", 0.0),
-    ("triangle, v0: [-1, 0.1, 1], v1: [1.3, 0.2, 0.4], v2: [0.2, 2.1, -0.6]", 0.0),
-    ("quad, v0: [-1, 0.1, 1], v1: [1.2, 0.1, 0.6], v2: [1.2, 2, 0.1], v3: [-1, 1.4, -1.3]", 0.0),
-    ("quad, v0: [-1, 0.1, 1], v1: [1, 0.1, 1], v2: [1, 2, 0], v3: [-1, 2, 0]", 0.0),
-    ("circle, center: [0, 1, 0], normal: [0.3, 0.2, 1], radius: 1.1", 0.0),
-    ("cylinder, p1: [-0.7, 0.4, 0.3], p2: [0.8, 1.6, -0.4], radius: 0.6", 0.0),
-    ("cone, position: [0, 0.1, 0], up: [0.4, 2, 0.3], radius: 1", 0.0),
-    ("torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, direction: [0.3, 1, 0.6]", 0.0),
-    ("box, position: [0, 1, 0], dimension: [1.2, 1.4, 1.1], rotation: [0.3, 0.7, 0.1]", 0.0),
-    ("tetrahedron, v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, 0.4]", 0.0),
-    ("prism, v0: [-1, 0.1, 0.8], v1: [0.9, 0.1, 0.9], v2: [0.1, 1.7, 0.7], up: [0.2, 0.1, -1.4]", 0.0),
-    ("mesh, file: icosahedron.obj, position: [0, 1, 0], radius: 1", 0.001),
-    ("mesh, file: ball.obj, position: [0, 1, 0], radius: 1", 0.001),
+    (
+        "triangle, v0: [-1, 0.1, 1], v1: [1.3, 0.2, 0.4], v2: [0.2, 2.1, -0.6]",
+        0.0,
+    ),
+    (
+        "quad, v0: [-1, 0.1, 1], v1: [1.2, 0.1, 0.6], v2: [1.2, 2, 0.1], v3: [-1, 1.4, -1.3]",
+        0.0,
+    ),
+    (
+        "quad, v0: [-1, 0.1, 1], v1: [1, 0.1, 1], v2: [1, 2, 0], v3: [-1, 2, 0]",
+        0.0,
+    ),
+    (
+        "circle, center: [0, 1, 0], normal: [0.3, 0.2, 1], radius: 1.1",
+        0.0,
+    ),
+    (
+        "cylinder, p1: [-0.7, 0.4, 0.3], p2: [0.8, 1.6, -0.4], radius: 0.6",
+        0.0,
+    ),
+    (
+        "cone, position: [0, 0.1, 0], up: [0.4, 2, 0.3], radius: 1",
+        0.0,
+    ),
+    (
+        "torus, position: [0, 1, 0], radius: 0.9, alpha: 0.3, direction: [0.3, 1, 0.6]",
+        0.0,
+    ),
+    (
+        "box, position: [0, 1, 0], dimension: [1.2, 1.4, 1.1], rotation: [0.3, 0.7, 0.1]",
+        0.0,
+    ),
+    (
+        "tetrahedron, v0: [-1, 0.1, 0.6], v1: [0.1, 0.1, 1.4], v2: [1, 0.1, 0.5], v3: [0.2, 1.9, 0.4]",
+        0.0,
+    ),
+    (
+        "prism, v0: [-1, 0.1, 0.8], v1: [0.9, 0.1, 0.9], v2: [0.1, 1.7, 0.7], up: [0.2, 0.1, -1.4]",
+        0.0,
+    ),
+    (
+        "mesh, file: icosahedron.obj, position: [0, 1, 0], radius: 1",
+        0.001,
+    ),
+    (
+        "mesh, file: ball.obj, position: [0, 1, 0], radius: 1",
+        0.001,
+    ),
     ("mesh, file: ball.obj, position: [0, 1, 0], radius: 1", 0.9),
 ];
 
-/// A shape, if there is one, before two balls, under a light that it hides from none of what is seen.
+/// A shape, if there is one, before two balls, under a light that it hides from none of what is
+/// seen.
 fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
     let shape_of = |(numbers, _)| {
-        format!("- {{type: {numbers}, material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: 0, n: 1, kt: 1, eta: 1}}}}\n")
+        format!(
+            "- {{type: {numbers}, material: {{color: [1, 1, 1], ka: 0, kd: 0, ks: 0, n: 1, kt: 1, eta: 1}}}}\n"
+        )
     };
     let mut scene = scene(&format!(
         "Camera: {{eye: [0.5, 3, 7], center: [0, 1, 0], up: [0, 1, 0], viewSize: [100, 100], fov: 25}}\n\
@@ -52,26 +91,42 @@ fn glass(shape: Option<(&str, f64)>, eta: f64, shadows: bool) -> Scene {
     scene
 }
 
-/// At an index of 1 everywhere. A thousandth of a billionth beside it Snell's law itself bends rays by more where they all
-/// but run along a surface with its shading normal: on outlines.
+/// At an index of 1 everywhere. A thousandth of a billionth beside it Snell's law itself bends rays
+/// by more where they all but run along a surface with its shading normal: on outlines.
 #[test]
 fn an_index_of_one_is_invisible_for_every_shape() {
     for shadows in [false, true] {
         let empty = film(&glass(None, 1.0, shadows), Rules::ALL).image;
         // A plane hides the light from half of all there is.
-        for shape in SHAPES.into_iter().filter(|(numbers, _)| !(shadows && numbers.starts_with("plane"))) {
+        for shape in SHAPES
+            .into_iter()
+            .filter(|(numbers, _)| !(shadows && numbers.starts_with("plane")))
+        {
             for eta in [1.0, 1.0 + 1e-12, 1.0 - 1e-12] {
                 let film = film(&glass(Some(shape), eta, shadows), Rules::ALL);
-                assert!(film.counts.refracted > 500, "{}: the shape is looked through", shape.0);
+                assert!(
+                    film.counts.refracted > 500,
+                    "{}: the shape is looked through",
+                    shape.0
+                );
                 let worst = |(seen, wanted): (&[f64; 3], &[f64; 3])| {
-                    let off = |k: usize| (seen[k] - wanted[k]).abs() / wanted[k].max(f64::MIN_POSITIVE);
+                    let off =
+                        |k: usize| (seen[k] - wanted[k]).abs() / wanted[k].max(f64::MIN_POSITIVE);
                     off(0).max(off(1)).max(off(2))
                 };
-                let worst = film.image.pixels.iter().zip(&empty.pixels).map(worst).collect::<Vec<_>>();
+                let worst = film
+                    .image
+                    .pixels
+                    .iter()
+                    .zip(&empty.pixels)
+                    .map(worst)
+                    .collect::<Vec<_>>();
                 let outlines = worst.iter().filter(|worst| **worst > 1e-9).count();
                 let largest = worst.iter().copied().fold(0.0, f64::max);
                 let (most, allowed) = if eta == 1.0 { (0, 1e-9) } else { (10, 1e-6) };
-                let told = format!("{shape:?}, eta {eta:?}, shadows {shadows}: {outlines} pixels, {largest:e} at most");
+                let told = format!(
+                    "{shape:?}, eta {eta:?}, shadows {shadows}: {outlines} pixels, {largest:e} at most"
+                );
                 assert!(outlines <= most && largest <= allowed, "{told}");
             }
         }

@@ -1,5 +1,5 @@
-//! What must not be seen: light through closed meshes, glass of an index of 1, and which of two surfaces in one place was
-//! found first.
+//! What must not be seen: light through closed meshes, glass of an index of 1, and which of two
+//! surfaces in one place was found first.
 
 #![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
@@ -19,7 +19,8 @@ use std::path::Path;
 
 /// A scene of the course, by its text; assets are those of the repo.
 fn scene(text: &str) -> Scene {
-    let (mut map, mut sink, mut options) = (SourceMap::default(), Sink::default(), Options::default());
+    let (mut map, mut sink, mut options) =
+        (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("unseen", text.as_bytes().to_vec());
     options.front.asset_root = Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes"));
     let lowered = pipeline::load(file, &mut map, &options, &mut sink);
@@ -29,13 +30,25 @@ fn scene(text: &str) -> Scene {
 
 fn proven(scene: &Scene) -> ValidScene {
     let (mut sink, options) = (Sink::default(), Options::default());
-    let lowered = Lowered { scene: scene.clone(), origins: Origins::default() };
+    let lowered = Lowered {
+        scene: scene.clone(),
+        origins: Origins::default(),
+    };
     pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
 fn film(scene: &Scene, rules: Rules) -> Film {
     let proof = proven(scene);
-    render(&proof, &Plan::new(&proof, rules), &Job { values: Values::Linear, ..Job::default() }, &|_| true).unwrap()
+    render(
+        &proof,
+        &Plan::new(&proof, rules),
+        &Job {
+            values: Values::Linear,
+            ..Job::default()
+        },
+        &|_| true,
+    )
+    .unwrap()
 }
 
 /// Numbers that look like chance, from −1 to 1.
@@ -54,6 +67,8 @@ fn smooth(scene: &mut Scene, tilt: f64) {
     let mesh = &mut scene.meshes[0];
     let corners: Vec<_> = mesh.positions.iter().map(Vec3::from_array).collect();
     let center = corners.iter().copied().sum::<Vec3>() / corners.len() as f64;
-    let tilted = |(index, corner): (u64, &Vec3)| ((*corner - center).normalize() + random(index) * tilt).to_array();
+    let tilted = |(index, corner): (u64, &Vec3)| {
+        ((*corner - center).normalize() + random(index) * tilt).to_array()
+    };
     mesh.normals = (0..).zip(&corners).map(tilted).collect();
 }

@@ -31,7 +31,8 @@ pub(in crate::cli) struct Reading {
     /// The variant of the materials of a glTF asset, by its name
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) variant: Option<String>,
-    /// The camera of a glTF asset: its name, that of its node, or its index [default: the first that shows anything]
+    /// The camera of a glTF asset: its name, that of its node, or its index [default: the first
+    /// that shows anything]
     #[arg(long, value_name = "NAME|INDEX")]
     pub(in crate::cli) camera: Option<String>,
     /// Set a limit on what the run may take, as memory=2GiB; `rtc schema limits` lists them
@@ -45,8 +46,14 @@ pub(in crate::cli) struct Reading {
 impl Reading {
     /// What the run may take.
     pub(in crate::cli) fn limits(&self) -> Limits {
-        let mut limits = if self.allow_huge { Limits::NONE } else { Limits::default() };
-        self.limit.iter().for_each(|(resource, limit)| limits.set(*resource, *limit));
+        let mut limits = if self.allow_huge {
+            Limits::NONE
+        } else {
+            Limits::default()
+        };
+        self.limit
+            .iter()
+            .for_each(|(resource, limit)| limits.set(*resource, *limit));
         limits
     }
 }

@@ -1,4 +1,5 @@
-//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what, with which layers.
+//! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what,
+//! with which layers.
 
 use super::super::parse::{backdrop, stops};
 use crate::color::Tone;
@@ -8,14 +9,15 @@ use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Look {
-    /// How a PNG shows linear values; an EXR holds them as they are [default: srgb if paths are traced, else none]
+    /// How a PNG shows linear values; an EXR holds them as they are [default: srgb if paths are
+    /// traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
     pub(in crate::cli) tonemap: Option<Tonemap>,
     /// Exposure in stops, of EXR too: each doubles the values
     #[arg(long, value_name = "STOPS", default_value = "0", value_parser = stops, allow_negative_numbers = true)]
     pub(in crate::cli) exposure: f64,
-    /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a colour R,G,B in the values that
-    /// the file is to hold. Light stays as it is
+    /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a
+    /// colour R,G,B in the values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = backdrop)]
     pub(in crate::cli) background: Backdrop,
     /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first

@@ -20,13 +20,19 @@ use std::sync::LazyLock;
 
 static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
-    format!("{version}\nwrites IR version {0}, reads IR versions up to {0}", ir::VERSION)
+    format!(
+        "{version}\nwrites IR version {0}, reads IR versions up to {0}",
+        ir::VERSION
+    )
 });
 
-/// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes every time.
+/// A compiler for 3-D scenes: checks them, lowers them to one IR, renders the IR, the same bytes
+/// every time.
 #[derive(Debug, Parser)]
 #[command(name = "rtc", version = LONG_VERSION.as_str(), max_term_width = 100, arg_required_else_help = true)]
-#[command(after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted.")]
+#[command(
+    after_help = "Exit codes: 0 fine, 1 the input has errors, 2 usage, files or internal, 130 interrupted."
+)]
 pub(super) struct Cli {
     #[command(subcommand)]
     pub(super) command: Command,

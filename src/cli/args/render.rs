@@ -13,7 +13,8 @@ pub(in crate::cli) struct Render {
     /// The scene, as YAML, glTF or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: PathBuf,
-    /// Where to write, .png or .exr; `-` is PNG to standard output [default: the scene's name with .png, here]
+    /// Where to write, .png or .exr; `-` is PNG to standard output [default: the scene's name with
+    /// .png, here]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) output: Option<PathBuf>,
     /// Width and height in pixels; the picture keeps its height in the scene
@@ -37,14 +38,16 @@ pub(in crate::cli) struct Render {
     /// Bounces after the first hit
     #[arg(long, value_name = "N")]
     pub(in crate::cli) depth: Option<u32>,
-    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100 pictures), to what ever more samples at this
-    /// depth would show
+    /// Sample until the picture is this close, in grey levels of 8 bits (RMSE, kept by 90 of 100
+    /// pictures), to what ever more samples at this depth would show
     #[arg(long, value_name = "LEVELS", value_parser = levels, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) target_error: Option<f64>,
-    /// Sample for this long, in seconds of the clock, where it helps most; the picture then depends on the machine
+    /// Sample for this long, in seconds of the clock, where it helps most; the picture then
+    /// depends on the machine
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["supersampling", "aperture_samples", "spp"])]
     pub(in crate::cli) time_budget: Option<Duration>,
-    /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with `-%04d`
+    /// Render so many views, all around the scene: the output's name holds `%04d`, or ends with
+    /// `-%04d`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=9999), conflicts_with = "verify_effects")]
     pub(in crate::cli) turntable: Option<u32>,
     /// Threads to work on [default: one a core]
@@ -56,7 +59,8 @@ pub(in crate::cli) struct Render {
     /// How rays meet shapes
     #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
     pub(in crate::cli) arithmetic: Arithmetic,
-    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false; `rtc schema ir` lists them
+    /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false;
+    /// `rtc schema ir` lists them
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     pub(in crate::cli) set: Vec<(String, String)>,
     #[command(flatten)]

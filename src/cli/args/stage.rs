@@ -27,13 +27,15 @@ pub(in crate::cli) struct Stage {
     /// The same radiance from every direction, one number or three; 0 is darkness
     #[arg(long, value_name = "R,G,B", value_parser = color, conflicts_with = "env")]
     pub(in crate::cli) env_color: Option<[f64; 3]>,
-    /// A sun: the direction to it, and the irradiance on a surface that faces it, one number or three
+    /// A sun: the direction to it, and the irradiance on a surface that faces it, one number or
+    /// three
     #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true)]
     pub(in crate::cli) sun: Vec<ir::Sun>,
     /// Leave out the lights of the scene
     #[arg(long)]
     pub(in crate::cli) no_scene_lights: bool,
-    /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else Whitted's way]
+    /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else
+    /// Whitted's way]
     #[arg(long, value_enum)]
     pub(in crate::cli) integrator: Option<Integrator>,
 }
@@ -56,5 +58,11 @@ impl From<Integrator> for ir::Integrator {
 }
 
 fn direction(text: &str) -> Result<[f64; 3], String> {
-    vector(text).and_then(|up| if up == [0.0; 3] { Err("it has no direction".to_owned()) } else { Ok(up) })
+    vector(text).and_then(|up| {
+        if up == [0.0; 3] {
+            Err("it has no direction".to_owned())
+        } else {
+            Ok(up)
+        }
+    })
 }

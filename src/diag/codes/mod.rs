@@ -1,6 +1,7 @@
 //! The table of codes, one row each, in families that are the passes; a code is stable for ever.
 //!
-//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values, `GL` glTF, `IR` the container, `RD` what a render found.
+//! `IO` files, `SY` YAML syntax, `SC` shape and keys, `RE` files named by a scene, `VA` values,
+//! `GL` glTF, `IR` the container, `RD` what a render found.
 
 use std::fmt;
 
@@ -76,7 +77,10 @@ use codes;
 
 /// Every code there is, family by family.
 pub fn all() -> impl Iterator<Item = &'static Code> {
-    [IO, SY, SC, RE, VA, GL, IR, RD].into_iter().flatten().copied()
+    [IO, SY, SC, RE, VA, GL, IR, RD]
+        .into_iter()
+        .flatten()
+        .copied()
 }
 
 /// The code with the id given, in any case.

@@ -12,10 +12,19 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         Severity::Warning => "warning",
         Severity::Note => "notice",
     };
-    let place = diagnostic.primary.as_ref().map(|label| Place::new(map, label.span));
+    let place = diagnostic
+        .primary
+        .as_ref()
+        .map(|label| Place::new(map, label.span));
     let file = property(place.as_ref().map_or(name, |place| place.file));
-    let at = place.and_then(|place| Some(position(place.start?, place.end?))).unwrap_or_default();
-    format!("::{command} file={file}{at},title={}::{}\n", diagnostic.code, data(&body(diagnostic)))
+    let at = place
+        .and_then(|place| Some(position(place.start?, place.end?)))
+        .unwrap_or_default();
+    format!(
+        "::{command} file={file}{at},title={}::{}\n",
+        diagnostic.code,
+        data(&body(diagnostic))
+    )
 }
 
 /// That `count` findings of the file `name` were left out.
@@ -26,23 +35,40 @@ pub(super) fn more(name: &str, count: usize) -> String {
 fn position(start: Point, end: Point) -> String {
     let lines = format!(",line={},endLine={}", start.line, end.line);
     // Columns are understood only within one line.
-    if start.line == end.line { format!("{lines},col={},endColumn={}", start.column, end.column) } else { lines }
+    if start.line == end.line {
+        format!("{lines},col={},endColumn={}", start.column, end.column)
+    } else {
+        lines
+    }
 }
 
 /// The message, with the words of the label, the pointer and the hints on lines of their own.
 fn body(diagnostic: &Diagnostic) -> String {
-    let label = diagnostic.primary.iter().map(|label| label.text.clone()).filter(|text| !text.is_empty());
-    let pointer = diagnostic.pointer.iter().map(|pointer| format!("at `{pointer}`"));
+    let label = diagnostic
+        .primary
+        .iter()
+        .map(|label| label.text.clone())
+        .filter(|text| !text.is_empty());
+    let pointer = diagnostic
+        .pointer
+        .iter()
+        .map(|pointer| format!("at `{pointer}`"));
     let hints = diagnostic.hints.iter().map(|hint| match &hint.replacement {
         Some(replacement) => format!("help: {}: `{}`", hint.text, replacement.text),
         None => format!("help: {}", hint.text),
     });
-    let lines = std::iter::once(diagnostic.message.clone()).chain(label).chain(pointer).chain(hints);
+    let lines = std::iter::once(diagnostic.message.clone())
+        .chain(label)
+        .chain(pointer)
+        .chain(hints);
     lines.collect::<Vec<_>>().join("\n")
 }
 
 fn data(text: &str) -> String {
-    clean_except(text, &['\n', '\r']).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    clean_except(text, &['\n', '\r'])
+        .replace('%', "%25")
+        .replace('\r', "%0D")
+        .replace('\n', "%0A")
 }
 
 fn property(text: &str) -> String {

@@ -1,4 +1,5 @@
-//! For people: the source with its marks, in the style of rustc. The one file that names `annotate-snippets`.
+//! For people: the source with its marks, in the style of rustc. The one file that names
+//! `annotate-snippets`.
 
 use super::place::{Place, is_text};
 use super::text::{clean, clean_except};
@@ -7,30 +8,54 @@ use super::{Options, text};
 use crate::diag::{Diagnostic, Hint, Label, Replacement, Severity};
 use crate::source::SourceMap;
 use annotate_snippets::renderer::DecorStyle;
-use annotate_snippets::{Annotation, AnnotationKind, Element, Group, Level, Origin, Patch, Renderer, Snippet};
+use annotate_snippets::{
+    Annotation, AnnotationKind, Element, Group, Level, Origin, Patch, Renderer, Snippet,
+};
 
 /// A label and whether it is the culprit.
 type Mark<'a> = (&'a Label, AnnotationKind);
 
 /// One finding, with an empty line after it.
 pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &Options) -> String {
-    let renderer = if options.color { Renderer::styled() } else { Renderer::plain() };
-    let renderer = renderer.term_width(options.width).decor_style(DecorStyle::Ascii);
+    let renderer = if options.color {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    };
+    let renderer = renderer
+        .term_width(options.width)
+        .decor_style(DecorStyle::Ascii);
     let report = report(diagnostic, map);
     let rendered = renderer.render(&report);
     format!("{}\n\n", rendered.trim_end_matches('\n'))
 }
 
-/// What stands after the findings of one file: how many there are, and where to read more about the worst.
+/// What stands after the findings of one file: how many there are, and where to read more about the
+/// worst.
 pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> String {
-    let more = if hidden == 0 { String::new() } else { format!("and {hidden} more\n") };
+    let more = if hidden == 0 {
+        String::new()
+    } else {
+        format!("and {hidden} more\n")
+    };
     let worst = found.iter().min_by_key(|diagnostic| diagnostic.severity);
-    let explain = worst.map(|worst| format!("; `rtc explain {}` tells more", worst.code)).unwrap_or_default();
+    let explain = worst
+        .map(|worst| format!("; `rtc explain {}` tells more", worst.code))
+        .unwrap_or_default();
     format!("{more}{}: {}{explain}\n", clean(name), counts(found))
 }
 
 fn report<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Group<'a>> {
-    let Diagnostic { code, severity, message, primary: _, secondary: _, hints, pointer, alias: _ } = diagnostic;
+    let Diagnostic {
+        code,
+        severity,
+        message,
+        primary: _,
+        secondary: _,
+        hints,
+        pointer,
+        alias: _,
+    } = diagnostic;
     let title = level(*severity).primary_title(clean(message)).id(code.id);
     let mut first = Group::with_title(title).elements(marks(diagnostic, map));
     if let Some(pointer) = pointer.as_ref().filter(|_| diagnostic.primary.is_none()) {
@@ -56,9 +81,18 @@ fn level(severity: Severity) -> Level<'static> {
 
 /// The marked lines: the window with the culprit first, those of other places after it.
 fn marks<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Element<'a>> {
-    let primary = diagnostic.primary.iter().map(|label| (label, AnnotationKind::Primary));
-    let mut marks: Vec<Mark<'a>> =
-        primary.chain(diagnostic.secondary.iter().map(|label| (label, AnnotationKind::Context))).collect();
+    let primary = diagnostic
+        .primary
+        .iter()
+        .map(|label| (label, AnnotationKind::Primary));
+    let mut marks: Vec<Mark<'a>> = primary
+        .chain(
+            diagnostic
+                .secondary
+                .iter()
+                .map(|label| (label, AnnotationKind::Context)),
+        )
+        .collect();
     marks.sort_by_key(|(label, _)| label.span);
     let mut runs = window::runs(marks, |(label, _)| window::mark(map, label.span));
     runs.sort_by_key(|run| !run.iter().any(|(_, kind)| *kind == AnnotationKind::Primary));
@@ -66,18 +100,31 @@ fn marks<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Element<'a>>
 }
 
 fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
-    let head = run.iter().find(|(_, kind)| *kind == AnnotationKind::Primary).unwrap_or(&run[0]).0;
-    if !is_text(map, head.span.file) || !run.iter().all(|(label, _)| window::is_near(map, label.span)) {
+    let head = run
+        .iter()
+        .find(|(_, kind)| *kind == AnnotationKind::Primary)
+        .unwrap_or(&run[0])
+        .0;
+    if !is_text(map, head.span.file)
+        || !run
+            .iter()
+            .all(|(label, _)| window::is_near(map, label.span))
+    {
         return without_source(run, &Place::new(map, head.span));
     }
-    let spans: Vec<_> = run.iter().map(|(label, _)| window::mark(map, label.span)).collect();
+    let spans: Vec<_> = run
+        .iter()
+        .map(|(label, _)| window::mark(map, label.span))
+        .collect();
     let window = Window::new(map, &spans);
     let annotation = |(&(label, kind), &span): (&Mark<'a>, _)| -> Annotation<'a> {
         let text = Some(clean(&label.text)).filter(|text| !text.is_empty());
         kind.span(window.range(span)).label(text)
     };
     let annotations: Vec<_> = run.iter().zip(&spans).map(annotation).collect();
-    let snippet = Snippet::source(window.text).line_start(window.first_line).annotations(annotations);
+    let snippet = Snippet::source(window.text)
+        .line_start(window.first_line)
+        .annotations(annotations);
     vec![snippet.path(clean(map.name(head.span.file))).into()]
 }
 
@@ -85,7 +132,9 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
 fn without_source<'a>(run: &[Mark<'a>], place: &Place) -> Vec<Element<'a>> {
     let labels = run.iter().filter(|(label, _)| !label.text.is_empty());
     let notes = labels.map(|(label, _)| Level::NOTE.message(clean(&label.text)).into());
-    std::iter::once(Origin::path(place.to_string()).into()).chain(notes).collect()
+    std::iter::once(Origin::path(place.to_string()).into())
+        .chain(notes)
+        .collect()
 }
 
 /// The hint as a change of the source, if it has one that can be shown.
@@ -96,14 +145,35 @@ fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
     }
     let window = Window::new(map, &[*span]);
     let patch = Patch::new(window.range(*span), clean_except(text, &['\n', '\t']));
-    let snippet = Snippet::source(window.text).line_start(window.first_line).patch(patch);
-    Some(Level::HELP.secondary_title(clean(&hint.text)).element(snippet.path(clean(map.name(span.file)))))
+    let snippet = Snippet::source(window.text)
+        .line_start(window.first_line)
+        .patch(patch);
+    Some(
+        Level::HELP
+            .secondary_title(clean(&hint.text))
+            .element(snippet.path(clean(map.name(span.file)))),
+    )
 }
 
 /// `2 errors, 1 warning`.
 fn counts(found: &[&Diagnostic]) -> String {
-    let names = [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Note, "note")];
-    let count = |severity| found.iter().filter(|diagnostic| diagnostic.severity == severity).count();
-    let parts = names.map(|(severity, name)| (count(severity), name)).into_iter().filter(|(count, _)| *count > 0);
-    parts.map(|(count, name)| text::plural(count, name)).collect::<Vec<_>>().join(", ")
+    let names = [
+        (Severity::Error, "error"),
+        (Severity::Warning, "warning"),
+        (Severity::Note, "note"),
+    ];
+    let count = |severity| {
+        found
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == severity)
+            .count()
+    };
+    let parts = names
+        .map(|(severity, name)| (count(severity), name))
+        .into_iter()
+        .filter(|(count, _)| *count > 0);
+    parts
+        .map(|(count, name)| text::plural(count, name))
+        .collect::<Vec<_>>()
+        .join(", ")
 }

@@ -1,4 +1,5 @@
-//! For programs: one JSON object a line, one line a finding. The fields are those of the structs below.
+//! For programs: one JSON object a line, one line a finding. The fields are those of the structs
+//! below.
 //!
 //! If findings were left out, a last line `{"omitted": N}` says how many.
 
@@ -52,7 +53,16 @@ struct Advice<'a> {
 
 /// One finding of the file `name`.
 pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> String {
-    let Diagnostic { code, severity: level, message, primary, secondary, hints, pointer, alias } = diagnostic;
+    let Diagnostic {
+        code,
+        severity: level,
+        message,
+        primary,
+        secondary,
+        hints,
+        pointer,
+        alias,
+    } = diagnostic;
     let finding = Finding {
         code: code.id,
         severity: severity(*level),
@@ -78,12 +88,17 @@ fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> Marked<'a> {
 }
 
 fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> Marked<'a> {
-    Marked { place: Place::new(map, span), text }
+    Marked {
+        place: Place::new(map, span),
+        text,
+    }
 }
 
 fn advice<'a>(map: &'a SourceMap, hint: &'a Hint) -> Advice<'a> {
     let Hint { text, replacement } = hint;
-    let replacement = replacement.as_ref().map(|Replacement { span, text }| marked(map, *span, text));
+    let replacement = replacement
+        .as_ref()
+        .map(|Replacement { span, text }| marked(map, *span, text));
     Advice { text, replacement }
 }
 

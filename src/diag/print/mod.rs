@@ -1,6 +1,7 @@
 //! From findings to text: for people, editors, programs, code scanning and GitHub.
 //!
-//! Findings come out sorted by place and capped; nothing of the input can command a terminal; nothing is written here.
+//! Findings come out sorted by place and capped; nothing of the input can command a terminal;
+//! nothing is written here.
 
 mod github;
 mod human;
@@ -67,26 +68,38 @@ impl Printer {
     /// A printer that has seen no file.
     #[must_use]
     pub fn new(format: Format, options: Options) -> Self {
-        Self { format, options, omitted: 0, results: Vec::new() }
+        Self {
+            format,
+            options,
+            omitted: 0,
+            results: Vec::new(),
+        }
     }
 
     /// The text for the findings of the file `name`; empty if there are none to show.
     pub fn file(&mut self, name: &str, mut sink: Sink, map: &SourceMap) -> String {
         sink.sort();
-        let visible =
-            |diagnostic: &&Diagnostic| self.format.is_for_programs() || diagnostic.severity <= self.options.least;
+        let visible = |diagnostic: &&Diagnostic| {
+            self.format.is_for_programs() || diagnostic.severity <= self.options.least
+        };
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
         let shown = cap(&found, self.options.max);
         let hidden = found.len() - shown.len() + sink.dropped();
         self.omitted += hidden;
-        let each = |one: &dyn Fn(&Diagnostic) -> String| shown.iter().map(|diagnostic| one(diagnostic)).collect();
+        let each = |one: &dyn Fn(&Diagnostic) -> String| {
+            shown.iter().map(|diagnostic| one(diagnostic)).collect()
+        };
         let text: String = match self.format {
             Format::Human => each(&|diagnostic| human::finding(diagnostic, map, &self.options)),
             Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
             Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),
             Format::Github => each(&|diagnostic| github::finding(name, diagnostic, map)),
             Format::Sarif => {
-                self.results.extend(shown.iter().map(|diagnostic| sarif::result(name, diagnostic, map)));
+                self.results.extend(
+                    shown
+                        .iter()
+                        .map(|diagnostic| sarif::result(name, diagnostic, map)),
+                );
                 String::new()
             }
         };
@@ -99,7 +112,9 @@ impl Printer {
             Format::Human if !found.is_empty() => human::summary(name, found, hidden),
             Format::Short if hidden > 0 => format!("{}: and {hidden} more\n", text::clean(name)),
             Format::Github if hidden > 0 => github::more(name, hidden),
-            Format::Human | Format::Short | Format::Github | Format::Json | Format::Sarif => String::new(),
+            Format::Human | Format::Short | Format::Github | Format::Json | Format::Sarif => {
+                String::new()
+            }
         }
     }
 
@@ -114,7 +129,8 @@ impl Printer {
     }
 }
 
-/// At most `max` findings: errors before warnings before notes, and each kind from the top, in order of place.
+/// At most `max` findings: errors before warnings before notes, and each kind from the top, in
+/// order of place.
 fn cap<'a>(found: &[&'a Diagnostic], max: usize) -> Vec<&'a Diagnostic> {
     let mut order: Vec<usize> = (0..found.len()).collect();
     order.sort_by_key(|&index| found[index].severity);

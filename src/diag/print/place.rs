@@ -1,4 +1,5 @@
-//! A span as people and tools count it: bytes of a file, and lines and columns where the file is text.
+//! A span as people and tools count it: bytes of a file, and lines and columns where the file is
+//! text.
 
 use super::text::clean;
 use crate::source::{FileId, SourceMap, Span};
@@ -39,7 +40,10 @@ impl<'a> Place<'a> {
         let Span { file, start, end } = span;
         let point = |offset| {
             let at = map.line_column(file, offset);
-            Point { line: at.line, column: at.column }
+            Point {
+                line: at.line,
+                column: at.column,
+            }
         };
         let text = is_text(map, file);
         Self {
@@ -62,7 +66,8 @@ impl fmt::Display for Place<'_> {
     }
 }
 
-/// True if lines of the file mean something to a person. Latin-1 counts: its lines can be read but for some letters.
+/// True if lines of the file mean something to a person. Latin-1 counts: its lines can be read but
+/// for some letters.
 pub(super) fn is_text(map: &SourceMap, file: FileId) -> bool {
     let bytes = map.bytes(file);
     !bytes[..bytes.len().min(SNIFF)].contains(&0) || map.text(file).is_some()

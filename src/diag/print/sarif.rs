@@ -42,7 +42,10 @@ fn level(severity: Severity) -> &'static str {
 pub(super) fn result(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> Value {
     let rule = codes::all().position(|code| code == diagnostic.code);
     let file = json!({ "physicalLocation": { "artifactLocation": { "uri": uri(name) } } });
-    let mut location = diagnostic.primary.as_ref().map_or(file, |label| location(label, map));
+    let mut location = diagnostic
+        .primary
+        .as_ref()
+        .map_or(file, |label| location(label, map));
     if let Some(pointer) = &diagnostic.pointer {
         location["logicalLocations"] = json!([{ "fullyQualifiedName": pointer }]);
     }
@@ -63,8 +66,13 @@ pub(super) fn result(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> Va
 
 /// The message and the advice: viewers show no more than this.
 fn message(diagnostic: &Diagnostic) -> String {
-    let hints = diagnostic.hints.iter().map(|hint| format!("\nhelp: {}", hint.text));
-    std::iter::once(diagnostic.message.clone()).chain(hints).collect()
+    let hints = diagnostic
+        .hints
+        .iter()
+        .map(|hint| format!("\nhelp: {}", hint.text));
+    std::iter::once(diagnostic.message.clone())
+        .chain(hints)
+        .collect()
 }
 
 fn location(label: &Label, map: &SourceMap) -> Value {
@@ -81,7 +89,8 @@ fn location(label: &Label, map: &SourceMap) -> Value {
 
 fn region(span: Span, map: &SourceMap) -> Value {
     let place = Place::new(map, span);
-    let mut region = json!({ "byteOffset": span.start, "byteLength": span.end.saturating_sub(span.start) });
+    let mut region =
+        json!({ "byteOffset": span.start, "byteLength": span.end.saturating_sub(span.start) });
     if let (Some(start), Some(end)) = (place.start, place.end) {
         region["startLine"] = start.line.into();
         region["startColumn"] = start.column.into();
@@ -92,7 +101,10 @@ fn region(span: Span, map: &SourceMap) -> Value {
 }
 
 fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
-    let changes = diagnostic.hints.iter().filter_map(|hint| Some((hint, hint.replacement.as_ref()?)));
+    let changes = diagnostic
+        .hints
+        .iter()
+        .filter_map(|hint| Some((hint, hint.replacement.as_ref()?)));
     let fix = |(hint, change): (&crate::diag::Hint, &crate::diag::Replacement)| {
         json!({
             "description": { "text": hint.text },
@@ -111,7 +123,17 @@ fn fixes(diagnostic: &Diagnostic, map: &SourceMap) -> Vec<Value> {
 /// The path as a URI reference: relative as the user gave it, or with the scheme `file`.
 fn uri(path: &str) -> String {
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte);
-    let escape = |byte: u8| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };
+    let escape = |byte: u8| {
+        if plain(byte) {
+            char::from(byte).to_string()
+        } else {
+            format!("%{byte:02X}")
+        }
+    };
     let escaped: String = path.bytes().map(escape).collect();
-    if path.starts_with('/') { format!("file://{escaped}") } else { escaped }
+    if path.starts_with('/') {
+        format!("file://{escaped}")
+    } else {
+        escaped
+    }
 }

@@ -13,5 +13,10 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         (None, Some(pointer)) => format!("{}: {}", clean(name), clean(pointer)),
         (None, None) => clean(name).into_owned(),
     };
-    format!("{place}: {}[{}]: {}\n", severity(diagnostic.severity), diagnostic.code, clean(&diagnostic.message))
+    format!(
+        "{place}: {}[{}]: {}\n",
+        severity(diagnostic.severity),
+        diagnostic.code,
+        clean(&diagnostic.message)
+    )
 }

@@ -1,4 +1,5 @@
-//! The printers on made-up findings, as whole texts; and that no bytes make them fail or let a command through.
+//! The printers on made-up findings, as whole texts; and that no bytes make them fail or let a
+//! command through.
 
 use super::*;
 use crate::diag::codes;
@@ -6,14 +7,26 @@ use crate::source::Span;
 use insta::assert_snapshot;
 use proptest::prelude::*;
 
-const PLAIN: Options = Options { color: false, width: 80, least: Severity::Warning, max: 100 };
+const PLAIN: Options = Options {
+    color: false,
+    width: 80,
+    least: Severity::Warning,
+    max: 100,
+};
 const SCENE: &str = "Camera:\n\teye: [0, 日本, .inf]\nShaddows: true\n";
 
-fn print(format: Format, options: Options, text: &[u8], make: impl Fn(Span) -> Vec<Diagnostic>) -> String {
+fn print(
+    format: Format,
+    options: Options,
+    text: &[u8],
+    make: impl Fn(Span) -> Vec<Diagnostic>,
+) -> String {
     let mut map = SourceMap::default();
     let file = map.add("a b.yaml", text.to_vec());
     let mut sink = Sink::default();
-    make(Span::new(file, 0, 0)).into_iter().for_each(|diagnostic| sink.push(diagnostic));
+    make(Span::new(file, 0, 0))
+        .into_iter()
+        .for_each(|diagnostic| sink.push(diagnostic));
     let mut printer = Printer::new(format, options);
     let text = printer.file("a b.yaml", sink, &map);
     text + &printer.finish()
@@ -21,7 +34,11 @@ fn print(format: Format, options: Options, text: &[u8], make: impl Fn(Span) -> V
 
 fn find(at: Span, text: &str, word: &str) -> Span {
     let start = u32::try_from(text.find(word).unwrap()).unwrap();
-    Span { start, end: start + u32::try_from(word.len()).unwrap(), ..at }
+    Span {
+        start,
+        end: start + u32::try_from(word.len()).unwrap(),
+        ..at
+    }
 }
 
 fn two(at: Span) -> Vec<Diagnostic> {
@@ -30,7 +47,11 @@ fn two(at: Span) -> Vec<Diagnostic> {
         Diagnostic::new(&codes::UNKNOWN_KEY, "unknown key `Shaddows`")
             .at(span("Shaddows"), "no such key: 100 %, here")
             .also(span("Camera"), "`Shadows` goes beside this")
-            .replace("a key with a similar name exists", span("Shaddows"), "Shadows"),
+            .replace(
+                "a key with a similar name exists",
+                span("Shaddows"),
+                "Shadows",
+            ),
         Diagnostic::new(&codes::NOT_FINITE, "`.inf` is not finite")
             .at(span(".inf"), "not a number to compute with")
             .pointer("/camera/eye/2")
@@ -41,8 +62,23 @@ fn two(at: Span) -> Vec<Diagnostic> {
 fn hostile(at: Span) -> Vec<Diagnostic> {
     vec![
         Diagnostic::new(&codes::UNKNOWN_KEY, "unknown key `\x1b[2J\n::error::x`")
-            .at(Span { start: 1, end: 4, ..at }, "\u{9b}31m\u{202e}")
-            .replace("\x07", Span { start: 1, end: 2, ..at }, "\x1b]0;x\n\x07"),
+            .at(
+                Span {
+                    start: 1,
+                    end: 4,
+                    ..at
+                },
+                "\u{9b}31m\u{202e}",
+            )
+            .replace(
+                "\x07",
+                Span {
+                    start: 1,
+                    end: 2,
+                    ..at
+                },
+                "\x1b]0;x\n\x07",
+            ),
     ]
 }
 
@@ -82,7 +118,18 @@ fn human_shows_far_places_apart() {
     let twice = |at: Span| {
         let second = u32::try_from(text.rfind("Eye").unwrap()).unwrap();
         let again = Diagnostic::new(&codes::NOT_FINITE, "`Eye` is given twice");
-        vec![again.at(Span { start: second, end: second + 3, ..at }, "again").also(Span { end: 3, ..at }, "first")]
+        vec![
+            again
+                .at(
+                    Span {
+                        start: second,
+                        end: second + 3,
+                        ..at
+                    },
+                    "again",
+                )
+                .also(Span { end: 3, ..at }, "first"),
+        ]
     };
     assert_snapshot!(print(Format::Human, PLAIN, text.as_bytes(), twice), @r#"
     error[VA001]: `Eye` is given twice
@@ -104,7 +151,14 @@ fn human_shows_far_places_apart() {
 fn human_names_the_byte_or_column_where_lines_mean_nothing() {
     let late = |at: Span| {
         let finding = Diagnostic::new(&codes::NOT_UTF8, "the file is not UTF-8");
-        vec![finding.at(Span { start: 5000, end: 5001, ..at }, "`0xff` here")]
+        vec![finding.at(
+            Span {
+                start: 5000,
+                end: 5001,
+                ..at
+            },
+            "`0xff` here",
+        )]
     };
     assert_snapshot!(print(Format::Human, PLAIN, &[&[0; 5000][..], &[0xff; 9]].concat(), late), @r#"
     error[SY001]: the file is not UTF-8
@@ -178,22 +232,34 @@ fn json_has_every_field() {
 
 #[test]
 fn sarif_is_one_run_with_all_rules() {
-    let mut log: serde_json::Value = serde_json::from_str(&print(Format::Sarif, PLAIN, SCENE.as_bytes(), two)).unwrap();
+    let mut log: serde_json::Value =
+        serde_json::from_str(&print(Format::Sarif, PLAIN, SCENE.as_bytes(), two)).unwrap();
     let run = &log["runs"][0];
-    assert_eq!(run["tool"]["driver"]["rules"].as_array().unwrap().len(), codes::all().count());
+    assert_eq!(
+        run["tool"]["driver"]["rules"].as_array().unwrap().len(),
+        codes::all().count()
+    );
     for result in run["results"].as_array().unwrap() {
         let rule = usize::try_from(result["ruleIndex"].as_u64().unwrap()).unwrap();
         assert_eq!(run["tool"]["driver"]["rules"][rule]["id"], result["ruleId"]);
     }
-    log["runs"][0]["results"][1].as_object_mut().unwrap().shift_remove("ruleIndex");
+    log["runs"][0]["results"][1]
+        .as_object_mut()
+        .unwrap()
+        .shift_remove("ruleIndex");
     assert_snapshot!(log["runs"][0]["results"][1].to_string(), @r#"{"ruleId":"SC001","level":"warning","message":{"text":"unknown key `Shaddows`\nhelp: a key with a similar name exists"},"locations":[{"physicalLocation":{"artifactLocation":{"uri":"a%20b.yaml"},"region":{"byteOffset":32,"byteLength":8,"startLine":3,"startColumn":1,"endLine":3,"endColumn":9}},"message":{"text":"no such key: 100 %, here"}}],"relatedLocations":[{"physicalLocation":{"artifactLocation":{"uri":"a%20b.yaml"},"region":{"byteOffset":0,"byteLength":6,"startLine":1,"startColumn":1,"endLine":1,"endColumn":7}},"message":{"text":"`Shadows` goes beside this"}}],"fixes":[{"description":{"text":"a key with a similar name exists"},"artifactChanges":[{"artifactLocation":{"uri":"a%20b.yaml"},"replacements":[{"deletedRegion":{"byteOffset":32,"byteLength":8,"startLine":3,"startColumn":1,"endLine":3,"endColumn":9},"insertedContent":{"text":"Shadows"}}]}]}]}"#);
 }
 
 #[test]
 fn errors_come_before_warnings_when_not_all_fit() {
     let flood = |at: Span| {
-        let place = |i| Span { start: i, end: i + 1, ..at };
-        let warning = |i| Diagnostic::new(&codes::UNKNOWN_KEY, format!("warning {i}")).at(place(i), "");
+        let place = |i| Span {
+            start: i,
+            end: i + 1,
+            ..at
+        };
+        let warning =
+            |i| Diagnostic::new(&codes::UNKNOWN_KEY, format!("warning {i}")).at(place(i), "");
         let error = Diagnostic::new(&codes::NOT_FINITE, "error").at(place(2), "");
         (0..5).map(warning).chain([error]).collect()
     };
@@ -203,21 +269,34 @@ fn errors_come_before_warnings_when_not_all_fit() {
     a b.yaml:1:3: error[VA001]: error
     a b.yaml: and 4 more
     "#);
-    assert!(print(Format::Human, options, b"0123456789", flood).contains("and 4 more\na b.yaml: 1 error, 5 warnings;"));
+    assert!(
+        print(Format::Human, options, b"0123456789", flood)
+            .contains("and 4 more\na b.yaml: 1 error, 5 warnings;")
+    );
     assert!(print(Format::Json, options, b"0123456789", flood).ends_with("\n{\"omitted\":4}\n"));
 }
 
 #[test]
 fn notes_are_for_those_who_ask_and_for_programs() {
     let note = |at: Span| vec![two(at).remove(0).severity(Severity::Note)];
-    let shown = |format, least| !print(format, Options { least, ..PLAIN }, SCENE.as_bytes(), note).is_empty();
-    assert_eq!([Severity::Warning, Severity::Note].map(|least| shown(Format::Human, least)), [false, true]);
-    assert_eq!([Severity::Error, Severity::Note].map(|least| shown(Format::Json, least)), [true, true]);
+    let shown = |format, least| {
+        !print(format, Options { least, ..PLAIN }, SCENE.as_bytes(), note).is_empty()
+    };
+    assert_eq!(
+        [Severity::Warning, Severity::Note].map(|least| shown(Format::Human, least)),
+        [false, true]
+    );
+    assert_eq!(
+        [Severity::Error, Severity::Note].map(|least| shown(Format::Json, least)),
+        [true, true]
+    );
 }
 
 fn nasty() -> impl Strategy<Value = Vec<u8>> {
-    let pieces =
-        ["a", ": ", "\n", "\r\n", "\r", "\t", "日", "e\u{301}", "\u{200d}", "\x1b[", "\0", "\u{9b}", "\u{202e}"];
+    let pieces = [
+        "a", ": ", "\n", "\r\n", "\r", "\t", "日", "e\u{301}", "\u{200d}", "\x1b[", "\0", "\u{9b}",
+        "\u{202e}",
+    ];
     let piece = prop_oneof![
         proptest::sample::select(pieces.to_vec()).prop_map(|piece| piece.as_bytes().to_vec()),
         Just(vec![0xff]),

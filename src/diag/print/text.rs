@@ -1,4 +1,5 @@
-//! Text from outside made safe to print: nothing of it can command a terminal or turn the order of the line round.
+//! Text from outside made safe to print: nothing of it can command a terminal or turn the order of
+//! the line round.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -34,14 +35,17 @@ pub(super) fn clean_except<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
 pub(super) fn picture(c: char) -> char {
     match c {
         '\t' => '\t',
-        '\0'..='\u{1f}' => char::from_u32(0x2400 + u32::from(c)).unwrap_or(char::REPLACEMENT_CHARACTER),
+        '\0'..='\u{1f}' => {
+            char::from_u32(0x2400 + u32::from(c)).unwrap_or(char::REPLACEMENT_CHARACTER)
+        }
         '\u{7f}' => '␡',
         _ if is_unsafe(c) => char::REPLACEMENT_CHARACTER,
         _ => c,
     }
 }
 
-/// JSON in which every unsafe character but the line end is a `\u` escape; they occur only within its strings.
+/// JSON in which every unsafe character but the line end is a `\u` escape; they occur only within
+/// its strings.
 pub(super) fn clean_json(json: &str) -> String {
     let mut cleaned = String::with_capacity(json.len());
     for c in json.chars() {
@@ -66,9 +70,15 @@ mod tests {
 
     #[test]
     fn commands_are_spelled_out() {
-        assert_eq!(clean("a\u{1b}[2Jb\u{9b}c\nd\u{202e}ü"), "a\\u{1b}[2Jb\\u{9b}c\\u{a}d\\u{202e}ü");
+        assert_eq!(
+            clean("a\u{1b}[2Jb\u{9b}c\nd\u{202e}ü"),
+            "a\\u{1b}[2Jb\\u{9b}c\\u{a}d\\u{202e}ü"
+        );
         assert_eq!(clean_except("a\tb\u{7}", &['\t']), "a\tb\\u{7}");
-        assert_eq!("a\t\u{1b}\u{9b}".chars().map(picture).collect::<String>(), "a\t␛\u{fffd}");
+        assert_eq!(
+            "a\t\u{1b}\u{9b}".chars().map(picture).collect::<String>(),
+            "a\t␛\u{fffd}"
+        );
         assert_eq!(clean_json("\"\u{9b}ü\u{7f}\"\n"), "\"\\u009bü\\u007f\"\n");
     }
 }

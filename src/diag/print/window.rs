@@ -1,6 +1,8 @@
-//! A few lines of a file, safe to print: control characters pictured, long lines clipped, spans moved accordingly.
+//! A few lines of a file, safe to print: control characters pictured, long lines clipped, spans
+//! moved accordingly.
 //!
-//! Its size depends on the spans asked for, never on that of the file or of its lines. Columns stay what they are.
+//! Its size depends on the spans asked for, never on that of the file or of its lines. Columns stay
+//! what they are.
 
 use super::text;
 use crate::source::{SourceMap, Span};
@@ -28,14 +30,21 @@ pub(super) struct Window {
 impl Window {
     /// The lines from the start of the first span to the end of the last; all lie in one file.
     pub(super) fn new(map: &SourceMap, spans: &[Span]) -> Self {
-        let (start, end) = spans.iter().fold((u32::MAX, 0), |(a, b), span| (a.min(span.start), b.max(span.end)));
+        let (start, end) = spans.iter().fold((u32::MAX, 0), |(a, b), span| {
+            (a.min(span.start), b.max(span.end))
+        });
         let file = spans[0].file;
         let first = map.line_column(file, start).line;
         let last = map.line_column(file, end).line;
-        let mut window = Self { text: String::new(), first_line: first as usize, moved: Vec::new() };
+        let mut window = Self {
+            text: String::new(),
+            first_line: first as usize,
+            moved: Vec::new(),
+        };
         for line in first..=last {
             let range = map.lines(file, line, line);
-            let content = without_line_end(map.bytes(file), range.start as usize..range.end as usize);
+            let content =
+                without_line_end(map.bytes(file), range.start as usize..range.end as usize);
             let kept = clip(map.bytes(file), &content, spans);
             window.line(map.bytes(file), content.start..kept);
             if kept < content.end {
@@ -51,7 +60,9 @@ impl Window {
     /// Where `span` is in the text.
     pub(super) fn range(&self, span: Span) -> Range<usize> {
         let locate = |offset: u32| {
-            let after = self.moved.partition_point(|(from, _)| *from < offset as usize);
+            let after = self
+                .moved
+                .partition_point(|(from, _)| *from < offset as usize);
             self.moved.get(after).map_or(self.text.len(), |(_, to)| *to)
         };
         locate(span.start)..locate(span.end).max(locate(span.start))
@@ -84,15 +95,27 @@ fn without_line_end(bytes: &[u8], range: Range<usize>) -> Range<usize> {
 
 /// Where a line is cut off: some way after what is marked in it, between two characters.
 fn clip(bytes: &[u8], line: &Range<usize>, spans: &[Span]) -> usize {
-    let ends = spans.iter().flat_map(|span| [span.start as usize, span.end as usize]);
-    let last = ends.filter(|end| (line.start..=line.end).contains(end)).max().unwrap_or(line.start);
+    let ends = spans
+        .iter()
+        .flat_map(|span| [span.start as usize, span.end as usize]);
+    let last = ends
+        .filter(|end| (line.start..=line.end).contains(end))
+        .max()
+        .unwrap_or(line.start);
     let is_boundary = |at: &usize| bytes[*at] & 0xc0 != 0x80;
-    (last + AFTER..line.end).find(is_boundary).unwrap_or(line.end)
+    (last + AFTER..line.end)
+        .find(is_boundary)
+        .unwrap_or(line.end)
 }
 
 /// True if the start of `span` stands in a line that can be shown up to there.
 pub(super) fn is_near(map: &SourceMap, span: Span) -> bool {
-    let before = map.bytes(span.file).iter().take(span.start as usize).rev().take(FAR as usize + 1);
+    let before = map
+        .bytes(span.file)
+        .iter()
+        .take(span.start as usize)
+        .rev()
+        .take(FAR as usize + 1);
     span.start <= FAR || before.into_iter().any(|byte| *byte == b'\n')
 }
 
@@ -101,14 +124,19 @@ pub(super) fn mark(map: &SourceMap, span: Span) -> Span {
     let bytes = map.bytes(span.file);
     let start = (span.start as usize).min(bytes.len());
     let end = (span.end.min(span.start.saturating_add(MARK)) as usize).clamp(start, bytes.len());
-    let line_end = bytes[start..end].iter().position(|byte| matches!(byte, b'\n' | b'\r')).map_or(end, |at| start + at);
+    let line_end = bytes[start..end]
+        .iter()
+        .position(|byte| matches!(byte, b'\n' | b'\r'))
+        .map_or(end, |at| start + at);
     let at = |offset| u32::try_from(offset).unwrap_or(u32::MAX);
     Span::new(span.file, at(start), at(line_end))
 }
 
 /// True if all of `span` can be shown, line by line, for a replacement.
 pub(super) fn fits(map: &SourceMap, span: Span) -> bool {
-    is_near(map, span) && span.end as usize <= map.bytes(span.file).len() && span.end - span.start <= APART
+    is_near(map, span)
+        && span.end as usize <= map.bytes(span.file).len()
+        && span.end - span.start <= APART
 }
 
 /// Groups marks, sorted by place, into windows: one for each run of near ones in one file.
@@ -136,12 +164,18 @@ mod tests {
         let file = map.add("x", text.to_vec());
         let span = mark(&map, Span::new(file, start, end));
         let window = Window::new(&map, &[span]);
-        (window.text.get(window.range(span)).unwrap().to_owned(), window.text.clone())
+        (
+            window.text.get(window.range(span)).unwrap().to_owned(),
+            window.text.clone(),
+        )
     }
 
     #[test]
     fn marks_move_with_what_is_replaced() {
-        assert_eq!(window(b"a\n\x1b\xff: bc\r\nd", 6, 7), ("b".into(), "␛\u{fffd}: bc".into()));
+        assert_eq!(
+            window(b"a\n\x1b\xff: bc\r\nd", 6, 7),
+            ("b".into(), "␛\u{fffd}: bc".into())
+        );
         assert_eq!(window(b"ab\ncd", 1, 5), ("b".into(), "ab".into()));
         assert_eq!(window(b"ab\n", 3, 3), (String::new(), String::new()));
     }
@@ -166,6 +200,12 @@ mod tests {
     fn far_marks_part() {
         let file = SourceMap::default().add("x", Vec::new());
         let spans = [0, 100, 1000].map(|start| Span::new(file, start, start + 1));
-        assert_eq!(runs(spans.to_vec(), |span| *span).iter().map(Vec::len).collect::<Vec<_>>(), [2, 1]);
+        assert_eq!(
+            runs(spans.to_vec(), |span| *span)
+                .iter()
+                .map(Vec::len)
+                .collect::<Vec<_>>(),
+            [2, 1]
+        );
     }
 }

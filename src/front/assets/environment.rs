@@ -11,25 +11,31 @@ use crate::source::{Budget, Kind};
 const MAX_BYTES: u64 = 1 << 29;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind { extensions: &["hdr", "pic", "exr"], begins: is_radiance };
+pub(super) const KIND: Kind = Kind {
+    extensions: &["hdr", "pic", "exr"],
+    begins: is_radiance,
+};
 
 /// Brings the image of the environment; without its file there is none.
 pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
     let found = porter.find(wish, Without::Environment);
-    let image = found.and_then(|found| match porter.loader.found(&found, MAX_BYTES, porter.map) {
-        Ok(bytes) => {
-            let image = environment(&wish.path, &bytes, porter.map.budget());
-            let refuse = |fault| {
-                let finding = refusal(&fault, &found.shown.display().to_string()).at(wish.span, "named here");
-                porter.refuse(finding, Without::Environment);
-            };
-            image.map_err(refuse).ok()
-        }
-        Err(error) => {
-            porter.unreadable(&found, &error.to_string(), wish.span, Without::Environment);
-            None
-        }
-    });
+    let image = found.and_then(
+        |found| match porter.loader.found(&found, MAX_BYTES, porter.map) {
+            Ok(bytes) => {
+                let image = environment(&wish.path, &bytes, porter.map.budget());
+                let refuse = |fault| {
+                    let finding = refusal(&fault, &found.shown.display().to_string())
+                        .at(wish.span, "named here");
+                    porter.refuse(finding, Without::Environment);
+                };
+                image.map_err(refuse).ok()
+            }
+            Err(error) => {
+                porter.unreadable(&found, &error.to_string(), wish.span, Without::Environment);
+                None
+            }
+        },
+    );
     match (image, lowered.scene.images.get_mut(id.0 as usize)) {
         (Some(image), Some(place)) => *place = image,
         (_, _) => lowered.scene.environment = None,
@@ -42,8 +48,18 @@ pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &
 /// If the bytes are no such file, damaged, or ask for too much.
 pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<Image, Refused> {
     budget.read(bytes.len());
-    let Radiance { width, height, bytes } = pixels::decode_radiance(bytes, budget)?;
-    Ok(Image { name: name.to_owned(), width, height, kind: Pixels::Rgb32f, pixels: bytes.into() })
+    let Radiance {
+        width,
+        height,
+        bytes,
+    } = pixels::decode_radiance(bytes, budget)?;
+    Ok(Image {
+        name: name.to_owned(),
+        width,
+        height,
+        kind: Pixels::Rgb32f,
+        pixels: bytes.into(),
+    })
 }
 
 /// What to say of such a file that can't be read.
@@ -54,11 +70,18 @@ pub fn refusal(fault: &Refused, name: &str) -> Diagnostic {
         Refused::File(fault) => fault,
     };
     let (code, hint) = match fault {
-        DecodeError::Format(_) => (&codes::BAD_PICTURE, "environments are Radiance HDR or OpenEXR"),
+        DecodeError::Format(_) => (
+            &codes::BAD_PICTURE,
+            "environments are Radiance HDR or OpenEXR",
+        ),
         DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
-        DecodeError::TooLarge { width: _, height: _ } => {
-            (&codes::HUGE_PICTURE, "scale it down, or set another limit by `--limit pixels=…`")
-        }
+        DecodeError::TooLarge {
+            width: _,
+            height: _,
+        } => (
+            &codes::HUGE_PICTURE,
+            "scale it down, or set another limit by `--limit pixels=…`",
+        ),
     };
     Diagnostic::new(code, format!("the environment `{name}` {fault}")).hint(hint)
 }

@@ -1,18 +1,22 @@
-//! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count, their lights do.
+//! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count,
+//! their lights do.
 
 use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, codes};
 use crate::front::{Options, gltf};
 use crate::ir::{
-    Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual, Scene, Shape,
-    Surface, Texture, TextureId,
+    Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual,
+    Scene, Shape, Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
 use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
 use glam::DAffine3;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind { extensions: &["gltf", "glb"], begins: gltf::begins };
+pub(super) const KIND: Kind = Kind {
+    extensions: &["gltf", "glb"],
+    begins: gltf::begins,
+};
 
 /// The largest asset read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
@@ -44,13 +48,19 @@ impl Assets {
         if self.is_over {
             return;
         }
-        let Some(found) = porter.find(wish, Without::Object) else { return };
+        let Some(found) = porter.find(wish, Without::Object) else {
+            return;
+        };
         let asset = self.known.of(&found, || {
             let bytes = porter.loader.found(&found, MAX_BYTES, porter.map);
-            let bytes =
-                bytes.map_err(|error| porter.unreadable(&found, &error.to_string(), wish.span, Without::Object));
+            let bytes = bytes.map_err(|error| {
+                porter.unreadable(&found, &error.to_string(), wish.span, Without::Object)
+            });
             let file = add_asset(&found, bytes.ok()?, wish, porter)?;
-            let options = Options { camera: None, ..porter.options.clone() };
+            let options = Options {
+                camera: None,
+                ..porter.options.clone()
+            };
             let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
             Some(add(asset, lowered))
         });
@@ -59,26 +69,43 @@ impl Assets {
             Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
             Err(fault) => {
                 self.is_over = true;
-                porter.sink.push(over_limit("the asset", &fault).at(wish.span, "placed here"));
+                porter
+                    .sink
+                    .push(over_limit("the asset", &fault).at(wish.span, "placed here"));
             }
         }
     }
 }
 
-/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of another kind.
-fn add_asset(found: &Found, bytes: Vec<u8>, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
+/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of
+/// another kind.
+fn add_asset(
+    found: &Found,
+    bytes: Vec<u8>,
+    wish: &Wanted,
+    porter: &mut Porter<'_>,
+) -> Option<FileId> {
     if gltf::recognise("", &bytes) {
         return Some(porter.map.add_found(found, bytes));
     }
     let message = format!("`{}` is no glTF asset", found.shown.display());
-    porter.refuse(Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"), Without::Object);
+    porter.refuse(
+        Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"),
+        Without::Object,
+    );
     None
 }
 
 /// Adds what an asset is made of to a scene.
 fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
-    let Lowered { scene: own, origins } = asset;
-    let Lowered { scene, origins: all } = lowered;
+    let Lowered {
+        scene: own,
+        origins,
+    } = asset;
+    let Lowered {
+        scene,
+        origins: all,
+    } = lowered;
     let offset = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
     let [images, textures] = [scene.images.len(), scene.textures.len()].map(offset);
     let [meshes, materials] = [scene.meshes.len(), scene.materials.len()].map(offset);
@@ -93,30 +120,54 @@ fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
             all.record(place, origins.span(Place::new(noun, index, Field::Whole)));
         }
     }
-    let Scene { images: own_images, textures: own_textures, meshes: own_meshes, materials: own_materials, .. } = own;
+    let Scene {
+        images: own_images,
+        textures: own_textures,
+        meshes: own_meshes,
+        materials: own_materials,
+        ..
+    } = own;
     scene.images.extend(own_images);
-    scene.textures.extend(own_textures.into_iter().map(|texture| match texture {
-        Texture::Uv => Texture::Uv,
-        Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + images)),
-        Texture::Sampled(mut sampled) => {
-            sampled.image.0 += images;
-            Texture::Sampled(sampled)
-        }
-    }));
+    scene
+        .textures
+        .extend(own_textures.into_iter().map(|texture| match texture {
+            Texture::Uv => Texture::Uv,
+            Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + images)),
+            Texture::Sampled(mut sampled) => {
+                sampled.image.0 += images;
+                Texture::Sampled(sampled)
+            }
+        }));
     scene.meshes.extend(own_meshes);
-    scene.materials.extend(own_materials.into_iter().map(|mut material| {
-        if let Material::Standard(standard) = &mut material {
-            standard.maps_mut().for_each(|map| map.texture = TextureId(map.texture.0 + textures));
-        }
-        material
-    }));
-    let surfaces = own.surfaces.into_iter().map(|Surface { mut shape, material }| {
-        if let Shape::Instance(instance) = &mut shape {
-            instance.mesh = MeshId(instance.mesh.0 + meshes);
-        }
-        Surface { shape, material: MaterialId(material.0 + materials) }
-    });
-    Placeable { surfaces: surfaces.collect(), names: own.names, lights: own.lights }
+    scene
+        .materials
+        .extend(own_materials.into_iter().map(|mut material| {
+            if let Material::Standard(standard) = &mut material {
+                standard
+                    .maps_mut()
+                    .for_each(|map| map.texture = TextureId(map.texture.0 + textures));
+            }
+            material
+        }));
+    let surfaces = own.surfaces.into_iter().map(
+        |Surface {
+             mut shape,
+             material,
+         }| {
+            if let Shape::Instance(instance) = &mut shape {
+                instance.mesh = MeshId(instance.mesh.0 + meshes);
+            }
+            Surface {
+                shape,
+                material: MaterialId(material.0 + materials),
+            }
+        },
+    );
+    Placeable {
+        surfaces: surfaces.collect(),
+        names: own.names,
+        lights: own.lights,
+    }
 }
 
 impl Placeable {
@@ -135,7 +186,9 @@ impl Placeable {
         if !self.names.is_empty() || !scene.names.is_empty() {
             scene.names.resize(scene.surfaces.len(), String::new());
             scene.names.extend(self.names.iter().cloned());
-            scene.names.resize(scene.surfaces.len() + self.surfaces.len(), String::new());
+            scene
+                .names
+                .resize(scene.surfaces.len() + self.surfaces.len(), String::new());
         }
         for surface in &self.surfaces {
             let mut surface = surface.clone();
@@ -143,11 +196,17 @@ impl Placeable {
                 let own = DAffine3::from_cols_array_2d(&instance.world_from_object);
                 instance.world_from_object = (world * own).to_cols_array_2d();
             }
-            origins.record(Place::new(Noun::Surface, scene.surfaces.len(), Field::Whole), wish.span);
+            origins.record(
+                Place::new(Noun::Surface, scene.surfaces.len(), Field::Whole),
+                wish.span,
+            );
             scene.surfaces.push(surface);
         }
         for light in &self.lights {
-            origins.record(Place::new(Noun::Light, scene.lights.len(), Field::Whole), wish.span);
+            origins.record(
+                Place::new(Noun::Light, scene.lights.len(), Field::Whole),
+                wish.span,
+            );
             scene.lights.push(placed(light, world));
         }
     }
@@ -155,13 +214,22 @@ impl Placeable {
 
 /// A light moved and turned; its strength and its reach know no scale, as in the asset.
 fn placed(light: &Light, world: DAffine3) -> Light {
-    let Light::Punctual(Punctual { emitter, intensity }) = light else { return light.clone() };
+    let Light::Punctual(Punctual { emitter, intensity }) = light else {
+        return light.clone();
+    };
     let mut emitter = emitter.clone();
     if let Emitter::Point { position, .. } | Emitter::Spot { position, .. } = &mut emitter {
-        *position = world.transform_point3(Vec3::from_array(*position)).to_array();
+        *position = world
+            .transform_point3(Vec3::from_array(*position))
+            .to_array();
     }
     if let Emitter::Sun { direction } | Emitter::Spot { direction, .. } = &mut emitter {
-        *direction = world.transform_vector3(Vec3::from_array(*direction)).to_array();
+        *direction = world
+            .transform_vector3(Vec3::from_array(*direction))
+            .to_array();
     }
-    Light::Punctual(Punctual { emitter, intensity: *intensity })
+    Light::Punctual(Punctual {
+        emitter,
+        intensity: *intensity,
+    })
 }

@@ -8,13 +8,18 @@ use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Tex
 use crate::source::{Found, Kind};
 use std::collections::BTreeMap;
 
-/// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored plainly.
+/// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored
+/// plainly.
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind { extensions: &["png", "jpg", "jpeg", "webp"], begins: is_picture };
+pub(super) const KIND: Kind = Kind {
+    extensions: &["png", "jpg", "jpeg", "webp"],
+    begins: is_picture,
+};
 
-/// Brings one image, or the one that the same file became before, whatever it was called; `None` without a file.
+/// Brings one image, or the one that the same file became before, whatever it was called; `None`
+/// without a file.
 pub(super) fn bring(
     id: ImageId,
     wish: &Wanted,
@@ -24,7 +29,12 @@ pub(super) fn bring(
 ) -> Option<ImageId> {
     let found = porter.find(wish, Without::Color)?;
     let image = known.of(&found, || {
-        let Pixels { width, height, has_alpha: _, bytes } = read(&found, wish, porter)?;
+        let Pixels {
+            width,
+            height,
+            has_alpha: _,
+            bytes,
+        } = read(&found, wish, porter)?;
         let image = lowered.scene.images.get_mut(id.0 as usize)?;
         (image.width, image.height) = (width, height);
         image.pixels = bytes.into();
@@ -33,7 +43,8 @@ pub(super) fn bring(
     image.copied()
 }
 
-/// Has textures look at the images that came of those they wanted, and no material at a texture of which none came.
+/// Has textures look at the images that came of those they wanted, and no material at a texture of
+/// which none came.
 pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
     let mut missing = vec![false; scene.textures.len()];
     for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
@@ -47,7 +58,11 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
     }
     let is_missing = |texture: &TextureId| missing.get(texture.0 as usize) == Some(&true);
     for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
-        for map in [&mut phong.color_map, &mut phong.specular_map, &mut phong.normal_map] {
+        for map in [
+            &mut phong.color_map,
+            &mut phong.specular_map,
+            &mut phong.normal_map,
+        ] {
             map.take_if(|texture| is_missing(texture));
         }
         phong.bump.take_if(|bump| is_missing(&bump.texture));
@@ -59,7 +74,9 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels>
         Ok(bytes) => {
             porter.map.budget().read(bytes.len());
             let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
-            pixels.map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color)).ok()
+            pixels
+                .map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color))
+                .ok()
         }
         Err(error) => {
             porter.unreadable(found, &error.to_string(), wish.span, Without::Color);
@@ -80,33 +97,56 @@ fn refusal(fault: &Refused, found: &Found, wish: &Wanted) -> Diagnostic {
     let (code, hint) = match fault {
         DecodeError::Format(_) => (&codes::BAD_PICTURE, "textures are PNG, JPEG or WebP"),
         DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
-        DecodeError::TooLarge { width: _, height: _ } => {
-            (&codes::HUGE_PICTURE, "scale it down, or set another limit by `--limit pixels=…`")
-        }
+        DecodeError::TooLarge {
+            width: _,
+            height: _,
+        } => (
+            &codes::HUGE_PICTURE,
+            "scale it down, or set another limit by `--limit pixels=…`",
+        ),
     };
-    Diagnostic::new(code, message).at(wish.span, "named here").hint(hint)
+    Diagnostic::new(code, message)
+        .at(wish.span, "named here")
+        .hint(hint)
 }
 
 /// Makes normal maps of the bump maps that hold normals.
 pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
-    let Scene { materials, textures, images, .. } = &mut lowered.scene;
+    let Scene {
+        materials,
+        textures,
+        images,
+        ..
+    } = &mut lowered.scene;
     let image = |texture: TextureId| match textures.get(texture.0 as usize) {
         Some(Texture::Image(image)) => Some(*image),
         Some(Texture::Uv | Texture::Sampled(_)) | None => None,
     };
     let mut known: Vec<Option<bool>> = vec![None; images.len()];
     for (index, material) in materials.iter_mut().enumerate() {
-        let Some(phong) = material.phong_mut() else { continue };
-        let (Some(Bump { texture, height: _ }), None) = (&phong.bump, phong.normal_map) else { continue };
+        let Some(phong) = material.phong_mut() else {
+            continue;
+        };
+        let (Some(Bump { texture, height: _ }), None) = (&phong.bump, phong.normal_map) else {
+            continue;
+        };
         let texture = *texture;
-        let Some(image) = image(texture).map(|image| image.0 as usize).filter(|image| *image < images.len()) else {
+        let Some(image) = image(texture)
+            .map(|image| image.0 as usize)
+            .filter(|image| *image < images.len())
+        else {
             continue;
         };
         if *known[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
             phong.normal_map = Some(texture);
             phong.bump = None;
-            let message = format!("`{}` holds normals, so it is used as a normal map", clip_path(&images[image].name));
-            let span = lowered.origins.span(Place::new(Noun::Material, index, Field::Bump));
+            let message = format!(
+                "`{}` holds normals, so it is used as a normal map",
+                clip_path(&images[image].name)
+            );
+            let span = lowered
+                .origins
+                .span(Place::new(Noun::Material, index, Field::Bump));
             sink.push(
                 Diagnostic::new(&codes::NORMALS_AS_BUMP, message)
                     .at(span, "holds normals")

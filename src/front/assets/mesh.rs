@@ -14,7 +14,10 @@ const MAX_BYTES: u64 = 1 << 28;
 pub(super) const MAX_FAULTS: usize = 10;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind { extensions: &["obj", "off"], begins: is_mesh };
+pub(super) const KIND: Kind = Kind {
+    extensions: &["obj", "off"],
+    begins: is_mesh,
+};
 
 /// A mesh file as read.
 #[derive(Debug, Default)]
@@ -47,8 +50,8 @@ pub(super) struct Geometry {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-/// Brings one mesh, or the one that the same file became before, whatever it was called; without a file it stays empty,
-/// and nothing shows of it.
+/// Brings one mesh, or the one that the same file became before, whatever it was called; without a
+/// file it stays empty, and nothing shows of it.
 pub(super) fn bring(
     id: MeshId,
     wish: &Wanted,
@@ -56,9 +59,16 @@ pub(super) fn bring(
     known: &mut Known<MeshId>,
     porter: &mut Porter<'_>,
 ) -> MeshId {
-    let Some(found) = porter.find(wish, Without::Object) else { return id };
+    let Some(found) = porter.find(wish, Without::Object) else {
+        return id;
+    };
     let mesh = known.of(&found, || {
-        let Geometry { positions, normals, uvs, triangles } = load(&found, wish, porter)?;
+        let Geometry {
+            positions,
+            normals,
+            uvs,
+            triangles,
+        } = load(&found, wish, porter)?;
         let place = lowered.scene.meshes.get_mut(id.0 as usize)?;
         let name = std::mem::take(&mut place.name);
         *place = Mesh {
@@ -78,7 +88,10 @@ pub(super) fn bring(
 pub(super) fn settle(mesh_of: &BTreeMap<u32, MeshId>, scene: &mut Scene) {
     for surface in &mut scene.surfaces {
         if let Shape::Instance(instance) = &mut surface.shape {
-            instance.mesh = mesh_of.get(&instance.mesh.0).copied().unwrap_or(instance.mesh);
+            instance.mesh = mesh_of
+                .get(&instance.mesh.0)
+                .copied()
+                .unwrap_or(instance.mesh);
         }
     }
 }
@@ -90,21 +103,33 @@ fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Geometr
         Ok(Parsed { mesh, not_drawn }) => {
             if let Some((first, count)) = not_drawn {
                 let message = format!("{} show: {}", count_of(count), first.message);
-                let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
-                porter.sink.push(finding.also(wish.span, "the file is named here"));
+                let finding =
+                    Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
+                porter
+                    .sink
+                    .push(finding.also(wish.span, "the file is named here"));
             }
             return Some(mesh);
         }
         Err(Unread::Limit(fault)) => {
             let what = format!("the mesh `{}`", found.shown.display());
-            porter.refuse(over_limit(&what, &fault).at(wish.span, "named here"), Without::Object);
+            porter.refuse(
+                over_limit(&what, &fault).at(wish.span, "named here"),
+                Without::Object,
+            );
         }
         // Lenient, the object is left out once.
         Err(Unread::Faults(faults)) => {
-            let told = if porter.options.lenient { 1 } else { MAX_FAULTS };
+            let told = if porter.options.lenient {
+                1
+            } else {
+                MAX_FAULTS
+            };
             for fault in faults.into_iter().take(told) {
                 let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
-                let finding = finding.at(fault.span(file), fault.label).also(wish.span, "the file is named here");
+                let finding = finding
+                    .at(fault.span(file), fault.label)
+                    .also(wish.span, "the file is named here");
                 porter.refuse(finding, Without::Object);
             }
         }
@@ -130,7 +155,10 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId>
                 true => format!("the mesh file `{name}` is empty"),
                 false => format!("`{name}` is neither OBJ nor OFF"),
             };
-            porter.refuse(Diagnostic::new(&codes::BAD_MESH_FILE, message).at(wish.span, "named here"), Without::Object);
+            porter.refuse(
+                Diagnostic::new(&codes::BAD_MESH_FILE, message).at(wish.span, "named here"),
+                Without::Object,
+            );
             None
         }
         Err(error) => {
@@ -165,7 +193,10 @@ fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         Some(_) | None => obj::parse(bytes, budget)?,
     };
     if parsed.mesh.triangles.is_empty() {
-        let fault = words.first().unwrap_or(&Word::START).fault("the mesh has no faces", "nothing is drawn");
+        let fault = words
+            .first()
+            .unwrap_or(&Word::START)
+            .fault("the mesh has no faces", "nothing is drawn");
         return Err(Unread::Faults(vec![fault]));
     }
     Ok(parsed)

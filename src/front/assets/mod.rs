@@ -1,7 +1,7 @@
 //! The files a scene names, brought into its IR: textures and meshes.
 //!
-//! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what is wrong there. A
-//! lenient run goes on without the file and says what is missing.
+//! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
+//! is wrong there. A lenient run goes on without the file and says what is missing.
 
 mod environment;
 mod gltf;
@@ -16,7 +16,9 @@ pub use environment::{environment, refusal};
 use super::{Asset, Options, Wanted};
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::ir::Lowered;
-use crate::source::{Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
+use crate::source::{
+    Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span,
+};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -35,8 +37,15 @@ pub fn bring(
         return;
     }
     let folder = map.folder(scene);
-    let search = Search::new(folder, options.asset_root.as_deref()).with_parent(folder, options.home.as_deref());
-    let mut porter = Porter { search, options, loader: Loader, map, sink };
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
+    let mut porter = Porter {
+        search,
+        options,
+        loader: Loader,
+        map,
+        sink,
+    };
     let (mut images, mut meshes) = (Known::default(), Known::default());
     let mut assets = gltf::Assets::default();
     // Which image and which mesh came of each that was wanted.
@@ -44,10 +53,16 @@ pub fn bring(
     for wish in wanted {
         match wish.asset {
             Asset::Image(id) => {
-                image_of.insert(id.0, image::bring(id, &wish, lowered, &mut images, &mut porter));
+                image_of.insert(
+                    id.0,
+                    image::bring(id, &wish, lowered, &mut images, &mut porter),
+                );
             }
             Asset::Mesh(id) => {
-                mesh_of.insert(id.0, mesh::bring(id, &wish, lowered, &mut meshes, &mut porter));
+                mesh_of.insert(
+                    id.0,
+                    mesh::bring(id, &wish, lowered, &mut meshes, &mut porter),
+                );
             }
             Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
             Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
@@ -59,7 +74,8 @@ pub fn bring(
     lowered.origins.finish();
 }
 
-/// What became of the files read so far, each read once, however it is named; `None` if it can't be used.
+/// What became of the files read so far, each read once, however it is named; `None` if it can't be
+/// used.
 struct Known<T>(BTreeMap<Identity, Option<T>>);
 
 impl<T> Default for Known<T> {
@@ -116,7 +132,10 @@ impl Porter<'_> {
         };
         let mut first_fault = None;
         for extension in extensions {
-            match self.search.find(&format!("{}{extension}", wish.path), kind_of(&wish.asset)) {
+            match self
+                .search
+                .find(&format!("{}{extension}", wish.path), kind_of(&wish.asset))
+            {
                 Ok(found) => {
                     self.tell_where(wish, &found, found.elsewhere || !extension.is_empty());
                     return Some(found);
@@ -132,8 +151,15 @@ impl Porter<'_> {
 
     fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
         if elsewhere {
-            let message = format!("`{}` is taken from `{}`", clip_path(&wish.path), found.shown.display());
-            self.sink.push(Diagnostic::new(&codes::FILE_ELSEWHERE, message).at(wish.span, "found under another name"));
+            let message = format!(
+                "`{}` is taken from `{}`",
+                clip_path(&wish.path),
+                found.shown.display()
+            );
+            self.sink.push(
+                Diagnostic::new(&codes::FILE_ELSEWHERE, message)
+                    .at(wish.span, "found under another name"),
+            );
         }
     }
 
@@ -149,7 +175,10 @@ impl Porter<'_> {
     /// Reports a file that was found and can't be read.
     fn unreadable(&mut self, found: &Found, why: &str, span: Option<Span>, without: Without) {
         let message = format!("can't read `{}`: {why}", found.shown.display());
-        self.refuse(Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"), without);
+        self.refuse(
+            Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"),
+            without,
+        );
     }
 }
 
@@ -165,7 +194,11 @@ fn kind_of(asset: &Asset) -> &'static Kind {
 
 /// A file asks for more than the budget has.
 fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
-    Diagnostic::new(&codes::OVER_LIMIT, format!("{what} asks for too much: {fault}")).hint(fault.hint())
+    Diagnostic::new(
+        &codes::OVER_LIMIT,
+        format!("{what} asks for too much: {fault}"),
+    )
+    .hint(fault.hint())
 }
 
 /// True if the last component has a dot within: `cat.obj`, and `cat` has not.
@@ -178,14 +211,17 @@ fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
     let name = clip_path(&wish.path);
     match fault {
         Missing::NoFolder => {
-            let message = format!("`{name}` can't be looked for: a scene from a stream has no folder");
+            let message =
+                format!("`{name}` can't be looked for: a scene from a stream has no folder");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
                 .at(wish.span, "no folder to look in")
                 .hint("name the folder of its files by `--asset-root`")
         }
-        Missing::Absent(looked) => Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
-            .at(wish.span, "not found")
-            .hint(places(looked)),
+        Missing::Absent(looked) => {
+            Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
+                .at(wish.span, "not found")
+                .hint(places(looked))
+        }
         Missing::Outside(looked) => {
             let message = format!("`{name}` leads out of the folder of the scene");
             Diagnostic::new(&codes::FILE_OUTSIDE, message)
@@ -199,9 +235,20 @@ fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
 /// The places a file was looked for, the most telling ones if there are many.
 fn places(looked: &[PathBuf]) -> String {
     const SHOWN: usize = 6;
-    let shown: Vec<String> =
-        looked.iter().take(SHOWN).map(|path| format!("`{}`", clip_path(&path.to_string_lossy()))).collect();
+    let shown: Vec<String> = looked
+        .iter()
+        .take(SHOWN)
+        .map(|path| format!("`{}`", clip_path(&path.to_string_lossy())))
+        .collect();
     let more = looked.len().saturating_sub(SHOWN);
-    let tail = if more > 0 { format!(" and {more} more places") } else { String::new() };
-    if shown.is_empty() { "name a file".to_owned() } else { format!("looked for it at {}{tail}", shown.join(", ")) }
+    let tail = if more > 0 {
+        format!(" and {more} more places")
+    } else {
+        String::new()
+    };
+    if shown.is_empty() {
+        "name a file".to_owned()
+    } else {
+        format!("looked for it at {}{tail}", shown.join(", "))
+    }
 }

@@ -1,7 +1,9 @@
-//! Wavefront OBJ: the lines are read three times, for the vertices, for the faults of the faces, and for the faces; so
-//! little is held beside what becomes the mesh, and what that takes is known before.
+//! Wavefront OBJ: the lines are read three times, for the vertices, for the faults of the faces,
+//! and for the faces; so little is held beside what becomes the mesh, and what that takes is known
+//! before.
 //!
-//! Groups and materials make no difference. Corners without a normal, where others have one, are shaded flat.
+//! Groups and materials make no difference. Corners without a normal, where others have one, are
+//! shaded flat.
 
 use super::mesh::{Geometry, MAX_FAULTS, Parsed, Unread};
 use super::scan::{Fault, Lines, Word, numbers};
@@ -19,8 +21,8 @@ const NOUNS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 /// True if the word opens a statement that OBJ files begin with.
 pub(super) fn is_keyword(word: &Word<'_>) -> bool {
     const KEYWORDS: [&[u8]; 16] = [
-        b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"g", b"o", b"s", b"mg", b"mtllib", b"usemtl", b"maplib",
-        b"usemap",
+        b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"g", b"o", b"s", b"mg", b"mtllib",
+        b"usemtl", b"maplib", b"usemap",
     ];
     KEYWORDS.contains(&word.bytes)
 }
@@ -36,7 +38,10 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         return Err(Unread::Faults(check.faults));
     }
     let mesh = check.mesh(bytes, budget)?;
-    Ok(Parsed { mesh, not_drawn: check.not_drawn })
+    Ok(Parsed {
+        mesh,
+        not_drawn: check.not_drawn,
+    })
 }
 
 /// What was checked, and what was found.
@@ -105,7 +110,9 @@ impl Check {
                 }
                 b"f" | b"fo" => self.skip(&head, "faces need three corners"),
                 b"l" | b"p" => self.skip(&head, "lines and points have no surface"),
-                b"curv" | b"curv2" | b"surf" => self.skip(&head, "free-form curves and surfaces are not supported"),
+                b"curv" | b"curv2" | b"surf" => {
+                    self.skip(&head, "free-form curves and surfaces are not supported")
+                }
                 _ => {}
             }
         }
@@ -123,25 +130,46 @@ impl Check {
     }
 
     fn skip(&mut self, head: &Word<'_>, why: &str) {
-        self.not_drawn.get_or_insert_with(|| (head.fault(why, "the first one"), 0)).1 += 1;
+        self.not_drawn
+            .get_or_insert_with(|| (head.fault(why, "the first one"), 0))
+            .1 += 1;
     }
 
     /// The mesh of a file without faults.
     fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Geometry, Unread> {
         let is_plain = self.used == [false; 2];
         // A corner, and its number, while equal ones are looked for.
-        let passing = if is_plain { 4 * self.vertices.positions.len() } else { 20 * self.corners };
+        let passing = if is_plain {
+            4 * self.vertices.positions.len()
+        } else {
+            20 * self.corners
+        };
         let vertex = 24 + 16 * usize::from(self.used[0]) + 24 * usize::from(self.used[1]);
-        let at_most = if is_plain { self.vertices.positions.len().min(self.corners) } else { self.corners };
-        budget.has(Resource::Memory, (passing + vertex * at_most + 12 * self.triangles) as u64)?;
-        let mesh = if is_plain { self.plain(bytes) } else { self.merged(bytes) };
+        let at_most = if is_plain {
+            self.vertices.positions.len().min(self.corners)
+        } else {
+            self.corners
+        };
+        budget.has(
+            Resource::Memory,
+            (passing + vertex * at_most + 12 * self.triangles) as u64,
+        )?;
+        let mesh = if is_plain {
+            self.plain(bytes)
+        } else {
+            self.merged(bytes)
+        };
         let vertices = mesh.positions.len();
         budget.charge(Resource::Vertices, vertices as u64)?;
-        budget.charge(Resource::Memory, (vertex * vertices + 12 * self.triangles) as u64)?;
+        budget.charge(
+            Resource::Memory,
+            (vertex * vertices + 12 * self.triangles) as u64,
+        )?;
         Ok(mesh)
     }
 
-    /// The mesh of a file whose corners are positions alone: those that are used, in the order of their first use.
+    /// The mesh of a file whose corners are positions alone: those that are used, in the order of
+    /// their first use.
     fn plain(&mut self, bytes: &[u8]) -> Geometry {
         const UNUSED: u32 = u32::MAX;
         let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];
@@ -161,7 +189,11 @@ impl Check {
                 [first, before, last]
             }));
         });
-        Geometry { positions, triangles, ..Geometry::default() }
+        Geometry {
+            positions,
+            triangles,
+            ..Geometry::default()
+        }
     }
 
     /// The mesh of a file whose corners are more than positions.
@@ -173,12 +205,23 @@ impl Check {
             let first = to_u32(sorted.len());
             // Those that have none share one of zeros.
             let used = |part: usize, index: Option<u32>, none: usize| {
-                if self.used[part] { index.unwrap_or(to_u32(none)) } else { 0 }
+                if self.used[part] {
+                    index.unwrap_or(to_u32(none))
+                } else {
+                    0
+                }
             };
             for (at, [v, vt, vn]) in (first..).zip(face) {
-                sorted.push([v.unwrap_or_default(), used(0, *vt, uvs), used(1, *vn, normals), at]);
+                sorted.push([
+                    v.unwrap_or_default(),
+                    used(0, *vt, uvs),
+                    used(1, *vn, normals),
+                    at,
+                ]);
             }
-            triangles.extend((first + 1..to_u32(sorted.len()) - 1).map(|corner| [first, corner, corner + 1]));
+            triangles.extend(
+                (first + 1..to_u32(sorted.len()) - 1).map(|corner| [first, corner, corner + 1]),
+            );
         });
         self.merge(sorted, triangles)
     }
@@ -190,7 +233,9 @@ impl Check {
         // Of each corner the first that is equal, and then the vertex.
         let mut vertex_of = vec![0; sorted.len()];
         for equal in sorted.chunk_by(same) {
-            equal.iter().for_each(|corner| vertex_of[corner[3] as usize] = equal[0][3]);
+            equal
+                .iter()
+                .for_each(|corner| vertex_of[corner[3] as usize] = equal[0][3]);
         }
         let mut count = 0_u32;
         for corner in 0..vertex_of.len() {
@@ -209,14 +254,33 @@ impl Check {
         sorted.shrink_to_fit();
         sorted.sort_unstable_by_key(|corner| corner[3]);
         drop(vertex_of);
-        let Vertices { positions, uvs, normals } = std::mem::take(&mut self.vertices);
-        fn pick<const N: usize>(sorted: &[[u32; 4]], part: usize, from: &[[f64; N]]) -> Vec<[f64; N]> {
-            sorted.iter().map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N])).collect()
+        let Vertices {
+            positions,
+            uvs,
+            normals,
+        } = std::mem::take(&mut self.vertices);
+        fn pick<const N: usize>(
+            sorted: &[[u32; 4]],
+            part: usize,
+            from: &[[f64; N]],
+        ) -> Vec<[f64; N]> {
+            sorted
+                .iter()
+                .map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N]))
+                .collect()
         }
         Geometry {
             positions: pick(&sorted, 0, &positions),
-            uvs: if self.used[0] { pick(&sorted, 1, &uvs) } else { Vec::new() },
-            normals: if self.used[1] { pick(&sorted, 2, &normals) } else { Vec::new() },
+            uvs: if self.used[0] {
+                pick(&sorted, 1, &uvs)
+            } else {
+                Vec::new()
+            },
+            normals: if self.used[1] {
+                pick(&sorted, 2, &normals)
+            } else {
+                Vec::new()
+            },
             triangles,
         }
     }
@@ -231,7 +295,11 @@ impl Check {
             }
             if matches!(words[0].bytes, b"f" | b"fo") && words.len() > 3 {
                 corners.clear();
-                corners.extend(words[1..].iter().filter_map(|corner| indices(corner, so_far, total).ok()));
+                corners.extend(
+                    words[1..]
+                        .iter()
+                        .filter_map(|corner| indices(corner, so_far, total).ok()),
+                );
                 take(&corners);
             }
         }
@@ -248,15 +316,22 @@ fn part_of(head: &Word<'_>) -> Option<usize> {
     }
 }
 
-/// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative, from the last so far.
+/// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative,
+/// from the last so far.
 fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, Fault> {
     if corner.bytes[0] == b'/' {
-        return Err(corner.fault(format!("the corner `{}` has no vertex", corner.text()), "a corner of a face"));
+        return Err(corner.fault(
+            format!("the corner `{}` has no vertex", corner.text()),
+            "a corner of a face",
+        ));
     }
     let mut found = [None; 3];
     for (part, index) in corner.split(b'/').enumerate() {
         let Some(slot) = found.get_mut(part) else {
-            return Err(corner.fault(format!("`{}` has more than three parts", corner.text()), "a corner of a face"));
+            return Err(corner.fault(
+                format!("`{}` has more than three parts", corner.text()),
+                "a corner of a face",
+            ));
         };
         if !index.bytes.is_empty() {
             *slot = Some(resolve(&index, NOUNS[part], so_far[part], total[part])?);
@@ -268,11 +343,25 @@ fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, F
 fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, Fault> {
     let number = index.integer()?;
     let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
-    let resolved = if number < 0 { so_far.checked_sub(distance) } else { distance.checked_sub(1) };
-    resolved.filter(|index| *index < total).and_then(|index| u32::try_from(index).ok()).ok_or_else(|| {
-        let there = if number < 0 { format!("{so_far} stand before it") } else { format!("the file has {total}") };
-        index.fault(format!("a face refers to {noun} {number}, and {there}"), format!("there is no such {noun}"))
-    })
+    let resolved = if number < 0 {
+        so_far.checked_sub(distance)
+    } else {
+        distance.checked_sub(1)
+    };
+    resolved
+        .filter(|index| *index < total)
+        .and_then(|index| u32::try_from(index).ok())
+        .ok_or_else(|| {
+            let there = if number < 0 {
+                format!("{so_far} stand before it")
+            } else {
+                format!("the file has {total}")
+            };
+            index.fault(
+                format!("a face refers to {noun} {number}, and {there}"),
+                format!("there is no such {noun}"),
+            )
+        })
 }
 
 /// A count of what a file holds.

@@ -15,7 +15,10 @@ pub(super) fn is_head(word: &Word<'_>) -> bool {
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     // A corner of two bytes becomes a triangle of twelve, in a list that grows by doubling.
     budget.has(Resource::Memory, 12 * bytes.len() as u64)?;
-    let mut reader = Reader { lines: Lines::new(bytes), words: Vec::new() };
+    let mut reader = Reader {
+        lines: Lines::new(bytes),
+        words: Vec::new(),
+    };
     let mut faults = Vec::new();
     let mut parsed = Parsed::default();
     match head(&mut reader) {
@@ -25,7 +28,12 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    let Geometry { positions, normals, uvs: _, triangles } = &mut parsed.mesh;
+    let Geometry {
+        positions,
+        normals,
+        uvs: _,
+        triangles,
+    } = &mut parsed.mesh;
     triangles.shrink_to_fit();
     budget.charge(Resource::Vertices, positions.len() as u64)?;
     let bytes = size_of_val(&**positions) + size_of_val(&**normals) + size_of_val(&**triangles);
@@ -45,7 +53,10 @@ impl<'a> Reader<'a> {
             return Ok(&self.words);
         }
         let Count { word, value, noun } = count;
-        Err(word.fault(format!("the file ends before the last of {value} {noun}"), "promised here"))
+        Err(word.fault(
+            format!("the file ends before the last of {value} {noun}"),
+            "promised here",
+        ))
     }
 }
 
@@ -82,16 +93,28 @@ fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, Fault> {
         reader.lines.next(&mut counts);
     }
     let count = |at: usize, noun| {
-        let word =
-            *counts.get(at).ok_or_else(|| head.fault(format!("the number of {noun} is missing"), "after this"))?;
+        let word = *counts
+            .get(at)
+            .ok_or_else(|| head.fault(format!("the number of {noun} is missing"), "after this"))?;
         let value = usize::try_from(word.integer()?);
-        let value = value.map_err(|_| word.fault(format!("there can't be {} {noun}", word.text()), "negative"))?;
+        let value = value.map_err(|_| {
+            word.fault(format!("there can't be {} {noun}", word.text()), "negative")
+        })?;
         Ok(Count { word, value, noun })
     };
-    Ok(Head { has_normals, vertices: count(0, "vertices")?, faces: count(1, "faces")? })
+    Ok(Head {
+        has_normals,
+        vertices: count(0, "vertices")?,
+        faces: count(1, "faces")?,
+    })
 }
 
-fn body<'a>(reader: &mut Reader<'a>, head: &Head<'a>, parsed: &mut Parsed, faults: &mut Vec<Fault>) {
+fn body<'a>(
+    reader: &mut Reader<'a>,
+    head: &Head<'a>,
+    parsed: &mut Parsed,
+    faults: &mut Vec<Fault>,
+) {
     for _ in 0..head.vertices.value {
         match reader.line(&head.vertices) {
             Ok(words) => faults.extend(vertex(words, head.has_normals, &mut parsed.mesh).err()),
@@ -115,7 +138,8 @@ fn body<'a>(reader: &mut Reader<'a>, head: &Head<'a>, parsed: &mut Parsed, fault
 fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut Geometry) -> Result<(), Fault> {
     mesh.positions.push(numbers(&words[0], words)?);
     if has_normals {
-        mesh.normals.push(numbers(&words[0], words.get(3..).unwrap_or_default())?);
+        mesh.normals
+            .push(numbers(&words[0], words.get(3..).unwrap_or_default())?);
     }
     Ok(())
 }
@@ -124,7 +148,9 @@ fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut Geometry) -> Result<
 fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), Fault> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
-    let corners = usize::try_from(arity).ok().and_then(|arity| rest.get(..arity));
+    let corners = usize::try_from(arity)
+        .ok()
+        .and_then(|arity| rest.get(..arity));
     let Some(corners) = corners else {
         let message = format!("a face of {arity} corners names {}", rest.len());
         return Err(head.fault(message, "on this line"));
@@ -134,16 +160,28 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result
         parsed.not_drawn.get_or_insert((fault, 0)).1 += 1;
         return Ok(());
     }
-    let indices = corners.iter().map(|corner| index(corner, vertices)).collect::<Result<Vec<u32>, Fault>>()?;
-    parsed.mesh.triangles.extend(indices[1..].windows(2).map(|pair| [indices[0], pair[0], pair[1]]));
+    let indices = corners
+        .iter()
+        .map(|corner| index(corner, vertices))
+        .collect::<Result<Vec<u32>, Fault>>()?;
+    parsed.mesh.triangles.extend(
+        indices[1..]
+            .windows(2)
+            .map(|pair| [indices[0], pair[0], pair[1]]),
+    );
     Ok(())
 }
 
 fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, Fault> {
     let number = corner.integer()?;
-    let index = u32::try_from(number).ok().filter(|index| (*index as usize) < vertices.value);
+    let index = u32::try_from(number)
+        .ok()
+        .filter(|index| (*index as usize) < vertices.value);
     index.ok_or_else(|| {
-        let message = format!("a face refers to vertex {number}, and there are {}, from 0", vertices.value);
+        let message = format!(
+            "a face refers to vertex {number}, and there are {}, from 0",
+            vertices.value
+        );
         corner.fault(message, "there is no such vertex")
     })
 }

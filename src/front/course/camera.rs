@@ -45,7 +45,10 @@ pub(super) fn placeholder() -> ir::Camera {
         right: [1.0, 0.0, 0.0],
         up: [0.0, 1.0, 0.0],
         size: [1, 1],
-        lens: ir::Lens { radius: 0.0, samples: 1 },
+        lens: ir::Lens {
+            radius: 0.0,
+            samples: 1,
+        },
         projection: ir::Projection::Perspective,
     }
 }
@@ -53,14 +56,30 @@ pub(super) fn placeholder() -> ir::Camera {
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
-        let Camera { eye, center, up, right: step, view_size, fov, aperture_radius, aperture_samples } = &camera.value;
+        let Camera {
+            eye,
+            center,
+            up,
+            right: step,
+            view_size,
+            fov,
+            aperture_radius,
+            aperture_samples,
+        } = &camera.value;
         let opening = opening(fov, up, context);
         let basis = basis(&camera.value, context);
         for (field, span) in [
             (Field::Whole, camera.span),
             (Field::Eye, eye.span),
             (Field::Center, center.span),
-            (Field::Right, if let Found::Read(step) = step { step.span } else { up.span }),
+            (
+                Field::Right,
+                if let Found::Read(step) = step {
+                    step.span
+                } else {
+                    up.span
+                },
+            ),
             (Field::Up, up.span),
             (Field::Size, view_size.span),
             (Field::LensRadius, aperture_radius.span),
@@ -75,7 +94,10 @@ impl Lowering {
             right: right.to_array(),
             up: up.to_array(),
             size: view_size.value.0,
-            lens: ir::Lens { radius: aperture_radius.value.0, samples: aperture_samples.value.0 },
+            lens: ir::Lens {
+                radius: aperture_radius.value.0,
+                samples: aperture_samples.value.0,
+            },
             projection: ir::Projection::Perspective,
         };
         if let Some(opening) = opening {
@@ -84,7 +106,11 @@ impl Lowering {
     }
 
     /// Lowers a camera of three top-level keys: eye, the point looked at, and the upward direction.
-    pub(super) fn look(&mut self, [eye, center, up]: &[Spanned<Point>; 3], context: &mut Context<'_>) {
+    pub(super) fn look(
+        &mut self,
+        [eye, center, up]: &[Spanned<Point>; 3],
+        context: &mut Context<'_>,
+    ) {
         let camera = Camera {
             eye: *eye,
             center: *center,
@@ -95,22 +121,42 @@ impl Lowering {
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
         };
-        self.camera(&Spanned { value: camera, span: eye.span }, context);
+        self.camera(
+            &Spanned {
+                value: camera,
+                span: eye.span,
+            },
+            context,
+        );
     }
 
     /// Lowers an `Eye`: it looks at the square of 400 units in the plane z = 0, one unit a pixel.
     pub(super) fn eye(&mut self, eye: Spanned<Point>) {
         let middle = f64::from(OLD_SIDE) / 2.0;
-        self.scene.camera =
-            ir::Camera { eye: eye.value.0, center: [middle, middle, 0.0], size: [OLD_SIDE, OLD_SIDE], ..placeholder() };
+        self.scene.camera = ir::Camera {
+            eye: eye.value.0,
+            center: [middle, middle, 0.0],
+            size: [OLD_SIDE, OLD_SIDE],
+            ..placeholder()
+        };
         self.origin(ir::Noun::Camera, 0, Field::Whole, eye.span);
         self.origin(ir::Noun::Camera, 0, Field::Eye, eye.span);
     }
 }
 
 /// The angle that the image spans, in radians, if that is given.
-fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Context<'_>) -> Option<f64> {
-    let Found::Read(Spanned { value: Opening(degrees), span: Some(span) }) = *fov else { return None };
+fn opening(
+    fov: &Found<Spanned<Opening>>,
+    up: &Spanned<Vector>,
+    context: &mut Context<'_>,
+) -> Option<f64> {
+    let Found::Read(Spanned {
+        value: Opening(degrees),
+        span: Some(span),
+    }) = *fov
+    else {
+        return None;
+    };
     let length = length(Vec3::from_array(up.value.0));
     if let (Some(place), true) = (up.span, (length - 1.0).abs() > 1e-6) {
         let message = || "the length of `up` has no effect beside `fov`".to_owned();
@@ -125,9 +171,21 @@ fn opening(fov: &Found<Spanned<Opening>>, up: &Spanned<Vector>, context: &mut Co
 
 /// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
 fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
-    let Camera { eye, center, up, right, fov, .. } = camera;
+    let Camera {
+        eye,
+        center,
+        up,
+        right,
+        fov,
+        ..
+    } = camera;
     match right {
-        Found::Read(right) => return Some((Vec3::from_array(right.value.0), Vec3::from_array(up.value.0))),
+        Found::Read(right) => {
+            return Some((
+                Vec3::from_array(right.value.0),
+                Vec3::from_array(up.value.0),
+            ));
+        }
         Found::Broken => return None,
         Found::Absent => {}
     }
@@ -141,7 +199,9 @@ fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
             if let Some(span) = center.span {
                 let message = || "the camera looks at the point where it stands".to_owned();
                 context.report(&codes::EYE_IS_CENTER, span, message, |d| {
-                    d.at(span, "the same point as `eye`").also(eye.span, "the eye").hint("move one of them")
+                    d.at(span, "the same point as `eye`")
+                        .also(eye.span, "the eye")
+                        .hint("move one of them")
                 });
             }
             None
@@ -152,14 +212,19 @@ fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
                     &codes::ZERO_UP,
                     span,
                     || "`up` has no length".to_owned(),
-                    |d| d.at(span, "no direction, and no size of a pixel").replace("for instance", span, "[0, 1, 0]"),
+                    |d| {
+                        d.at(span, "no direction, and no size of a pixel").replace(
+                            "for instance",
+                            span,
+                            "[0, 1, 0]",
+                        )
+                    },
                 );
             }
             None
         }
-        Err(BasisFault::Parallel) => {
-            parallel(to - from, upward, up.span?, context).and_then(|up| camera_basis(from, to, up).ok())
-        }
+        Err(BasisFault::Parallel) => parallel(to - from, upward, up.span?, context)
+            .and_then(|up| camera_basis(from, to, up).ok()),
     }
 }
 
@@ -173,10 +238,12 @@ fn parallel(gaze: Vec3, up: Vec3, span: Span, context: &mut Context<'_>) -> Opti
         span,
         || "`up` points along the view".to_owned(),
         |d| match lenient {
-            false => {
-                d.at(span, "parallel to the way from `eye` to `center`").replace("turn it, for instance", span, text)
-            }
-            true => d.at(span, format!("parallel to the view; taken as {text}")).severity(Severity::Warning),
+            false => d
+                .at(span, "parallel to the way from `eye` to `center`")
+                .replace("turn it, for instance", span, text),
+            true => d
+                .at(span, format!("parallel to the view; taken as {text}"))
+                .severity(Severity::Warning),
         },
     );
     lenient.then_some(better)

@@ -27,9 +27,23 @@ record! {
 impl Lowering {
     /// Lowers a cone.
     pub(super) fn cone(&mut self, cone: &Cone) {
-        let Cone { kind, position, up, radius, material } = cone;
-        let shape = ir::Cone { base: position.value.0, up: up.value.0, radius: radius.value.0 };
-        let places = [(Field::ConeBase, position.span), (Field::ConeUp, up.span), (Field::ConeRadius, radius.span)];
+        let Cone {
+            kind,
+            position,
+            up,
+            radius,
+            material,
+        } = cone;
+        let shape = ir::Cone {
+            base: position.value.0,
+            up: up.value.0,
+            radius: radius.value.0,
+        };
+        let places = [
+            (Field::ConeBase, position.span),
+            (Field::ConeUp, up.span),
+            (Field::ConeRadius, radius.span),
+        ];
         if let Some(clothes) = self.clothe(kind, material) {
             self.put(&clothes, ir::Shape::Cone(shape), &places);
         }

@@ -33,11 +33,20 @@ record! {
 impl Lowering {
     /// Lowers a cylinder.
     pub(super) fn cylinder(&mut self, cylinder: &Cylinder) {
-        let Cylinder { kind, radius, material, .. } = cylinder;
+        let Cylinder {
+            kind,
+            radius,
+            material,
+            ..
+        } = cylinder;
         let clothes = self.clothe(kind, material);
         if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(cylinder)) {
-            let shape =
-                ir::Cylinder { base: base.value, axis: axis.value, height: height.value, radius: radius.value.0 };
+            let shape = ir::Cylinder {
+                base: base.value,
+                axis: axis.value,
+                height: height.value,
+                radius: radius.value.0,
+            };
             let places = [
                 (Field::CylinderBase, base.span),
                 (Field::CylinderAxis, axis.span),
@@ -51,14 +60,28 @@ impl Lowering {
 
 /// The centre of the base, the direction to the top, and the height.
 fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
-    let Cylinder { kind: _, position, direction, height, ends, radius: _, material: _ } = cylinder;
+    let Cylinder {
+        kind: _,
+        position,
+        direction,
+        height,
+        ends,
+        radius: _,
+        material: _,
+    } = cylinder;
     match (position, direction, height, ends) {
-        (Found::Read(position), Found::Read(direction), Found::Read(height), _) => {
-            Some((position.map(|point| point.0), direction.map(|vector| vector.0), height.map(|height| height.0)))
-        }
+        (Found::Read(position), Found::Read(direction), Found::Read(height), _) => Some((
+            position.map(|point| point.0),
+            direction.map(|vector| vector.0),
+            height.map(|height| height.0),
+        )),
         (.., Found::Read([base, top])) => {
             let axis = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
-            Some((base.map(|point| point.0), top.map(|_| axis.to_array()), top.map(|_| axis.length())))
+            Some((
+                base.map(|point| point.0),
+                top.map(|_| axis.to_array()),
+                top.map(|_| axis.length()),
+            ))
         }
         _ => None,
     }

@@ -39,14 +39,18 @@ impl<T> Spanned<T> {
 
     /// Another value from the same place.
     pub(super) fn map<U>(&self, change: impl FnOnce(&T) -> U) -> Spanned<U> {
-        Spanned { value: change(&self.value), span: self.span }
+        Spanned {
+            value: change(&self.value),
+            span: self.span,
+        }
     }
 }
 
 /// Three numbers and where they were written.
 pub(super) type Numbers = Spanned<[f64; 3]>;
 
-/// A value that aliases and merge keys may bring us to again: its node, and the value the first time.
+/// A value that aliases and merge keys may bring us to again: its node, and the value the first
+/// time.
 pub(super) struct Shared<T> {
     pub(super) node: NodeId,
     pub(super) value: Option<T>,
@@ -56,11 +60,17 @@ impl<T: Value> Value for Shared<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let target = context.tree.target(node);
         if context.decoded.contains(&target) {
-            return Some(Self { node: target, value: None });
+            return Some(Self {
+                node: target,
+                value: None,
+            });
         }
         let value = T::decode(node, context)?;
         context.decoded.insert(target);
-        Some(Self { node: target, value: Some(value) })
+        Some(Self {
+            node: target,
+            value: Some(value),
+        })
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
@@ -77,7 +87,10 @@ pub(super) struct Each<T> {
 impl<T> Each<T> {
     /// No items.
     pub(super) fn none() -> Self {
-        Self { list: None, items: PhantomData }
+        Self {
+            list: None,
+            items: PhantomData,
+        }
     }
 }
 
@@ -96,7 +109,10 @@ impl<T: Value> Each<T> {
     ) {
         let tree = context.tree;
         for item in self.list.iter().flat_map(|list| tree.items(*list)) {
-            context.key = Key { text: name, span: None };
+            context.key = Key {
+                text: name,
+                span: None,
+            };
             if let Some(value) = T::decode(item, context) {
                 let span = Some(context.head(item));
                 take(context, Spanned { value, span });
@@ -108,7 +124,10 @@ impl<T: Value> Each<T> {
 impl<T: Value> Value for Each<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::List => Some(Self { list: Some(node), items: PhantomData }),
+            Shape::List => Some(Self {
+                list: Some(node),
+                items: PhantomData,
+            }),
             Shape::Word(_) | Shape::Text(_) | Shape::Map => context.expected(node, "a list"),
         }
     }
@@ -157,16 +176,25 @@ pub(super) struct Context<'a> {
     /// What has been said about which bytes: an alias brings a reader to the same place again.
     said: BTreeSet<(Span, &'static str)>,
     steps: u64,
-    /// How many entries may be looked at: those of the text, and those that aliases and merge keys repeat.
+    /// How many entries may be looked at: those of the text, and those that aliases and merge keys
+    /// repeat.
     most_steps: u64,
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(tree: &'a Tree<'a>, options: &'a Options, budget: &Budget, sink: &'a mut Sink) -> Self {
+    pub(super) fn new(
+        tree: &'a Tree<'a>,
+        options: &'a Options,
+        budget: &Budget,
+        sink: &'a mut Sink,
+    ) -> Self {
         Self {
             tree,
             options,
-            key: Key { text: "", span: None },
+            key: Key {
+                text: "",
+                span: None,
+            },
             entries: Vec::new(),
             spellings: Vec::new(),
             sink,
@@ -192,7 +220,8 @@ impl<'a> Context<'a> {
         if self.said.len() < REMEMBERED {
             self.said.insert((span, code.id));
         }
-        self.sink.push(make(Diagnostic::new(code, message()).at(span, "")));
+        self.sink
+            .push(make(Diagnostic::new(code, message()).at(span, "")));
     }
 
     /// How many different findings there were so far.
@@ -209,9 +238,15 @@ impl<'a> Context<'a> {
             None => format!("each of `{}`", clip(key.text)),
         };
         let span = tree.span(node);
-        let place = if span.start == span.end { key.span.unwrap_or(span) } else { self.first_line(node) };
+        let place = if span.start == span.end {
+            key.span.unwrap_or(span)
+        } else {
+            self.first_line(node)
+        };
         let message = || format!("{name} must be {what}, not {found}");
-        self.report(&codes::WRONG_TYPE, place, message, |d| d.at(place, found.clone()));
+        self.report(&codes::WRONG_TYPE, place, message, |d| {
+            d.at(place, found.clone())
+        });
         None
     }
 
@@ -225,10 +260,15 @@ impl<'a> Context<'a> {
 
     /// The severity of what is left unread: an error if the user asked for strictness.
     pub(super) fn unread(&self) -> Severity {
-        if self.options.strict { Severity::Error } else { Severity::Warning }
+        if self.options.strict {
+            Severity::Error
+        } else {
+            Severity::Warning
+        }
     }
 
-    /// A span that stands for a node as a whole: its first pair if it is a map, else its first line.
+    /// A span that stands for a node as a whole: its first pair if it is a map, else its first
+    /// line.
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
             Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {
@@ -241,20 +281,31 @@ impl<'a> Context<'a> {
 
     /// The node, or only its head if it is a map or list in block form.
     fn first_line(&self, node: NodeId) -> Span {
-        if self.tree.is_map(node) { self.head(node) } else { self.tree.span(node) }
+        if self.tree.is_map(node) {
+            self.head(node)
+        } else {
+            self.tree.span(node)
+        }
     }
 
-    /// Counts work that aliases can repeat. False once there was too much of it, which is reported once.
+    /// Counts work that aliases can repeat. False once there was too much of it, which is reported
+    /// once.
     pub(super) fn step(&mut self, node: NodeId) -> bool {
         if self.exhausted() {
             return false;
         }
         self.steps += 1;
         if self.exhausted() {
-            let finding = Diagnostic::new(&codes::REPETITION, "aliases and merge keys make this scene too large");
+            let finding = Diagnostic::new(
+                &codes::REPETITION,
+                "aliases and merge keys make this scene too large",
+            );
             self.sink.push(
                 finding
-                    .at(self.first_line(node), "the limit was passed while reading this")
+                    .at(
+                        self.first_line(node),
+                        "the limit was passed while reading this",
+                    )
                     .hint("write it out, or allow more by `--limit nodes=…`"),
             );
         }

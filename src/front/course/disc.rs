@@ -27,10 +27,23 @@ record! {
 impl Lowering {
     /// Lowers a disc.
     pub(super) fn disc(&mut self, disc: &Disc) {
-        let Disc { kind, center, normal, radius, material } = disc;
-        let shape = ir::Disc { center: center.value.0, normal: normal.value.0, radius: radius.value.0 };
-        let places =
-            [(Field::DiscCenter, center.span), (Field::DiscNormal, normal.span), (Field::DiscRadius, radius.span)];
+        let Disc {
+            kind,
+            center,
+            normal,
+            radius,
+            material,
+        } = disc;
+        let shape = ir::Disc {
+            center: center.value.0,
+            normal: normal.value.0,
+            radius: radius.value.0,
+        };
+        let places = [
+            (Field::DiscCenter, center.span),
+            (Field::DiscNormal, normal.span),
+            (Field::DiscRadius, radius.span),
+        ];
         if let Some(clothes) = self.clothe(kind, material) {
             self.put(&clothes, ir::Shape::Disc(shape), &places);
         }

@@ -22,7 +22,11 @@ record! {
 impl Lowering {
     /// Lowers an environment: its file is wanted.
     pub(super) fn environment(&mut self, environment: &Spanned<Environment>) {
-        let Environment { color, file, rotation } = &environment.value;
+        let Environment {
+            color,
+            file,
+            rotation,
+        } = &environment.value;
         let image = match file {
             Found::Read(file) => Some(self.files.environment(&mut self.scene, file)),
             Found::Absent => None,
@@ -34,7 +38,11 @@ impl Lowering {
             Found::Absent => None,
             Found::Broken => return,
         };
-        self.scene.environment = Some(ir::Environment { radiance: color.value.0, image, image_from_world: turn });
+        self.scene.environment = Some(ir::Environment {
+            radiance: color.value.0,
+            image,
+            image_from_world: turn,
+        });
         self.origin(Noun::Environment, 0, Field::Whole, environment.span);
     }
 }

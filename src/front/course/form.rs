@@ -6,9 +6,21 @@ use super::spelling::list;
 use crate::diag::codes;
 use crate::source::Span;
 
-/// Whether the fields that are there make up one of the forms of the record; if not, that is reported.
-pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> bool, context: &mut Context<'_>) -> bool {
-    let Record { word, fields, forms, forms_are_lowered, doc: _ } = record;
+/// Whether the fields that are there make up one of the forms of the record; if not, that is
+/// reported.
+pub(super) fn check(
+    record: &Record,
+    head: Span,
+    is_there: impl Fn(usize) -> bool,
+    context: &mut Context<'_>,
+) -> bool {
+    let Record {
+        word,
+        fields,
+        forms,
+        forms_are_lowered,
+        doc: _,
+    } = record;
     if forms.is_empty() || *forms_are_lowered {
         return true;
     }
@@ -19,10 +31,15 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
         Need::Default(_) => false,
     };
     let in_forms = |field: &Field| forms.iter().any(|form| form.contains(&field.name));
-    let given = fields.iter().enumerate().filter(|(at, field)| given(*at, field) && in_forms(field));
+    let given = fields
+        .iter()
+        .enumerate()
+        .filter(|(at, field)| given(*at, field) && in_forms(field));
     // Nearly every record has one of its forms: the way there allocates nothing.
     let is_it = |form: &&[&str]| {
-        let within = given.clone().try_fold(0, |count, (_, field)| form.contains(&field.name).then_some(count + 1));
+        let within = given.clone().try_fold(0, |count, (_, field)| {
+            form.contains(&field.name).then_some(count + 1)
+        });
         within == Some(form.len())
     };
     if forms.iter().any(is_it) {
@@ -31,12 +48,23 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
     let given: Vec<_> = given.map(|(_, field)| field.name).collect();
     let missing = missing(record, &given);
     let (code, message) = match missing.as_slice() {
-        [] => (&codes::CONFLICTING_KEYS, format!("the {word} is given in more than one way")),
-        _ => (&codes::MISSING_KEY, format!("the {word} has no {}", missing.join(" or "))),
+        [] => (
+            &codes::CONFLICTING_KEYS,
+            format!("the {word} is given in more than one way"),
+        ),
+        _ => (
+            &codes::MISSING_KEY,
+            format!("the {word} has no {}", missing.join(" or ")),
+        ),
     };
     let ways: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
     let hint = format!("a {word} takes {}", ways.join("; or "));
-    context.report(code, head, || message, |d| d.at(head, format!("this {word}")).hint(hint));
+    context.report(
+        code,
+        head,
+        || message,
+        |d| d.at(head, format!("this {word}")).hint(hint),
+    );
     false
 }
 
@@ -44,19 +72,35 @@ pub(super) fn check(record: &Record, head: Span, is_there: impl Fn(usize) -> boo
 fn missing(record: &Record, given: &[&str]) -> Vec<String> {
     let has_all = |form: &&&[&str]| given.iter().all(|name| form.contains(name));
     let possible: Vec<_> = record.forms.iter().filter(has_all).collect();
-    // A form with more keys than another is not worth recommending; with nothing given, the first one is.
-    let within =
-        |small: &[&str], large: &[&str]| small.len() < large.len() && small.iter().all(|name| large.contains(name));
-    let smallest = possible.iter().filter(|form| !possible.iter().any(|other| within(other, form)));
+    // A form with more keys than another is not worth recommending; with nothing given, the first
+    // one is.
+    let within = |small: &[&str], large: &[&str]| {
+        small.len() < large.len() && small.iter().all(|name| large.contains(name))
+    };
+    let smallest = possible
+        .iter()
+        .filter(|form| !possible.iter().any(|other| within(other, form)));
     let missing = smallest.map(|form| {
-        let missing: Vec<_> = form.iter().copied().filter(|name| !given.contains(name)).collect();
+        let missing: Vec<_> = form
+            .iter()
+            .copied()
+            .filter(|name| !given.contains(name))
+            .collect();
         keys(record, &missing)
     });
-    missing.take(if given.is_empty() { 1 } else { usize::MAX }).collect()
+    missing
+        .take(if given.is_empty() { 1 } else { usize::MAX })
+        .collect()
 }
 
 /// The canonical keys of some fields, in words.
 fn keys(record: &Record, names: &[&str]) -> String {
-    let fields = names.iter().filter_map(|name| record.fields.iter().find(|field| field.name == *name));
-    list(fields.flat_map(|field| field.rows.first().copied().unwrap_or_default()).copied())
+    let fields = names
+        .iter()
+        .filter_map(|name| record.fields.iter().find(|field| field.name == *name));
+    list(
+        fields
+            .flat_map(|field| field.rows.first().copied().unwrap_or_default())
+            .copied(),
+    )
 }

@@ -25,10 +25,17 @@ record! {
 impl Lowering {
     /// Lowers an asset: its file is wanted.
     pub(super) fn gltf(&mut self, gltf: &Gltf) {
-        let Gltf { _kind: _, file, position, scale, rotation } = gltf;
+        let Gltf {
+            _kind: _,
+            file,
+            position,
+            scale,
+            rotation,
+        } = gltf;
         let [x, y, z] = turned(rotation.value.0);
         let [sx, sy, sz] = scale.value.0;
         let columns = [x * sx, y * sy, z * sz].map(|axis| axis.to_array());
-        self.files.gltf([columns[0], columns[1], columns[2], position.value.0], file);
+        self.files
+            .gltf([columns[0], columns[1], columns[2], position.value.0], file);
     }
 }

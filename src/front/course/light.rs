@@ -52,14 +52,24 @@ impl Value for Kind {
     }
 
     fn json(&self) -> Json {
-        KINDS.iter().find(|(_, kind)| kind == self).map_or(Json::Null, |(word, _)| json!(word))
+        KINDS
+            .iter()
+            .find(|(_, kind)| kind == self)
+            .map_or(Json::Null, |(word, _)| json!(word))
     }
 }
 
 impl Lowering {
     /// Lowers a light.
     pub(super) fn light(&mut self, light: &Spanned<Light>, context: &mut Context<'_>) {
-        let Light { kind, position, color, radius, direction, irradiance } = &light.value;
+        let Light {
+            kind,
+            position,
+            color,
+            radius,
+            direction,
+            irradiance,
+        } = &light.value;
         let index = self.scene.lights.len();
         let (made, is) = match (position, color, direction, irradiance) {
             (Found::Read(position), Found::Read(color), ..) => {
@@ -67,21 +77,42 @@ impl Lowering {
                 self.origin(Noun::Light, index, Field::Color, color.span);
                 self.origin(Noun::Light, index, Field::LightRadius, radius.span);
                 let (position, color, radius) = (position.value.0, color.value.0, radius.value.0);
-                (ir::Light::Point(ir::PointLight { position, color, radius }), Kind::Point)
+                (
+                    ir::Light::Point(ir::PointLight {
+                        position,
+                        color,
+                        radius,
+                    }),
+                    Kind::Point,
+                )
             }
             (.., Found::Read(direction), Found::Read(irradiance)) => {
-                let emitter = ir::Emitter::Sun { direction: direction.value.0 };
-                (ir::Light::Punctual(ir::Punctual { emitter, intensity: irradiance.value.0 }), Kind::Sun)
+                let emitter = ir::Emitter::Sun {
+                    direction: direction.value.0,
+                };
+                (
+                    ir::Light::Punctual(ir::Punctual {
+                        emitter,
+                        intensity: irradiance.value.0,
+                    }),
+                    Kind::Sun,
+                )
             }
             _ => return,
         };
-        if let Found::Read(Spanned { value, span: Some(span) }) = kind
+        if let Found::Read(Spanned {
+            value,
+            span: Some(span),
+        }) = kind
             && *value != is
         {
-            let message = || "the `type` of the light has no effect: its other keys say otherwise".to_owned();
+            let message =
+                || "the `type` of the light has no effect: its other keys say otherwise".to_owned();
             context.report(&codes::NO_EFFECT, *span, message, |d| {
                 let hint = "a sun has `direction` and `irradiance`, a point `position` and `color`";
-                d.at(*span, "ignored").severity(Severity::Warning).hint(hint)
+                d.at(*span, "ignored")
+                    .severity(Severity::Warning)
+                    .hint(hint)
             });
         }
         self.scene.lights.push(made);

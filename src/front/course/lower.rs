@@ -1,4 +1,5 @@
-//! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every value.
+//! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
+//! value.
 
 use super::camera;
 use super::decode::{Context, Key, Value};
@@ -13,18 +14,19 @@ use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
-/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at all; every mistake is
-/// in the sink.
+/// Reads a scene text and lowers it, but for the files it names. `None` if the text is no scene at
+/// all; every mistake is in the sink.
 ///
-/// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so that the proof can
-/// find the mistakes of the rest; the sink has an error for each.
+/// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so
+/// that the proof can find the mistakes of the rest; the sink has an error for each.
 pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
     let tree = tree::parse(file, map.bytes(file), sink)?;
     match tree.shape(tree.root()) {
         Shape::Map => {}
         Shape::Word("" | "~" | "null" | "Null" | "NULL") => {
             sink.push(
-                Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene").at(tree.span(tree.root()), "empty"),
+                Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene")
+                    .at(tree.span(tree.root()), "empty"),
             );
             return None;
         }
@@ -61,7 +63,9 @@ impl Draft {
     /// The scene, with each mesh in its size; after its files were brought.
     #[must_use]
     pub fn finish(mut self) -> Lowered {
-        self.fitted.iter().for_each(|surface| mesh::fit(&mut self.lowered.scene, *surface));
+        self.fitted
+            .iter()
+            .for_each(|surface| mesh::fit(&mut self.lowered.scene, *surface));
         self.lowered
     }
 }
@@ -103,7 +107,14 @@ impl Lowering {
             environment: None,
         };
         let (shared, files, fitted) = (BTreeMap::new(), Files::default(), Vec::new());
-        Self { scene, shared, grey: None, files, fitted, origins: Origins::default() }
+        Self {
+            scene,
+            shared,
+            grey: None,
+            files,
+            fitted,
+            origins: Origins::default(),
+        }
     }
 
     /// Remembers where a value was written; a default was written nowhere.
@@ -113,29 +124,44 @@ impl Lowering {
 
     fn scene(&mut self, context: &mut Context<'_>) {
         let root = context.tree.root();
-        context.key = Key { text: "the file", span: None };
-        let Some(scene) = Scene::decode(root, context) else { return };
+        context.key = Key {
+            text: "the file",
+            span: None,
+        };
+        let Some(scene) = Scene::decode(root, context) else {
+            return;
+        };
         self.view(&scene, context);
         self.settings(&scene, context);
         if let Found::Read(environment) = &scene.environment {
             self.environment(environment);
         }
-        scene.lights.value.decode_each(context, "Lights", |context, light| self.light(&light, context));
+        scene
+            .lights
+            .value
+            .decode_each(context, "Lights", |context, light| {
+                self.light(&light, context)
+            });
         self.soften(&scene);
         let count = scene.objects.value.len(context);
-        scene.objects.value.decode_each(context, "Objects", |context, object| {
-            if self.scene.surfaces.is_empty() {
-                // Growing by doubling would move and hold many surfaces twice.
-                self.scene.surfaces.reserve_exact(count);
-            }
-            self.object(&object.value, context);
-        });
+        scene
+            .objects
+            .value
+            .decode_each(context, "Objects", |context, object| {
+                if self.scene.surfaces.is_empty() {
+                    // Growing by doubling would move and hold many surfaces twice.
+                    self.scene.surfaces.reserve_exact(count);
+                }
+                self.object(&object.value, context);
+            });
         self.follow_paths(&scene);
     }
 
     /// Chooses between the two cameras.
     fn view(&mut self, scene: &Scene, context: &mut Context<'_>) {
-        let Scene { camera, eye, look, .. } = scene;
+        let Scene {
+            camera, eye, look, ..
+        } = scene;
         match (camera, look, eye) {
             (Found::Absent, Found::Absent, Found::Absent) => no_camera(context),
             (Found::Read(camera), ..) => self.camera(camera, context),
@@ -148,23 +174,50 @@ impl Lowering {
         }
         match (camera.is_absent(), look.is_absent(), eye) {
             (false, _, Found::Read(eye)) => ignored_camera("Eye", "Camera", eye.span, context),
-            (true, false, Found::Read(eye)) => ignored_camera("Eye", "CameraEye", eye.span, context),
+            (true, false, Found::Read(eye)) => {
+                ignored_camera("Eye", "CameraEye", eye.span, context)
+            }
             _ => {}
         }
     }
 
     fn finish(self) -> Draft {
-        let Self { scene, shared: _, grey: _, files: Files { wanted, .. }, fitted, mut origins } = self;
-        for Wanted { asset, path: _, span } in &wanted {
+        let Self {
+            scene,
+            shared: _,
+            grey: _,
+            files: Files { wanted, .. },
+            fitted,
+            mut origins,
+        } = self;
+        for Wanted {
+            asset,
+            path: _,
+            span,
+        } in &wanted
+        {
             let (noun, index) = match asset {
-                Asset::Image(ImageId(index)) | Asset::Environment(ImageId(index)) => (Noun::Image, *index),
+                Asset::Image(ImageId(index)) | Asset::Environment(ImageId(index)) => {
+                    (Noun::Image, *index)
+                }
                 Asset::Mesh(MeshId(index)) => (Noun::Mesh, *index),
                 Asset::Gltf(_) => continue,
             };
-            origins.record(Place { noun, index, field: Field::Whole }, *span);
+            origins.record(
+                Place {
+                    noun,
+                    index,
+                    field: Field::Whole,
+                },
+                *span,
+            );
         }
         origins.finish();
-        Draft { lowered: Lowered { scene, origins }, wanted, fitted }
+        Draft {
+            lowered: Lowered { scene, origins },
+            wanted,
+            fitted,
+        }
     }
 }
 
@@ -172,7 +225,8 @@ fn no_camera(context: &mut Context<'_>) {
     let span = context.head(context.tree.root());
     let message = || "the scene has no `Camera`".to_owned();
     context.report(&codes::NO_CAMERA, span, message, |d| {
-        d.at(span, "this scene").hint("add `Camera:` with `eye`, `center`, `up` and `viewSize`; old files have `Eye:`")
+        d.at(span, "this scene")
+            .hint("add `Camera:` with `eye`, `center`, `up` and `viewSize`; old files have `Eye:`")
     });
 }
 
@@ -181,7 +235,9 @@ fn ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Cont
     if let Some(span) = span {
         let message = || format!("the scene has both `{used}` and `{word}`");
         context.report(&codes::TWO_CAMERAS, span, message, |d| {
-            d.at(span, format!("ignored: `{used}` is used")).severity(severity).hint(format!("remove `{word}`"))
+            d.at(span, format!("ignored: `{used}` is used"))
+                .severity(severity)
+                .hint(format!("remove `{word}`"))
         });
     }
 }
@@ -189,12 +245,20 @@ fn ignored_camera(word: &str, used: &str, span: Option<Span>, context: &mut Cont
 /// Says once which spellings of the file are not the canonical ones.
 fn note_spellings(context: &mut Context<'_>) {
     let spellings = std::mem::take(&mut context.spellings);
-    let Some((_, _, first)) = spellings.first().copied() else { return };
-    let pairs: Vec<_> = spellings.iter().map(|(written, meant, _)| format!("`{written}` for `{meant}`")).collect();
+    let Some((_, _, first)) = spellings.first().copied() else {
+        return;
+    };
+    let pairs: Vec<_> = spellings
+        .iter()
+        .map(|(written, meant, _)| format!("`{written}` for `{meant}`"))
+        .collect();
     context.report(
         &codes::SPELLING,
         first,
         || format!("other spellings: {}", pairs.join(", ")),
-        |d| d.at(first, "the first of them").hint("`rtc compile --emit yaml` writes the canonical ones"),
+        |d| {
+            d.at(first, "the first of them")
+                .hint("`rtc compile --emit yaml` writes the canonical ones")
+        },
     );
 }

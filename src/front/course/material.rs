@@ -40,7 +40,12 @@ record! {
 }
 
 /// The material of a mesh for which none was written.
-const GREY: ir::Phong = ir::Phong { color: [0.7; 3], ka: 0.2, kd: 0.8, ..ir::Phong::MATT };
+const GREY: ir::Phong = ir::Phong {
+    color: [0.7; 3],
+    ka: 0.2,
+    kd: 0.8,
+    ..ir::Phong::MATT
+};
 
 impl Lowering {
     /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
@@ -63,8 +68,20 @@ impl Lowering {
     }
 
     fn phong(&mut self, material: &Material, color: Color) -> ir::Phong {
-        let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
-            material;
+        let Material {
+            color: _,
+            texture,
+            bump,
+            normal_map,
+            specular_map,
+            ka,
+            kd,
+            ks,
+            n,
+            kt,
+            eta,
+            glossy_samples,
+        } = material;
         let (kt, eta) = refraction(kt.value.0, eta.value.0);
         ir::Phong {
             color: color.0,
@@ -78,17 +95,42 @@ impl Lowering {
             color_map: self.map(texture),
             specular_map: self.map(specular_map),
             normal_map: self.map(normal_map),
-            bump: self.map(bump).map(|texture| ir::Bump { texture, height: 1.0 }),
+            bump: self.map(bump).map(|texture| ir::Bump {
+                texture,
+                height: 1.0,
+            }),
         }
     }
 
     fn map(&mut self, file: &Found<Spanned<FileName>>) -> Option<ir::TextureId> {
-        if let Found::Read(file) = file { Some(self.files.texture(&mut self.scene, file)) } else { None }
+        if let Found::Read(file) = file {
+            Some(self.files.texture(&mut self.scene, file))
+        } else {
+            None
+        }
     }
 
-    fn material_origins(&mut self, id: MaterialId, material: &Material, whole: Option<Span>, color: Option<Span>) {
-        let Material { color: _, texture, bump, normal_map, specular_map, ka, kd, ks, n, kt, eta, glossy_samples } =
-            material;
+    fn material_origins(
+        &mut self,
+        id: MaterialId,
+        material: &Material,
+        whole: Option<Span>,
+        color: Option<Span>,
+    ) {
+        let Material {
+            color: _,
+            texture,
+            bump,
+            normal_map,
+            specular_map,
+            ka,
+            kd,
+            ks,
+            n,
+            kt,
+            eta,
+            glossy_samples,
+        } = material;
         for (field, span) in [
             (Field::Whole, whole),
             (Field::Color, color),
@@ -128,9 +170,14 @@ impl Lowering {
     }
 }
 
-/// A weight or an index of 0 means that nothing is refracted; what is negative is left for the proof to refuse.
+/// A weight or an index of 0 means that nothing is refracted; what is negative is left for the
+/// proof to refuse.
 fn refraction(kt: f64, eta: f64) -> (f64, f64) {
     let weight = if eta == 0.0 { kt.min(0.0) } else { kt };
-    let ratio = if eta == 0.0 || (kt == 0.0 && eta > 0.0) { 1.0 } else { eta };
+    let ratio = if eta == 0.0 || (kt == 0.0 && eta > 0.0) {
+        1.0
+    } else {
+        eta
+    };
     (weight, ratio)
 }

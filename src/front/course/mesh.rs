@@ -33,7 +33,14 @@ record! {
 impl Lowering {
     /// Lowers a mesh: its file is wanted.
     pub(super) fn mesh(&mut self, mesh: &Mesh, context: &mut Context<'_>) {
-        let Mesh { kind, file, position, scale, radius, material } = mesh;
+        let Mesh {
+            kind,
+            file,
+            position,
+            scale,
+            radius,
+            material,
+        } = mesh;
         let clothes = match material {
             Found::Read(material) => self.clothe(kind, material),
             Found::Absent => Some(self.clothe_in_grey(kind)),
@@ -45,7 +52,13 @@ impl Lowering {
                 useless_axis(radius, context);
                 (radius.map(|radius| radius.length), true)
             }
-            (Found::Absent, Found::Absent) => (Spanned { value: 1.0, span: position.span }, false),
+            (Found::Absent, Found::Absent) => (
+                Spanned {
+                    value: 1.0,
+                    span: position.span,
+                },
+                false,
+            ),
             _ => return,
         };
         let Some(clothes) = clothes else { return };
@@ -54,8 +67,14 @@ impl Lowering {
             self.fitted.push(self.scene.surfaces.len());
         }
         let [x, y, z] = Vec3::AXES.map(|axis| (axis * size.value).to_array());
-        let shape = ir::Instance { mesh, world_from_object: [x, y, z, position.value.0] };
-        let places = [(Field::InstanceMesh, file.span), (Field::InstanceTransform, size.span)];
+        let shape = ir::Instance {
+            mesh,
+            world_from_object: [x, y, z, position.value.0],
+        };
+        let places = [
+            (Field::InstanceMesh, file.span),
+            (Field::InstanceTransform, size.span),
+        ];
         self.put(&clothes, ir::Shape::Instance(shape), &places);
     }
 }
@@ -63,24 +82,39 @@ impl Lowering {
 fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
     if let Some(span) = radius.value.axis.and_then(|axis| axis.span) {
         let message = || "a mesh is not turned about an axis".to_owned();
-        context.report(&codes::NO_EFFECT, span, message, |d| d.at(span, "ignored").severity(Severity::Warning));
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "ignored").severity(Severity::Warning)
+        });
     }
 }
 
-/// Makes a mesh fill the size it is to have: the transform of the instance has that size and where its middle is to be.
+/// Makes a mesh fill the size it is to have: the transform of the instance has that size and where
+/// its middle is to be.
 pub(super) fn fit(scene: &mut ir::Scene, surface: usize) {
-    let Some(ir::Surface { shape: ir::Shape::Instance(instance), .. }) = scene.surfaces.get_mut(surface) else {
+    let Some(ir::Surface {
+        shape: ir::Shape::Instance(instance),
+        ..
+    }) = scene.surfaces.get_mut(surface)
+    else {
         return;
     };
-    let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else { return };
+    let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
+        return;
+    };
     let corners = || mesh.positions.iter().map(Vec3::from_array);
-    let Some((low, high)) = corners().map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else { return };
+    let Some((low, high)) = corners()
+        .map(|p| (p, p))
+        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    else {
+        return;
+    };
     let half = ((high - low) / 2.0).max_element();
     if half > 0.0 {
         let [x, y, z, middle] = instance.world_from_object.map(Vec3::from_array);
         let axes = [x, y, z].map(|axis| axis / half);
         let center = (low + high) / 2.0;
         let origin = middle - (axes[0] * center.x + axes[1] * center.y + axes[2] * center.z);
-        instance.world_from_object = [axes[0], axes[1], axes[2], origin].map(|column| column.to_array());
+        instance.world_from_object =
+            [axes[0], axes[1], axes[2], origin].map(|column| column.to_array());
     }
 }

@@ -1,7 +1,8 @@
-//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR, and the IR back to text.
+//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR, and the IR
+//! back to text.
 //!
-//! Each record of the format is declared once, in the file of its noun; the declaration is its type, its decoder and
-//! its schema. Every mistake is collected; none stops the pass.
+//! Each record of the format is declared once, in the file of its noun; the declaration is its
+//! type, its decoder and its schema. Every mistake is collected; none stops the pass.
 
 mod camera;
 mod cone;

@@ -1,7 +1,7 @@
 //! Numbers: the core schema of YAML 1.2, and finite.
 //!
-//! Their types name ranges for the schema. What the IR can hold is lowered, in range or not: the proof refuses it there,
-//! as it must for scenes that were never text.
+//! Their types name ranges for the schema. What the IR can hold is lowered, in range or not: the
+//! proof refuses it there, as it must for scenes that were never text.
 
 use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
@@ -27,7 +27,11 @@ fn read(word: &str) -> Reading {
     if matches!(unsigned, ".inf" | ".Inf" | ".INF") || matches!(word, ".nan" | ".NaN" | ".NAN") {
         return Reading::NotFinite;
     }
-    let value = match word.strip_prefix("0x").map(|digits| (digits, 16)).or(word.strip_prefix("0o").map(|d| (d, 8))) {
+    let value = match word
+        .strip_prefix("0x")
+        .map(|digits| (digits, 16))
+        .or(word.strip_prefix("0o").map(|d| (d, 8)))
+    {
         Some((digits, radix)) => in_base(digits, radix),
         None if is_decimal(unsigned) => word.parse().ok(),
         None => None,
@@ -39,10 +43,12 @@ fn read(word: &str) -> Reading {
     }
 }
 
-/// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the power of ten are exact
-/// in 64 bits, so their quotient is the nearest number.
+/// A decimal of at most 15 characters without an exponent, as nearly all are: its digits and the
+/// power of ten are exact in 64 bits, so their quotient is the nearest number.
 fn short_decimal(word: &str) -> Option<f64> {
-    const TENS: [f64; 15] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14];
+    const TENS: [f64; 15] = [
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14,
+    ];
     let (sign, digits) = match word.as_bytes() {
         [b'-', digits @ ..] => (-1.0, digits),
         [b'+', digits @ ..] | digits => (1.0, digits),
@@ -65,8 +71,13 @@ fn short_decimal(word: &str) -> Option<f64> {
 }
 
 fn in_base(digits: &str, radix: u32) -> Option<f64> {
-    let add = |sum: f64, digit: char| Some(sum * f64::from(radix) + f64::from(digit.to_digit(radix)?));
-    if digits.is_empty() { None } else { digits.chars().try_fold(0.0, add) }
+    let add =
+        |sum: f64, digit: char| Some(sum * f64::from(radix) + f64::from(digit.to_digit(radix)?));
+    if digits.is_empty() {
+        None
+    } else {
+        digits.chars().try_fold(0.0, add)
+    }
 }
 
 /// `[0-9]+(\.[0-9]*)?` or `\.[0-9]+`, and an exponent.
@@ -116,16 +127,25 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
     let (key, span) = (context.key, tree.span(node));
     match read(word) {
         Reading::Number(_) | Reading::NotFinite if quoted => {
-            let message = || format!("`{}` must be {what}, not {}", clip(key.text), describe(tree.shape(node)));
+            let message = || {
+                format!(
+                    "`{}` must be {what}, not {}",
+                    clip(key.text),
+                    describe(tree.shape(node))
+                )
+            };
             context.report(&codes::WRONG_TYPE, span, message, |d| {
-                d.at(span, "text, because of the quotes").replace("remove the quotes", span, word)
+                d.at(span, "text, because of the quotes")
+                    .replace("remove the quotes", span, word)
             });
             None
         }
         Reading::Number(value) => Some(value),
         Reading::NotFinite => {
             let message = || format!("`{}` is not finite: `{}`", clip(key.text), clip(word));
-            context.report(&codes::NOT_FINITE, span, message, |d| d.at(span, "no number to compute with"));
+            context.report(&codes::NOT_FINITE, span, message, |d| {
+                d.at(span, "no number to compute with")
+            });
             None
         }
         Reading::NoNumber => context.expected(node, what),
@@ -137,7 +157,10 @@ pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Opt
 /// What lies between 0 and `least` is lowered as it is.
 pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'_>) -> Option<u32> {
     let value = number(node, "a whole number", context)?;
-    #[expect(clippy::float_cmp, reason = "a whole number equals its truncation exactly")]
+    #[expect(
+        clippy::float_cmp,
+        reason = "a whole number equals its truncation exactly"
+    )]
     if value != value.trunc() {
         return context.expected(node, "a whole number");
     }
@@ -148,7 +171,11 @@ pub(super) fn whole(least: u32, most: u32, node: NodeId, context: &mut Context<'
         out_of_range(&format!("at most {most}"), node, context);
         return Some(least);
     }
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it was brought into the range of u32")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it was brought into the range of u32"
+    )]
     Some(value as u32)
 }
 
@@ -156,13 +183,22 @@ fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
     let (tree, key) = (context.tree, context.key);
     let (span, word) = (tree.span(node), tree.text(node).unwrap_or_default());
     let message = || format!("`{}` must be {range}, not `{}`", clip(key.text), clip(word));
-    context.report(&codes::OUT_OF_RANGE, span, message, |d| d.at(span, "out of range"));
+    context.report(&codes::OUT_OF_RANGE, span, message, |d| {
+        d.at(span, "out of range")
+    });
 }
 
 /// The shortest JSON of a number: whole ones without a point.
 pub(super) fn json_number(value: f64) -> Json {
-    #[expect(clippy::cast_possible_truncation, reason = "only whole numbers below 2^53 pass")]
-    if value.fract() == 0.0 && value.abs() < 9e15 { json!(value as i64) } else { json!(value) }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "only whole numbers below 2^53 pass"
+    )]
+    if value.fract() == 0.0 && value.abs() < 9e15 {
+        json!(value as i64)
+    } else {
+        json!(value)
+    }
 }
 
 /// Declares a number in a range as a type of the format.
@@ -242,23 +278,40 @@ mod tests {
 
     #[test]
     fn the_core_schema_and_nothing_else_is_a_number() {
-        for (word, expected) in
-            [("12", 12.0), ("-0.5", -0.5), (".5", 0.5), ("5.", 5.0), ("1e3", 1000.0), ("0x1F", 31.0)]
-        {
+        for (word, expected) in [
+            ("12", 12.0),
+            ("-0.5", -0.5),
+            (".5", 0.5),
+            ("5.", 5.0),
+            ("1e3", 1000.0),
+            ("0x1F", 31.0),
+        ] {
             assert_eq!(value(word), Some(expected), "{word}");
         }
         for word in ["+1.5E-3", "0o17"] {
             assert!(value(word).is_some_and(f64::is_finite), "{word}");
         }
-        for word in
-            ["0.1", "-123456789.12345", ".99999999999999", "-0", "+7.", "0.30000000000000004", "123456789012345678"]
-        {
-            assert_eq!(value(word).map(f64::to_bits), word.parse().ok().map(f64::to_bits), "{word}");
+        for word in [
+            "0.1",
+            "-123456789.12345",
+            ".99999999999999",
+            "-0",
+            "+7.",
+            "0.30000000000000004",
+            "123456789012345678",
+        ] {
+            assert_eq!(
+                value(word).map(f64::to_bits),
+                word.parse().ok().map(f64::to_bits),
+                "{word}"
+            );
         }
         for word in ["1e400", ".inf", "-.INF", ".nan"] {
             assert_eq!(value(word), Some(f64::INFINITY), "{word}");
         }
-        for word in ["", ".", "-", "1_000", "1.2.3", "1e", "inf", "nan", "0x", "1f", "+.nan", "e5", "1 2"] {
+        for word in [
+            "", ".", "-", "1_000", "1.2.3", "1e", "inf", "nan", "0x", "1f", "+.nan", "e5", "1 2",
+        ] {
             assert_eq!(value(word), None, "{word}");
         }
     }

@@ -78,10 +78,19 @@ impl Value for Object {
             return None;
         };
         let span = context.tree.span(kind);
-        context.key = Key { text: "type", span: Some(span) };
-        let Some(word) = context.tree.text(kind) else { return context.expected(kind, "a word") };
-        let known =
-            KINDS.iter().find_map(|kind| kind.words.iter().find(|known| **known == word).map(|word| (kind, *word)));
+        context.key = Key {
+            text: "type",
+            span: Some(span),
+        };
+        let Some(word) = context.tree.text(kind) else {
+            return context.expected(kind, "a word");
+        };
+        let known = KINDS.iter().find_map(|kind| {
+            kind.words
+                .iter()
+                .find(|known| **known == word)
+                .map(|word| (kind, *word))
+        });
         let Some((kind, word)) = known else {
             left_out(word, span, context);
             return None;
@@ -109,7 +118,9 @@ fn left_out(word: &str, span: Span, context: &mut Context<'_>) {
         || format!("there is no type `{}`", clip(word)),
         |d| {
             let d = match lenient {
-                true => d.at(span, "this object is left out").severity(Severity::Warning),
+                true => d
+                    .at(span, "this object is left out")
+                    .severity(Severity::Warning),
                 false => d.at(span, "this object would be missing"),
             };
             let known = KINDS.iter().flat_map(|kind| kind.words).copied();
@@ -118,7 +129,9 @@ fn left_out(word: &str, span: Span, context: &mut Context<'_>) {
                 None if lenient => d,
                 None => {
                     let kinds = list(KINDS.iter().map(|kind| kind.words[0]));
-                    d.hint(format!("the types are {kinds}; `--lenient` leaves the object out"))
+                    d.hint(format!(
+                        "the types are {kinds}; `--lenient` leaves the object out"
+                    ))
                 }
             }
         },
@@ -133,7 +146,8 @@ pub(super) struct Clothes {
 }
 
 impl Lowering {
-    /// Lowers an object; one without a sound material or form is left out, and the sink has an error.
+    /// Lowers an object; one without a sound material or form is left out, and the sink has an
+    /// error.
     pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
         match object {
             Object::Sphere(sphere) => self.sphere(sphere, context),
@@ -154,19 +168,40 @@ impl Lowering {
     }
 
     /// Lowers the material of an object. `None` if it has no sound one, which is reported.
-    pub(super) fn clothe(&mut self, kind: &Spanned<Text>, material: &Spanned<Shared<Material>>) -> Option<Clothes> {
+    pub(super) fn clothe(
+        &mut self,
+        kind: &Spanned<Text>,
+        material: &Spanned<Shared<Material>>,
+    ) -> Option<Clothes> {
         let id = self.material(material)?;
-        Some(Clothes { whole: kind.span, material: id, span: material.span })
+        Some(Clothes {
+            whole: kind.span,
+            material: id,
+            span: material.span,
+        })
     }
 
     /// Clothes an object for which no material was written.
     pub(super) fn clothe_in_grey(&mut self, kind: &Spanned<Text>) -> Clothes {
-        Clothes { whole: kind.span, material: self.grey(), span: kind.span }
+        Clothes {
+            whole: kind.span,
+            material: self.grey(),
+            span: kind.span,
+        }
     }
 
     /// Adds a surface of an object.
-    pub(super) fn put(&mut self, clothes: &Clothes, shape: ir::Shape, places: &[(Field, Option<Span>)]) {
-        let Clothes { whole, material, span } = *clothes;
+    pub(super) fn put(
+        &mut self,
+        clothes: &Clothes,
+        shape: ir::Shape,
+        places: &[(Field, Option<Span>)],
+    ) {
+        let Clothes {
+            whole,
+            material,
+            span,
+        } = *clothes;
         let index = self.scene.surfaces.len();
         self.scene.surfaces.push(ir::Surface { shape, material });
         self.origin(Noun::Surface, index, Field::Whole, whole);

@@ -1,5 +1,5 @@
-//! The page of documentation on the format, made from the declarations: every key, its other spellings, its type, its
-//! default and its meaning.
+//! The page of documentation on the format, made from the declarations: every key, its other
+//! spellings, its type, its default and its meaning.
 
 use super::camera::Camera;
 use super::environment::Environment;
@@ -52,8 +52,17 @@ pub fn page() -> String {
 
 fn section(title: &str, record: &Record, page: &mut String) {
     writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(WRITES);
-    page.push_str("| key | other spellings | type | default | meaning |\n| --- | --- | --- | --- | --- |\n");
-    for Field { name, doc, rows, need, schema } in record.fields {
+    page.push_str(
+        "| key | other spellings | type | default | meaning |\n| --- | --- | --- | --- | --- |\n",
+    );
+    for Field {
+        name,
+        doc,
+        rows,
+        need,
+        schema,
+    } in record.fields
+    {
         let (canonical, others) = rows.split_first().expect("a field has a row of keys");
         let others: Vec<_> = others.iter().map(|row| code(row)).collect();
         let in_form = record.forms.iter().any(|form| form.contains(name));
@@ -65,28 +74,56 @@ fn section(title: &str, record: &Record, page: &mut String) {
         };
         let kind = kind(&schema(&mut Definitions::default()));
         let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());
-        writeln!(page, "| {key} | {others} | {kind} | {default} | {meaning} |").expect(WRITES);
+        writeln!(
+            page,
+            "| {key} | {others} | {kind} | {default} | {meaning} |"
+        )
+        .expect(WRITES);
     }
     if record.forms.len() > 1 {
-        let keys =
-            |name: &&str| record.fields.iter().find(|field| field.name == *name).map(|field| code(field.rows[0]));
-        let forms = record.forms.iter().map(|form| form.iter().filter_map(keys).collect::<Vec<_>>().join(" "));
-        writeln!(page, "\nOne of these sets of keys: {}.", forms.collect::<Vec<_>>().join("; ")).expect(WRITES);
+        let keys = |name: &&str| {
+            record
+                .fields
+                .iter()
+                .find(|field| field.name == *name)
+                .map(|field| code(field.rows[0]))
+        };
+        let forms = record
+            .forms
+            .iter()
+            .map(|form| form.iter().filter_map(keys).collect::<Vec<_>>().join(" "));
+        writeln!(
+            page,
+            "\nOne of these sets of keys: {}.",
+            forms.collect::<Vec<_>>().join("; ")
+        )
+        .expect(WRITES);
     }
 }
 
 fn code(words: &[&str]) -> String {
-    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(" ")
+    words
+        .iter()
+        .map(|word| format!("`{word}`"))
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// What a schema takes, in words.
 fn kind(schema: &Json) -> String {
     if let Some(forms) = schema["anyOf"].as_array() {
-        let current = forms.iter().filter(|form| form["deprecated"] != true && form["pattern"].is_null());
+        let current = forms
+            .iter()
+            .filter(|form| form["deprecated"] != true && form["pattern"].is_null());
         return current.map(kind).collect::<Vec<_>>().join(", or ");
     }
     if let Some(words) = schema["enum"].as_array() {
-        return words.iter().filter_map(Json::as_str).map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ");
+        return words
+            .iter()
+            .filter_map(Json::as_str)
+            .map(|word| format!("`{word}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
     }
     if schema["$ref"].is_string() {
         return "map".to_owned();
@@ -104,16 +141,32 @@ fn kind(schema: &Json) -> String {
 
 fn list(schema: &Json) -> String {
     match (&schema["prefixItems"], schema["minItems"].as_u64()) {
-        (Json::Array(items), _) => format!("list of {}", items.iter().map(kind).collect::<Vec<_>>().join(" and ")),
+        (Json::Array(items), _) => format!(
+            "list of {}",
+            items.iter().map(kind).collect::<Vec<_>>().join(" and ")
+        ),
         (_, Some(count)) => format!("{count} × {}", kind(&schema["items"])),
         (_, None) => format!("list of {}s", kind(&schema["items"])),
     }
 }
 
 fn range(schema: &Json) -> String {
-    let bound = |key: &str, sign: &str| schema[key].as_f64().map(|bound| (bound, format!(" {sign} {}", schema[key])));
+    let bound = |key: &str, sign: &str| {
+        schema[key]
+            .as_f64()
+            .map(|bound| (bound, format!(" {sign} {}", schema[key])))
+    };
     // Bounds that only keep arithmetic finite are not worth a word.
-    let stated = |bound: Option<(f64, String)>| bound.filter(|(bound, _)| bound.abs() < 1e9).map(|(_, text)| text);
-    let bounds = [bound("exclusiveMinimum", ">"), bound("minimum", "≥"), bound("maximum", "≤")].map(stated);
+    let stated = |bound: Option<(f64, String)>| {
+        bound
+            .filter(|(bound, _)| bound.abs() < 1e9)
+            .map(|(_, text)| text)
+    };
+    let bounds = [
+        bound("exclusiveMinimum", ">"),
+        bound("minimum", "≥"),
+        bound("maximum", "≤"),
+    ]
+    .map(stated);
     bounds.into_iter().flatten().collect::<Vec<_>>().join(",")
 }

@@ -80,19 +80,38 @@ impl Lowering {
     pub(super) fn plane(&mut self, plane: &Plane) {
         let clothes = self.clothe(&plane.kind, &plane.material);
         if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(plane)) {
-            let places = [(Field::PlaneCenter, center.span), (Field::PlaneNormal, normal.span)];
-            let shape = ir::Plane { center: center.value, normal: normal.value };
+            let places = [
+                (Field::PlaneCenter, center.span),
+                (Field::PlaneNormal, normal.span),
+            ];
+            let shape = ir::Plane {
+                center: center.value,
+                normal: normal.value,
+            };
             self.put(&clothes, ir::Shape::Plane(shape), &places);
         }
     }
 
     /// Lowers a plane with bounds to a quadrilateral or a disc.
     pub(super) fn bounded_plane(&mut self, plane: &BoundedPlane, context: &mut Context<'_>) {
-        let BoundedPlane { kind, outline, center, normal, radius, material } = plane;
-        let Some(clothes) = self.clothe(kind, material) else { return };
+        let BoundedPlane {
+            kind,
+            outline,
+            center,
+            normal,
+            radius,
+            material,
+        } = plane;
+        let Some(clothes) = self.clothe(kind, material) else {
+            return;
+        };
         match outline.value {
             Outline::Circle => {
-                let shape = ir::Disc { center: center.value.0, normal: normal.value.0, radius: radius.value.0 };
+                let shape = ir::Disc {
+                    center: center.value.0,
+                    normal: normal.value.0,
+                    radius: radius.value.0,
+                };
                 let places = [
                     (Field::DiscCenter, center.span),
                     (Field::DiscNormal, normal.span),
@@ -102,10 +121,17 @@ impl Lowering {
             }
             Outline::Square if radius.value.0 <= 0.0 => pointlike(radius, context),
             Outline::Square => {
-                let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+                let fields = [
+                    Field::QuadVertex0,
+                    Field::QuadVertex1,
+                    Field::QuadVertex2,
+                    Field::QuadVertex3,
+                ];
                 let places = fields.map(|field| (field, center.span));
                 match square(center.value.0, normal.value.0, radius.value.0) {
-                    Some(vertices) => self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places),
+                    Some(vertices) => {
+                        self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places)
+                    }
                     None => oblique(normal, context),
                 }
             }
@@ -123,14 +149,21 @@ fn square(center: [f64; 3], normal: [f64; 3], half: f64) -> Option<[[f64; 3]; 4]
         _ => return None,
     };
     let corner = |a: f64, b: f64| (center + u * (a * half) + v * (b * half)).to_array();
-    Some([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
+    Some([
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ])
 }
 
 /// Reports a square without sides; of a circle the proof says so.
 fn pointlike(radius: &Spanned<Positive>, context: &mut Context<'_>) {
     if let Some(span) = radius.span {
         let message = || format!("the radius `{}` is not above 0", radius.value.0);
-        context.report(&codes::RADIUS, span, message, |d| d.at(span, "must be above 0"));
+        context.report(&codes::RADIUS, span, message, |d| {
+            d.at(span, "must be above 0")
+        });
     }
 }
 
@@ -138,24 +171,41 @@ fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
     let Some(span) = normal.span else { return };
     let message = || "a square `bplane` has its normal along an axis".to_owned();
     context.report(&codes::UNSUPPORTED, span, message, |d| {
-        d.at(span, "along none").hint("write it as a `quad` with four corners, or as a `circle`")
+        d.at(span, "along none")
+            .hint("write it as a `quad` with four corners, or as a `circle`")
     });
 }
 
 /// A plane by the one form it is given in.
 fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
-    let Plane { kind: _, corners, position, normal, distance, edges, material: _ } = plane;
+    let Plane {
+        kind: _,
+        corners,
+        position,
+        normal,
+        distance,
+        edges,
+        material: _,
+    } = plane;
     match (corners, position, normal, distance, edges) {
         (Found::Read(corners), ..) => Some(through(corners)),
         (_, Found::Read(position), Found::Read(normal), ..) => {
             Some((position.map(|point| point.0), normal.map(|vector| vector.0)))
         }
-        (_, _, Found::Read(normal), Found::Read(distance), _) => Some(at_distance(normal, distance)),
+        (_, _, Found::Read(normal), Found::Read(distance), _) => {
+            Some(at_distance(normal, distance))
+        }
         (_, Found::Read(position), .., Found::Read([up, side])) => {
             let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
             let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
             let normal = across(side_vector, up_vector);
-            Some((position.map(|point| point.0), Spanned { value: normal, span }))
+            Some((
+                position.map(|point| point.0),
+                Spanned {
+                    value: normal,
+                    span,
+                },
+            ))
         }
         _ => None,
     }
@@ -163,20 +213,33 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
 
 fn through(corners: &[Spanned<Point>; 3]) -> (Numbers, Numbers) {
     let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
-    let span = corners[0].span.zip(corners[2].span).map(|(first, last)| first.to(last));
+    let span = corners[0]
+        .span
+        .zip(corners[2].span)
+        .map(|(first, last)| first.to(last));
     let normal = across(b - a, c - a);
-    (corners[0].map(|point| point.0), Spanned { value: normal, span })
+    (
+        corners[0].map(|point| point.0),
+        Spanned {
+            value: normal,
+            span,
+        },
+    )
 }
 
-/// The direction at right angles to two, in a right-handed way; zero if they are in line. Powers of two are taken out of
-/// both, so that no product leaves the range of f64.
+/// The direction at right angles to two, in a right-handed way; zero if they are in line. Powers of
+/// two are taken out of both, so that no product leaves the range of f64.
 fn across(first: Vec3, second: Vec3) -> [f64; 3] {
-    let [first, second] = [first, second].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+    let [first, second] =
+        [first, second].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
     first.cross(second).to_array()
 }
 
 fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, Numbers) {
     // A normal of length 0 is left for the proof to refuse.
     let direction = unit(Vec3::from_array(normal.value.0)).unwrap_or(Vec3::ZERO);
-    (distance.map(|distance| (direction * distance.0).to_array()), normal.map(|vector| vector.0))
+    (
+        distance.map(|distance| (direction * distance.0).to_array()),
+        normal.map(|vector| vector.0),
+    )
 }

@@ -46,7 +46,12 @@ impl Lowering {
     pub(super) fn quad(&mut self, quad: &Quad) {
         let clothes = self.clothe(&quad.kind, &quad.material);
         if let (Some(clothes), Some(corners)) = (clothes, corners(quad)) {
-            let fields = [Field::QuadVertex0, Field::QuadVertex1, Field::QuadVertex2, Field::QuadVertex3];
+            let fields = [
+                Field::QuadVertex0,
+                Field::QuadVertex1,
+                Field::QuadVertex2,
+                Field::QuadVertex3,
+            ];
             let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
             let vertices = corners.map(|corner| corner.value);
             self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
@@ -56,14 +61,25 @@ impl Lowering {
 
 /// The corners in order around it.
 fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
-    let Quad { kind: _, corners, position, edges, material: _ } = quad;
+    let Quad {
+        kind: _,
+        corners,
+        position,
+        edges,
+        material: _,
+    } = quad;
     match (corners, position, edges) {
         (Found::Read(corners), ..) => Some(corners.map(|corner| corner.map(|point| point.0))),
         (_, Found::Read(position), Found::Read([up, side])) => {
             let [corner, v, u] = [position.value.0, up.value.0, side.value.0].map(Vec3::from_array);
             let second = side.map(|_| (corner + u).to_array());
             let third = side.map(|_| (corner + u + v).to_array());
-            Some([position.map(|point| point.0), second, third, up.map(|_| (corner + v).to_array())])
+            Some([
+                position.map(|point| point.0),
+                second,
+                third,
+                up.map(|_| (corner + v).to_array()),
+            ])
         }
         _ => None,
     }

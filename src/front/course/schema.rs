@@ -1,6 +1,7 @@
 //! The JSON Schema of the format, made from the declarations.
 //!
-//! It takes exactly what the decoder takes under `--strict`: unknown keys, and `Eye` beside `Camera`, are refused.
+//! It takes exactly what the decoder takes under `--strict`: unknown keys, and `Eye` beside
+//! `Camera`, are refused.
 
 use super::decode::Value;
 use super::record::{Field, Need, Record};
@@ -62,11 +63,17 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
             (Need::Required, [[key]]) => required.push(*key),
             (Need::Required, _) => rules.push(one_row(field)),
             (Need::Optional | Need::Default(_), [[_]]) => {}
-            (Need::Optional | Need::Default(_), _) => rules.push(json!({ "anyOf": [one_row(field), absent(field)] })),
+            (Need::Optional | Need::Default(_), _) => {
+                rules.push(json!({ "anyOf": [one_row(field), absent(field)] }))
+            }
         }
     }
     if !record.forms.is_empty() {
-        let forms: Vec<_> = record.forms.iter().map(|form| one_form(record, form)).collect();
+        let forms: Vec<_> = record
+            .forms
+            .iter()
+            .map(|form| one_form(record, form))
+            .collect();
         rules.push(json!({ "oneOf": forms }));
     }
     let mut body = json!({
@@ -84,7 +91,11 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
 }
 
 /// One property for each key; the keys that are not canonical say which is.
-fn field_properties(field: &Field, definitions: &mut Definitions, properties: &mut Map<String, Json>) {
+fn field_properties(
+    field: &Field,
+    definitions: &mut Definitions,
+    properties: &mut Map<String, Json>,
+) {
     let value = (field.schema)(definitions);
     let canonical = field.rows.first().copied().unwrap_or_default();
     for row in field.rows {
@@ -98,11 +109,18 @@ fn field_properties(field: &Field, definitions: &mut Definitions, properties: &m
             };
             let doc = field.doc.trim();
             let is_canonical = canonical.contains(key);
-            let doc = if is_canonical { doc.to_owned() } else { format!("{doc} Better written `{meant}`.") };
+            let doc = if is_canonical {
+                doc.to_owned()
+            } else {
+                format!("{doc} Better written `{meant}`.")
+            };
             property.insert("description".to_owned(), json!(doc));
-            // Editors write keys with a default when they complete an object: one key for each field.
+            // Editors write keys with a default when they complete an object: one key for each
+            // field.
             match field.need {
-                Need::Default(default) if is_canonical => drop(property.insert("default".to_owned(), default())),
+                Need::Default(default) if is_canonical => {
+                    drop(property.insert("default".to_owned(), default()))
+                }
                 Need::Required | Need::Optional | Need::Default(_) => {}
             }
             if !is_canonical {
@@ -118,7 +136,9 @@ fn keys(field: &Field) -> impl Iterator<Item = &'static str> {
 }
 
 fn forbid(keys: impl Iterator<Item = &'static str>) -> Json {
-    keys.map(|key| (key.to_owned(), Json::Bool(false))).collect::<Map<_, _>>().into()
+    keys.map(|key| (key.to_owned(), Json::Bool(false)))
+        .collect::<Map<_, _>>()
+        .into()
 }
 
 fn absent(field: &Field) -> Json {
@@ -132,14 +152,26 @@ fn one_row(field: &Field) -> Json {
         json!({ "required": row, "properties": forbid(others) })
     });
     let mut rows: Vec<_> = rows.collect();
-    if rows.len() == 1 { rows.remove(0) } else { json!({ "oneOf": rows }) }
+    if rows.len() == 1 {
+        rows.remove(0)
+    } else {
+        json!({ "oneOf": rows })
+    }
 }
 
 /// The fields of the form, and no key of the fields of the other forms.
 fn one_form(record: &Record, form: &[&str]) -> Json {
-    let members = || record.fields.iter().filter(|field| form.contains(&field.name));
+    let members = || {
+        record
+            .fields
+            .iter()
+            .filter(|field| form.contains(&field.name))
+    };
     let own: Vec<_> = members().flat_map(keys).collect();
-    let others = record.fields.iter().filter(|field| record.forms.iter().any(|form| form.contains(&field.name)));
+    let others = record
+        .fields
+        .iter()
+        .filter(|field| record.forms.iter().any(|form| form.contains(&field.name)));
     let others = others.flat_map(keys).filter(|key| !own.contains(key));
     let rules: Vec<_> = members().map(one_row).collect();
     json!({ "allOf": rules, "properties": forbid(others) })

@@ -68,7 +68,12 @@ record! {
     }
 }
 
-const GOOCH: ir::Gooch = ir::Gooch { b: 0.55, y: 0.3, alpha: 0.25, beta: 0.5 };
+const GOOCH: ir::Gooch = ir::Gooch {
+    b: 0.55,
+    y: 0.3,
+    alpha: 0.25,
+    beta: 0.5,
+};
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,25 +96,42 @@ const MODES: &[(&str, Mode)] = &[
 ];
 
 /// The modes as some files number them.
-const NUMBERED: &[(u8, Mode)] = &[(0, Mode::Phong), (1, Mode::Zbuffer), (2, Mode::Normal), (4, Mode::Gooch)];
+const NUMBERED: &[(u8, Mode)] = &[
+    (0, Mode::Phong),
+    (1, Mode::Zbuffer),
+    (2, Mode::Normal),
+    (4, Mode::Gooch),
+];
 
 impl Value for Mode {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let given = plain_number(node, context);
-        let numbered = NUMBERED.iter().find(|(number, _)| given == Some(f64::from(*number)));
-        numbered.map(|(_, mode)| *mode).or_else(|| word(node, MODES, context))
+        let numbered = NUMBERED
+            .iter()
+            .find(|(number, _)| given == Some(f64::from(*number)));
+        numbered
+            .map(|(_, mode)| *mode)
+            .or_else(|| word(node, MODES, context))
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        let numbers: Vec<_> =
-            NUMBERED.iter().map(|(number, _)| json!({ "const": number, "deprecated": true })).collect();
+        let numbers: Vec<_> = NUMBERED
+            .iter()
+            .map(|(number, _)| json!({ "const": number, "deprecated": true }))
+            .collect();
         let mut schema = word_schema(MODES);
-        schema["anyOf"].as_array_mut().into_iter().for_each(|forms| forms.extend(numbers.clone()));
+        schema["anyOf"]
+            .as_array_mut()
+            .into_iter()
+            .for_each(|forms| forms.extend(numbers.clone()));
         schema
     }
 
     fn json(&self) -> Json {
-        MODES.iter().find(|(_, mode)| mode == self).map_or(Json::Null, |(word, _)| json!(word))
+        MODES
+            .iter()
+            .find(|(_, mode)| mode == self)
+            .map_or(Json::Null, |(word, _)| json!(word))
     }
 }
 
@@ -129,8 +151,11 @@ record! {
 pub(super) struct Pattern(ir::Pattern);
 
 /// The words for the patterns.
-pub(super) const PATTERNS: &[(&str, ir::Pattern)] =
-    &[("grid", ir::Pattern::Grid), ("jitter", ir::Pattern::Jitter), ("random", ir::Pattern::Random)];
+pub(super) const PATTERNS: &[(&str, ir::Pattern)] = &[
+    ("grid", ir::Pattern::Grid),
+    ("jitter", ir::Pattern::Jitter),
+    ("random", ir::Pattern::Random),
+];
 
 impl Value for Pattern {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
@@ -142,7 +167,10 @@ impl Value for Pattern {
     }
 
     fn json(&self) -> Json {
-        PATTERNS.iter().find(|(_, pattern)| *pattern == self.0).map_or(Json::Null, |(word, _)| json!(word))
+        PATTERNS
+            .iter()
+            .find(|(_, pattern)| *pattern == self.0)
+            .map_or(Json::Null, |(word, _)| json!(word))
     }
 }
 
@@ -155,7 +183,10 @@ pub(super) struct SuperSampling {
 
 impl SuperSampling {
     /// One ray in the middle.
-    const ONE: Self = Self { factor: Count(1), pattern: ir::Pattern::Grid };
+    const ONE: Self = Self {
+        factor: Count(1),
+        pattern: ir::Pattern::Grid,
+    };
 }
 
 impl Value for SuperSampling {
@@ -163,10 +194,16 @@ impl Value for SuperSampling {
         match context.tree.shape(node) {
             Shape::Map => {
                 let Grid { factor, pattern } = Grid::decode(node, context)?;
-                Some(Self { factor: factor.value, pattern: pattern.value.0 })
+                Some(Self {
+                    factor: factor.value,
+                    pattern: pattern.value.0,
+                })
             }
             Shape::Word(_) | Shape::Text(_) | Shape::List => {
-                Count::decode(node, context).map(|factor| Self { factor, ..Self::ONE })
+                Count::decode(node, context).map(|factor| Self {
+                    factor,
+                    ..Self::ONE
+                })
             }
         }
     }
@@ -189,8 +226,20 @@ const SOFT_LIGHT_SAMPLES: u32 = 16;
 impl Lowering {
     /// Lowers the settings of the file.
     pub(super) fn settings(&mut self, scene: &Scene, context: &mut Context<'_>) {
-        let Scene { mode, shadows, depth, sampling, gooch, light_samples, .. } = scene;
-        let light_samples = if let Found::Read(count) = light_samples { *count } else { Spanned::unwritten(Count(1)) };
+        let Scene {
+            mode,
+            shadows,
+            depth,
+            sampling,
+            gooch,
+            light_samples,
+            ..
+        } = scene;
+        let light_samples = if let Found::Read(count) = light_samples {
+            *count
+        } else {
+            Spanned::unwritten(Count(1))
+        };
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
@@ -207,24 +256,52 @@ impl Lowering {
 
     /// Asks enough points of each soft light, unless the file says how many; after the lights.
     pub(super) fn soften(&mut self, scene: &Scene) {
-        let soft = self.scene.lights.iter().filter_map(ir::Light::point).any(|light| light.radius > 0.0);
+        let soft = self
+            .scene
+            .lights
+            .iter()
+            .filter_map(ir::Light::point)
+            .any(|light| light.radius > 0.0);
         if soft && scene.light_samples.is_absent() {
             self.scene.settings.light_samples = SOFT_LIGHT_SAMPLES;
         }
     }
 
-    /// Has paths traced if the file says so, or holds what only paths show; after the lights and the objects.
+    /// Has paths traced if the file says so, or holds what only paths show; after the lights and
+    /// the objects.
     pub(super) fn follow_paths(&mut self, scene: &Scene) {
-        let Scene { mode, sampling, depth, reflections, .. } = scene;
+        let Scene {
+            mode,
+            sampling,
+            depth,
+            reflections,
+            ..
+        } = scene;
         let is_physical = self.scene.environment.is_some()
-            || self.scene.lights.iter().any(|light| light.point().is_none())
-            || self.files.wanted.iter().any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
+            || self
+                .scene
+                .lights
+                .iter()
+                .any(|light| light.point().is_none())
+            || self
+                .files
+                .wanted
+                .iter()
+                .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
         if mode.value != Mode::Path && (mode.span.is_some() || !is_physical) {
             return;
         }
-        let rays = sampling.value.factor.0.saturating_mul(sampling.value.factor.0);
+        let rays = sampling
+            .value
+            .factor
+            .0
+            .saturating_mul(sampling.value.factor.0);
         let usual = ir::Path::default();
-        let samples = if sampling.span.is_some() { rays } else { usual.samples };
+        let samples = if sampling.span.is_some() {
+            rays
+        } else {
+            usual.samples
+        };
         let settings = &mut self.scene.settings;
         settings.mode = ir::Mode::Path(ir::Path { samples, ..usual });
         settings.supersampling = 1;
@@ -233,11 +310,22 @@ impl Lowering {
         }
     }
 
-    fn mode(&mut self, mode: Mode, gooch: &Found<Spanned<Gooch>>, context: &mut Context<'_>) -> ir::Mode {
-        let given = if let Found::Read(gooch) = gooch { Some(gooch) } else { None };
+    fn mode(
+        &mut self,
+        mode: Mode,
+        gooch: &Found<Spanned<Gooch>>,
+        context: &mut Context<'_>,
+    ) -> ir::Mode {
+        let given = if let Found::Read(gooch) = gooch {
+            Some(gooch)
+        } else {
+            None
+        };
         if let (true, Some(span)) = (mode != Mode::Gooch, given.and_then(|gooch| gooch.span)) {
             let message = || "`GoochParameters` has no effect on this `RenderMode`".to_owned();
-            context.report(&codes::NO_EFFECT, span, message, |d| d.at(span, "only for `RenderMode: gooch`"));
+            context.report(&codes::NO_EFFECT, span, message, |d| {
+                d.at(span, "only for `RenderMode: gooch`")
+            });
         }
         match mode {
             Mode::Phong => ir::Mode::Phong,
@@ -254,14 +342,27 @@ impl Lowering {
         self.origin(Noun::Settings, 0, Field::GoochY, y.span);
         self.origin(Noun::Settings, 0, Field::GoochAlpha, alpha.span);
         self.origin(Noun::Settings, 0, Field::GoochBeta, beta.span);
-        ir::Gooch { b: b.value.0, y: y.value.0, alpha: alpha.value.0, beta: beta.value.0 }
+        ir::Gooch {
+            b: b.value.0,
+            y: y.value.0,
+            alpha: alpha.value.0,
+            beta: beta.value.0,
+        }
     }
 }
 
 /// The bounces, which some files only turn on or off.
 fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
-    let Scene { depth, reflections, .. } = scene;
-    let Found::Read(Spanned { value: reflect, span: Some(span) }) = reflections else { return depth.value.0 };
+    let Scene {
+        depth, reflections, ..
+    } = scene;
+    let Found::Read(Spanned {
+        value: reflect,
+        span: Some(span),
+    }) = reflections
+    else {
+        return depth.value.0;
+    };
     context.note_spelling("Reflections", "MaxRecursionDepth", *span);
     match (reflect, depth.span) {
         (true, Some(_)) => depth.value.0,

@@ -1,4 +1,5 @@
-//! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they are bounded by.
+//! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they
+//! are bounded by.
 
 use super::decode::{Context, Shared, Spanned};
 use super::lower::Lowering;
@@ -61,36 +62,73 @@ record! {
     }
 }
 
-/// A face by the indices of its corners, with the outside on the left of its edges; one of four corners begins at the
-/// lower left of its texture.
+/// A face by the indices of its corners, with the outside on the left of its edges; one of four
+/// corners begins at the lower left of its texture.
 type Face = &'static [usize];
 
 /// The corner of a box with index i lies at the far end of the edges whose bits i has.
-const BOX: &[Face] = &[&[0, 4, 6, 2], &[5, 1, 3, 7], &[0, 1, 5, 4], &[6, 7, 3, 2], &[1, 0, 2, 3], &[4, 5, 7, 6]];
+const BOX: &[Face] = &[
+    &[0, 4, 6, 2],
+    &[5, 1, 3, 7],
+    &[0, 1, 5, 4],
+    &[6, 7, 3, 2],
+    &[1, 0, 2, 3],
+    &[4, 5, 7, 6],
+];
 const TETRAHEDRON: &[Face] = &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
-const PRISM: &[Face] = &[&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
+const PRISM: &[Face] = &[
+    &[0, 2, 1],
+    &[3, 4, 5],
+    &[0, 1, 4, 3],
+    &[1, 2, 5, 4],
+    &[2, 0, 3, 5],
+];
 
 impl Lowering {
     /// Lowers a box.
     pub(super) fn cuboid(&mut self, cuboid: &Cuboid, context: &mut Context<'_>) {
         let clothes = self.clothe(&cuboid.kind, &cuboid.material);
         if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(cuboid)) {
-            let edges = [corners[1] - corners[0], corners[2] - corners[0], corners[4] - corners[0]];
-            let solid = Solid { word: "box", corners: &corners, faces: BOX, edges };
+            let edges = [
+                corners[1] - corners[0],
+                corners[2] - corners[0],
+                corners[4] - corners[0],
+            ];
+            let solid = Solid {
+                word: "box",
+                corners: &corners,
+                faces: BOX,
+                edges,
+            };
             self.solid(&clothes, &solid, span, context);
         }
     }
 
     /// Lowers a tetrahedron.
     pub(super) fn tetrahedron(&mut self, tetrahedron: &Tetrahedron, context: &mut Context<'_>) {
-        let Tetrahedron { kind, corners, material } = tetrahedron;
-        let Some(clothes) = self.clothe(kind, material) else { return };
+        let Tetrahedron {
+            kind,
+            corners,
+            material,
+        } = tetrahedron;
+        let Some(clothes) = self.clothe(kind, material) else {
+            return;
+        };
         let span = corners[0].span;
         let corners = corners.map(|corner| Vec3::from_array(corner.value.0));
-        let edges = [corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]];
+        let edges = [
+            corners[1] - corners[0],
+            corners[2] - corners[0],
+            corners[3] - corners[0],
+        ];
         self.solid(
             &clothes,
-            &Solid { word: "tetrahedron", corners: &corners, faces: TETRAHEDRON, edges },
+            &Solid {
+                word: "tetrahedron",
+                corners: &corners,
+                faces: TETRAHEDRON,
+                edges,
+            },
             span,
             context,
         );
@@ -98,35 +136,67 @@ impl Lowering {
 
     /// Lowers a prism.
     pub(super) fn prism(&mut self, prism: &Prism, context: &mut Context<'_>) {
-        let Prism { kind, corners, up, material } = prism;
-        let Some(clothes) = self.clothe(kind, material) else { return };
+        let Prism {
+            kind,
+            corners,
+            up,
+            material,
+        } = prism;
+        let Some(clothes) = self.clothe(kind, material) else {
+            return;
+        };
         let span = corners[0].span;
-        let ([a, b, c], up) = (corners.map(|corner| Vec3::from_array(corner.value.0)), Vec3::from_array(up.value.0));
+        let ([a, b, c], up) = (
+            corners.map(|corner| Vec3::from_array(corner.value.0)),
+            Vec3::from_array(up.value.0),
+        );
         let corners = [a, b, c, a + up, b + up, c + up];
         self.solid(
             &clothes,
-            &Solid { word: "prism", corners: &corners, faces: PRISM, edges: [b - a, c - a, up] },
+            &Solid {
+                word: "prism",
+                corners: &corners,
+                faces: PRISM,
+                edges: [b - a, c - a, up],
+            },
             span,
             context,
         );
     }
 
     /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
-    fn solid(&mut self, clothes: &Clothes, solid: &Solid<'_>, span: Option<Span>, context: &mut Context<'_>) {
+    fn solid(
+        &mut self,
+        clothes: &Clothes,
+        solid: &Solid<'_>,
+        span: Option<Span>,
+        context: &mut Context<'_>,
+    ) {
         // Only the sign counts, and that of tiny edges must not vanish.
-        let [x, y, z] = solid.edges.map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        let [x, y, z] = solid
+            .edges
+            .map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
         let volume = x.cross(y).dot(z);
         if volume == 0.0 {
-            span.into_iter().for_each(|span| flat(solid.word, span, context));
+            span.into_iter()
+                .for_each(|span| flat(solid.word, span, context));
             return;
         }
         let places = VERTICES.map(|field| (field, span));
         for face in solid.faces {
             for k in 1..face.len() - 1 {
-                let at = if volume > 0.0 { [0, k, k + 1] } else { [0, k + 1, k] };
+                let at = if volume > 0.0 {
+                    [0, k, k + 1]
+                } else {
+                    [0, k + 1, k]
+                };
                 let vertices = at.map(|k| solid.corners[face[k]].to_array());
                 let uvs = (face.len() == 4).then(|| at.map(|k| UNIT_SQUARE[k]));
-                self.put(clothes, ir::Shape::Triangle(ir::Triangle { vertices, uvs }), &places);
+                self.put(
+                    clothes,
+                    ir::Shape::Triangle(ir::Triangle { vertices, uvs }),
+                    &places,
+                );
             }
         }
     }
@@ -148,17 +218,30 @@ fn flat(word: &str, span: Span, context: &mut Context<'_>) {
         &codes::FLAT_SOLID,
         span,
         || format!("this {word} has no volume"),
-        |d| d.at(span, "flat").hint("a flat shape is written as a `quad` or `triangle`"),
+        |d| {
+            d.at(span, "flat")
+                .hint("a flat shape is written as a `quad` or `triangle`")
+        },
     );
 }
 
 /// The corners of a box, and where its size was written.
 fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
-    let Cuboid { kind: _, extremes, position, dimension, rotation, edges, material: _ } = cuboid;
+    let Cuboid {
+        kind: _,
+        extremes,
+        position,
+        dimension,
+        rotation,
+        edges,
+        material: _,
+    } = cuboid;
     let end = |index: usize, axis: usize| (index >> axis) & 1;
     match (extremes, position, dimension, rotation, edges) {
         (Found::Read(ends), ..) => {
-            let corner = |index| Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]));
+            let corner = |index| {
+                Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]))
+            };
             Some((std::array::from_fn(corner), ends[0].span))
         }
         (_, Found::Read(center), Found::Read(dimension), rotation, _) => {
@@ -168,16 +251,33 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
                 Found::Broken => return None,
             };
             let (center, size) = (Vec3::from_array(center.value.0), dimension.value.0);
-            let half = |index, axis: usize| if end(index, axis) == 1 { size[axis] / 2.0 } else { -size[axis] / 2.0 };
-            let corner =
-                |index| center + turn[0] * half(index, 0) + turn[1] * half(index, 1) + turn[2] * half(index, 2);
+            let half = |index, axis: usize| {
+                if end(index, axis) == 1 {
+                    size[axis] / 2.0
+                } else {
+                    -size[axis] / 2.0
+                }
+            };
+            let corner = |index| {
+                center
+                    + turn[0] * half(index, 0)
+                    + turn[1] * half(index, 1)
+                    + turn[2] * half(index, 2)
+            };
             Some((std::array::from_fn(corner), dimension.span))
         }
         (_, Found::Read(corner), .., Found::Read([up, side, depth])) => {
             let edges = [side, up, depth].map(|edge| Vec3::from_array(edge.value.0));
             let from = Vec3::from_array(corner.value.0);
-            let along = |index| (0..3).filter(move |axis| end(index, *axis) == 1).map(|axis| edges[axis]);
-            Some((std::array::from_fn(|index| from + along(index).sum::<Vec3>()), up.span))
+            let along = |index| {
+                (0..3)
+                    .filter(move |axis| end(index, *axis) == 1)
+                    .map(|axis| edges[axis])
+            };
+            Some((
+                std::array::from_fn(|index| from + along(index).sum::<Vec3>()),
+                up.span,
+            ))
         }
         _ => None,
     }

@@ -10,7 +10,9 @@ pub(super) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> O
     }
     let lower = word.to_lowercase();
     let far = |candidate: &str| distance(&lower, &candidate.to_lowercase());
-    let (cost, best) = known.map(|candidate| (far(candidate), candidate)).min_by_key(|(cost, _)| *cost)?;
+    let (cost, best) = known
+        .map(|candidate| (far(candidate), candidate))
+        .min_by_key(|(cost, _)| *cost)?;
     let tolerated = (word.chars().count().max(best.chars().count()) / 3).max(1);
     (cost <= tolerated && cost < best.chars().count()).then_some(best)
 }

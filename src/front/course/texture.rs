@@ -28,14 +28,22 @@ impl Files {
     /// The texture of that name, whose image has one pixel until its file is there.
     pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
         if file.value.0.eq_ignore_ascii_case(UV) {
-            return *self.uv.get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId));
+            return *self
+                .uv
+                .get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId));
         }
         let name = file.value.0.replace('\\', "/");
         if let Some(id) = self.textures.get(&name) {
             return *id;
         }
         let pixels = PLACEHOLDER.to_vec().into();
-        let image = Image { name: name.clone(), width: 1, height: 1, kind: Pixels::Rgb8, pixels };
+        let image = Image {
+            name: name.clone(),
+            width: 1,
+            height: 1,
+            kind: Pixels::Rgb8,
+            pixels,
+        };
         let image = add(&mut scene.images, image, ImageId);
         self.want(Asset::Image(image), file);
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
@@ -49,7 +57,10 @@ impl Files {
         if let Some(id) = self.meshes.get(&name) {
             return *id;
         }
-        let empty = Mesh { name: name.clone(), ..Mesh::default() };
+        let empty = Mesh {
+            name: name.clone(),
+            ..Mesh::default()
+        };
         let id = add(&mut scene.meshes, empty, MeshId);
         self.want(Asset::Mesh(id), file);
         self.meshes.insert(name, id);
@@ -59,7 +70,13 @@ impl Files {
     /// The image of an environment, of one dark pixel until its file is there.
     pub(super) fn environment(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> ImageId {
         let (name, pixels) = (file.value.0.replace('\\', "/"), DARK.to_vec().into());
-        let image = Image { name, width: 1, height: 1, kind: Pixels::Rgb32f, pixels };
+        let image = Image {
+            name,
+            width: 1,
+            height: 1,
+            kind: Pixels::Rgb32f,
+            pixels,
+        };
         let image = add(&mut scene.images, image, ImageId);
         self.want(Asset::Environment(image), file);
         image
@@ -71,7 +88,11 @@ impl Files {
     }
 
     fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {
-        self.wanted.push(Wanted { asset, path: file.value.0.clone(), span: file.span });
+        self.wanted.push(Wanted {
+            asset,
+            path: file.value.0.clone(),
+            span: file.span,
+        });
     }
 }
 

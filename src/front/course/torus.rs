@@ -29,9 +29,21 @@ record! {
 impl Lowering {
     /// Lowers a torus.
     pub(super) fn torus(&mut self, torus: &Torus) {
-        let Torus { kind, position, radius, alpha, direction, material } = torus;
+        let Torus {
+            kind,
+            position,
+            radius,
+            alpha,
+            direction,
+            material,
+        } = torus;
         let (center, axis) = (position.value.0, direction.value.0);
-        let shape = ir::Torus { center, axis, major: radius.value.0, minor: alpha.value.0 };
+        let shape = ir::Torus {
+            center,
+            axis,
+            major: radius.value.0,
+            minor: alpha.value.0,
+        };
         let places = [
             (Field::TorusCenter, position.span),
             (Field::TorusAxis, direction.span),

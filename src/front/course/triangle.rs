@@ -34,14 +34,30 @@ record! {
 }
 
 /// The places of the corners, from where they were written.
-pub(super) const VERTICES: [Field; 3] = [Field::TriangleVertex0, Field::TriangleVertex1, Field::TriangleVertex2];
+pub(super) const VERTICES: [Field; 3] = [
+    Field::TriangleVertex0,
+    Field::TriangleVertex1,
+    Field::TriangleVertex2,
+];
 
 impl Lowering {
     /// Lowers a triangle.
     pub(super) fn triangle(&mut self, triangle: &Triangle) {
-        let Triangle { kind, corners, uvs, material } = triangle;
-        let uvs = if let Found::Read(uvs) = uvs { Some(uvs.map(|uv| uv.value.0)) } else { None };
-        let shape = ir::Shape::Triangle(ir::Triangle { vertices: corners.map(|corner| corner.value.0), uvs });
+        let Triangle {
+            kind,
+            corners,
+            uvs,
+            material,
+        } = triangle;
+        let uvs = if let Found::Read(uvs) = uvs {
+            Some(uvs.map(|uv| uv.value.0))
+        } else {
+            None
+        };
+        let shape = ir::Shape::Triangle(ir::Triangle {
+            vertices: corners.map(|corner| corner.value.0),
+            uvs,
+        });
         let spans = corners.map(|corner| corner.span);
         let places = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
         if let Some(clothes) = self.clothe(kind, material) {

@@ -9,7 +9,8 @@ use crate::diag::clip;
 use crate::diag::codes;
 use serde_json::{Value as Json, json};
 
-/// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the others.
+/// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the
+/// others.
 fn tuple<T, const N: usize>(
     node: NodeId,
     what: &str,
@@ -24,16 +25,24 @@ fn tuple<T, const N: usize>(
     let count = tree.items(node).take(N + 1).count();
     if count != N {
         let (key, span) = (context.key, tree.span(node));
-        let found = if count > N { format!("more than {N}") } else { format!("{count}") };
+        let found = if count > N {
+            format!("more than {N}")
+        } else {
+            format!("{count}")
+        };
         let message = || format!("`{}` must have {N} numbers, not {found}", clip(key.text));
-        context.report(&codes::WRONG_LENGTH, span, message, |d| d.at(span, format!("{found} here")));
+        context.report(&codes::WRONG_LENGTH, span, message, |d| {
+            d.at(span, format!("{found} here"))
+        });
         return None;
     }
     let mut read: [Option<T>; N] = std::array::from_fn(|_| None);
     for (slot, node) in read.iter_mut().zip(tree.items(node)) {
         *slot = item(node, context);
     }
-    read.iter().all(Option::is_some).then(|| read.map(|value| value.expect("all were looked at")))
+    read.iter()
+        .all(Option::is_some)
+        .then(|| read.map(|value| value.expect("all were looked at")))
 }
 
 /// Declares three numbers as a type of the format.
@@ -125,7 +134,13 @@ pub(super) struct Size(pub(super) [u32; 2]);
 
 impl Value for Size {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        tuple(node, "a list of two whole numbers", context, |node, context| whole(1, MAX_SIDE, node, context)).map(Self)
+        tuple(
+            node,
+            "a list of two whole numbers",
+            context,
+            |node, context| whole(1, MAX_SIDE, node, context),
+        )
+        .map(Self)
     }
 
     fn schema(_: &mut Definitions) -> Json {
@@ -141,7 +156,10 @@ pub(super) struct Uv(pub(super) [f64; 2]);
 impl Value for Uv {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         const WHAT: &str = "a list of two numbers";
-        tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self)
+        tuple(node, WHAT, context, |node, context| {
+            number(node, WHAT, context)
+        })
+        .map(Self)
     }
 
     fn schema(_: &mut Definitions) -> Json {
@@ -155,11 +173,20 @@ const NUMBERED: &[(u8, &str, bool)] = &[(0, "false", false), (1, "true", true)];
 impl Value for bool {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let given = plain_number(node, context);
-        if let Some((_, word, truth)) = NUMBERED.iter().find(|(number, ..)| given == Some(f64::from(*number))) {
-            context.note_spelling(if *truth { "1" } else { "0" }, word, context.tree.span(node));
+        if let Some((_, word, truth)) = NUMBERED
+            .iter()
+            .find(|(number, ..)| given == Some(f64::from(*number)))
+        {
+            context.note_spelling(
+                if *truth { "1" } else { "0" },
+                word,
+                context.tree.span(node),
+            );
             return Some(*truth);
         }
-        let Some(text) = context.tree.text(node) else { return context.expected(node, "`true` or `false`") };
+        let Some(text) = context.tree.text(node) else {
+            return context.expected(node, "`true` or `false`");
+        };
         match (context.tree.shape(node), text) {
             (Shape::Word(_), "true" | "True" | "TRUE") => return Some(true),
             (Shape::Word(_), "false" | "False" | "FALSE") => return Some(false),
@@ -171,18 +198,33 @@ impl Value for bool {
             _ => return context.expected(node, "`true` or `false`"),
         };
         let (key, span) = (context.key, context.tree.span(node));
-        let message = || format!("`{}` must be `true` or `false`, not `{}`", clip(key.text), clip(text));
+        let message = || {
+            format!(
+                "`{}` must be `true` or `false`, not `{}`",
+                clip(key.text),
+                clip(text)
+            )
+        };
         context.report(&codes::WRONG_TYPE, span, message, |d| {
-            d.at(span, "no truth value in YAML 1.2").replace(format!("write `{meant}`"), span, meant)
+            d.at(span, "no truth value in YAML 1.2").replace(
+                format!("write `{meant}`"),
+                span,
+                meant,
+            )
         });
         None
     }
 
     fn schema(_: &mut Definitions) -> Json {
-        let numbers: Vec<_> =
-            NUMBERED.iter().map(|(number, ..)| json!({ "const": number, "deprecated": true })).collect();
+        let numbers: Vec<_> = NUMBERED
+            .iter()
+            .map(|(number, ..)| json!({ "const": number, "deprecated": true }))
+            .collect();
         let mut schema = json!({ "anyOf": [{ "type": "boolean" }] });
-        schema["anyOf"].as_array_mut().into_iter().for_each(|forms| forms.extend(numbers.clone()));
+        schema["anyOf"]
+            .as_array_mut()
+            .into_iter()
+            .for_each(|forms| forms.extend(numbers.clone()));
         schema
     }
 
@@ -217,7 +259,9 @@ impl Value for FileName {
         match context.tree.shape(node) {
             Shape::Word(word) if is_text(word) => Some(Self(word.to_owned())),
             Shape::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
-            Shape::Word(_) | Shape::Text(_) | Shape::List | Shape::Map => context.expected(node, "the name of a file"),
+            Shape::Word(_) | Shape::Text(_) | Shape::List | Shape::Map => {
+                context.expected(node, "the name of a file")
+            }
         }
     }
 
@@ -229,22 +273,42 @@ impl Value for FileName {
 /// Whether a plain word is text by the core schema: no number, no truth value, not nothing.
 fn is_text(word: &str) -> bool {
     !is_number(word)
-        && !matches!(word, "" | "~" | "null" | "Null" | "NULL" | "true" | "True" | "TRUE" | "false" | "False" | "FALSE")
+        && !matches!(
+            word,
+            "" | "~"
+                | "null"
+                | "Null"
+                | "NULL"
+                | "true"
+                | "True"
+                | "TRUE"
+                | "false"
+                | "False"
+                | "FALSE"
+        )
 }
 
 /// A word of a table, in any case of letters: the table's words, and what each means.
-pub(super) fn word<T: Copy>(node: NodeId, table: &[(&'static str, T)], context: &mut Context<'_>) -> Option<T> {
+pub(super) fn word<T: Copy>(
+    node: NodeId,
+    table: &[(&'static str, T)],
+    context: &mut Context<'_>,
+) -> Option<T> {
     let words = || table.iter().map(|(word, _)| *word);
     let tree = context.tree;
     let Some(text) = tree.text(node).filter(|text| !text.is_empty()) else {
         return context.expected(node, &format!("one of {}", list(words())));
     };
-    let meaning = table.iter().find(|(word, _)| word.eq_ignore_ascii_case(text));
+    let meaning = table
+        .iter()
+        .find(|(word, _)| word.eq_ignore_ascii_case(text));
     if meaning.is_none() {
         let (key, span) = (context.key, tree.span(node));
         let message = || format!("`{}` can't be `{}`", clip(key.text), clip(text));
         context.report(&codes::UNKNOWN_WORD, span, message, |d| {
-            let d = d.at(span, "unknown").hint(format!("it is one of {}", list(words())));
+            let d = d
+                .at(span, "unknown")
+                .hint(format!("it is one of {}", list(words())));
             match nearest(text, words()) {
                 Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
                 None => d,
@@ -261,6 +325,9 @@ pub(super) fn word_schema<T>(table: &[(&'static str, T)]) -> Json {
         false => letter.to_string(),
     };
     let words: Vec<_> = table.iter().map(|(word, _)| *word).collect();
-    let pattern: Vec<String> = words.iter().map(|word| word.chars().map(any_case).collect()).collect();
+    let pattern: Vec<String> = words
+        .iter()
+        .map(|word| word.chars().map(any_case).collect())
+        .collect();
     json!({ "anyOf": [{ "enum": words }, { "type": "string", "pattern": format!("^({})$", pattern.join("|")) }] })
 }

@@ -72,7 +72,8 @@ impl Component {
     }
 }
 
-/// How an element is laid out: columns of components, each column of a matrix starting at a multiple of four bytes.
+/// How an element is laid out: columns of components, each column of a matrix starting at a
+/// multiple of four bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Layout {
     pub(super) component: Component,
@@ -91,7 +92,11 @@ impl Layout {
     /// Bytes from one column to the next.
     pub(super) fn column(self) -> usize {
         let bytes = self.rows * self.component.size();
-        if self.columns > 1 { bytes.next_multiple_of(4) } else { bytes }
+        if self.columns > 1 {
+            bytes.next_multiple_of(4)
+        } else {
+            bytes
+        }
     }
 
     /// Bytes from one element to the next where nothing lies between.
@@ -106,9 +111,15 @@ impl Layout {
 
     /// True if the numbers can be a bound of the elements.
     fn is_bound(self, bound: &[f64]) -> bool {
-        let [least, most] = self.component.range().unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let [least, most] = self
+            .component
+            .range()
+            .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         let is_whole = |number: f64| self.component == Component::F32 || number.fract() == 0.0;
-        bound.len() == self.components() && bound.iter().all(|own| is_whole(*own) && (least..=most).contains(own))
+        bound.len() == self.components()
+            && bound
+                .iter()
+                .all(|own| is_whole(*own) && (least..=most).contains(own))
     }
 
     /// As messages call it: `vec3 of f32`.
@@ -118,7 +129,11 @@ impl Layout {
             (1, rows) => format!("vec{rows}"),
             (columns, _) => format!("mat{columns}"),
         };
-        format!("{shape} of {}{}", if self.normalized { "normalised " } else { "" }, self.component.name())
+        format!(
+            "{shape} of {}{}",
+            if self.normalized { "normalised " } else { "" },
+            self.component.name()
+        )
     }
 }
 
@@ -149,7 +164,11 @@ pub(super) struct Sparse {
 impl Accessor {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         let layout = layout(fields);
-        let bound = |key| fields.numbers(key).filter(|bound| layout.is_some_and(|layout| layout.is_bound(bound)));
+        let bound = |key| {
+            fields
+                .numbers(key)
+                .filter(|bound| layout.is_some_and(|layout| layout.is_bound(bound)))
+        };
         Self {
             at: fields.at,
             view: fields.index("bufferView"),
@@ -180,17 +199,30 @@ fn layout(fields: Fields<'_, '_>) -> Option<Layout> {
         "MAT4" => (4, 4),
         _ => return None,
     };
-    Some(Layout { component, columns, rows, normalized: fields.truth("normalized") })
+    Some(Layout {
+        component,
+        columns,
+        rows,
+        normalized: fields.truth("normalized"),
+    })
 }
 
 fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
     let (indices, values) = (fields.object("indices")?, fields.object("values")?);
-    let component = Component::from_code(indices.whole("componentType")?).filter(|component| component.is_index())?;
+    let component = Component::from_code(indices.whole("componentType")?)
+        .filter(|component| component.is_index())?;
     Some(Sparse {
         at: fields.at,
         count: fields.index("count").filter(|count| *count > 0)?,
-        indices: (indices.index("bufferView")?, indices.index("byteOffset").unwrap_or(0), component),
-        values: (values.index("bufferView")?, values.index("byteOffset").unwrap_or(0)),
+        indices: (
+            indices.index("bufferView")?,
+            indices.index("byteOffset").unwrap_or(0),
+            component,
+        ),
+        values: (
+            values.index("bufferView")?,
+            values.index("byteOffset").unwrap_or(0),
+        ),
     })
 }
 
@@ -200,7 +232,10 @@ pub(super) fn find<'d>(
     index: Option<usize>,
     report: &Report<'_, '_>,
 ) -> Option<(usize, &'d Accessor)> {
-    let accessor = doc.accessors.get(index?).filter(|accessor| report.is_part(accessor.at))?;
+    let accessor = doc
+        .accessors
+        .get(index?)
+        .filter(|accessor| report.is_part(accessor.at))?;
     Some((index?, accessor))
 }
 
@@ -208,18 +243,36 @@ pub(super) fn find<'d>(
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
     for accessor in &doc.accessors {
         depends(accessor, report);
-        let Some(layout) = accessor.layout else { continue };
+        let Some(layout) = accessor.layout else {
+            continue;
+        };
         alone(accessor, layout, report);
-        let Some(count) = accessor.count else { continue };
+        let Some(count) = accessor.count else {
+            continue;
+        };
         if let Some(view) = accessor.view {
             let stride = doc.views.get(view).and_then(|view| view.stride);
             if let Some(stride) = stride.filter(|stride| *stride < layout.size()) {
-                let message = format!("the stride of the view is {stride}, and an element has {} bytes", layout.size());
-                report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_SMALL_BYTESTRIDE", accessor.at, message);
+                let message = format!(
+                    "the stride of the view is {stride}, and an element has {} bytes",
+                    layout.size()
+                );
+                report.say(
+                    &codes::GLTF_ACCESSOR,
+                    "ACCESSOR_SMALL_BYTESTRIDE",
+                    accessor.at,
+                    message,
+                );
             }
             let bytes = (stride.unwrap_or(layout.packed()) as u64).saturating_mul(count as u64 - 1);
             let place = (view, accessor.offset, layout.component.size());
-            fits(doc, place, bytes.saturating_add(layout.size() as u64), accessor.at, report);
+            fits(
+                doc,
+                place,
+                bytes.saturating_add(layout.size() as u64),
+                accessor.at,
+                report,
+            );
         }
         if let Some(sparse) = &accessor.sparse {
             check_sparse(doc, sparse, (layout, count), purposes, report);
@@ -229,7 +282,11 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
 
 /// An offset counts from the start of a view.
 fn depends(accessor: &Accessor, report: &mut Report<'_, '_>) {
-    if let Some(at) = report.json.get(accessor.at, "byteOffset").filter(|_| accessor.view.is_none()) {
+    if let Some(at) = report
+        .json
+        .get(accessor.at, "byteOffset")
+        .filter(|_| accessor.view.is_none())
+    {
         let message = "there is an offset, and no view that it could be in".to_owned();
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
@@ -240,13 +297,29 @@ fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
     let fields = Fields::new(report.json, accessor.at);
     if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
         let at = report.json.at_or(accessor.at, "byteOffset");
-        let message = format!("matrices start at multiples of 4 bytes, and the offset is {}", accessor.offset);
-        report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_MATRIX_ALIGNMENT", at, message);
+        let message = format!(
+            "matrices start at multiples of 4 bytes, and the offset is {}",
+            accessor.offset
+        );
+        report.say(
+            &codes::GLTF_ACCESSOR,
+            "ACCESSOR_MATRIX_ALIGNMENT",
+            at,
+            message,
+        );
     }
     if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
-        let message = format!("{} is not normalised, only bytes and shorts are", layout.component.name());
-        report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_NORMALIZED_INVALID", at, message);
+        let message = format!(
+            "{} is not normalised, only bytes and shorts are",
+            layout.component.name()
+        );
+        report.say(
+            &codes::GLTF_ACCESSOR,
+            "ACCESSOR_NORMALIZED_INVALID",
+            at,
+            message,
+        );
     }
     for key in ["min", "max"] {
         if let Some(list) = fields.node(key) {
@@ -264,15 +337,32 @@ fn bound(list: NodeId, key: &str, layout: Layout, report: &mut Report<'_, '_>) {
     }
     let items: Vec<NodeId> = report.json.items(list).collect();
     if items.is_empty() && layout.component == Component::F32 {
-        return report.say(&codes::GLTF_EMPTY, "EMPTY_ENTITY", list, format!("`{key}` is empty"));
+        return report.say(
+            &codes::GLTF_EMPTY,
+            "EMPTY_ENTITY",
+            list,
+            format!("`{key}` is empty"),
+        );
     }
     if items.len() != layout.components() {
-        let message = format!("`{key}` has {} numbers, and an element has {}", items.len(), layout.components());
-        return report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", list, message);
+        let message = format!(
+            "`{key}` has {} numbers, and an element has {}",
+            items.len(),
+            layout.components()
+        );
+        return report.say(
+            &codes::GLTF_VALUE,
+            "ARRAY_LENGTH_NOT_IN_LIST",
+            list,
+            message,
+        );
     }
     for item in items {
         let Some(number) = report.json.number(item) else {
-            let message = format!("an element of `{key}` is {}, not a number", report.json.kind(item).name());
+            let message = format!(
+                "an element of `{key}` is {}, not a number",
+                report.json.kind(item).name()
+            );
             report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
             continue;
         };
@@ -284,16 +374,24 @@ fn bound(list: NodeId, key: &str, layout: Layout, report: &mut Report<'_, '_>) {
             continue;
         };
         if number.fract() != 0.0 {
-            let message = format!("`{key}` is {}, and the components are whole numbers", report.shown(item));
+            let message = format!(
+                "`{key}` is {}, and the components are whole numbers",
+                report.shown(item)
+            );
             report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", item, message);
         } else if !(least..=most).contains(&number) {
-            let message = format!("`{key}` is {}, which no {} is", report.shown(item), layout.component.name());
+            let message = format!(
+                "`{key}` is {}, which no {} is",
+                report.shown(item),
+                layout.component.name()
+            );
             report.say(&codes::GLTF_VALUE, "INVALID_GL_VALUE", item, message);
         }
     }
 }
 
-/// Checks that `bytes` bytes of components lie within a view, given with the offset in it and the size of a component.
+/// Checks that `bytes` bytes of components lie within a view, given with the offset in it and the
+/// size of a component.
 fn fits(
     doc: &Document<'_>,
     (view, offset, size): (usize, usize, usize),
@@ -301,23 +399,29 @@ fn fits(
     at: NodeId,
     report: &mut Report<'_, '_>,
 ) {
-    let Some(holder) = doc.views.get(view).filter(|view| report.is_part(view.at)) else { return };
+    let Some(holder) = doc.views.get(view).filter(|view| report.is_part(view.at)) else {
+        return;
+    };
     let code = &codes::GLTF_ACCESSOR;
     let place = report.json.at_or(at, "byteOffset");
     if !offset.is_multiple_of(size) {
-        let message = format!("the offset {offset} is not a multiple of {size}, the size of a component");
+        let message =
+            format!("the offset {offset} is not a multiple of {size}, the size of a component");
         report.say(code, "ACCESSOR_OFFSET_ALIGNMENT", place, message);
     }
     let total = holder.offset.saturating_add(offset);
     if !total.is_multiple_of(size) {
-        let message = format!("the offset in the buffer is {total}, not a multiple of {size}, the size of a component");
+        let message = format!(
+            "the offset in the buffer is {total}, not a multiple of {size}, the size of a component"
+        );
         report.say(code, "ACCESSOR_TOTAL_OFFSET_ALIGNMENT", at, message);
     }
     let end = bytes.saturating_add(offset as u64);
     let length = holder.length.unwrap_or(0);
     if end > length as u64 {
         let at = if offset > length { place } else { at };
-        let message = format!("the elements end at byte {end} of buffer view {view}, which has {length}");
+        let message =
+            format!("the elements end at byte {end} of buffer view {view}, which has {length}");
         report.say(code, "ACCESSOR_TOO_LONG", at, message);
     }
 }
@@ -331,36 +435,74 @@ fn check_sparse(
 ) {
     if sparse.count > count {
         let at = report.json.at_or(sparse.at, "count");
-        let message = format!("{} elements are replaced, and there are {count}", sparse.count);
-        report.say(&codes::GLTF_SPARSE, "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", at, message);
+        let message = format!(
+            "{} elements are replaced, and there are {count}",
+            sparse.count
+        );
+        report.say(
+            &codes::GLTF_SPARSE,
+            "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE",
+            at,
+            message,
+        );
     }
-    let (indices, values) = (report.json.at_or(sparse.at, "indices"), report.json.at_or(sparse.at, "values"));
+    let (indices, values) = (
+        report.json.at_or(sparse.at, "indices"),
+        report.json.at_or(sparse.at, "values"),
+    );
     for (part, view) in [(indices, sparse.indices.0), (values, sparse.values.0)] {
         let at = report.json.at_or(part, "bufferView");
         purposes.set(Some(view), Purpose::Other, at, report);
-        if doc.views.get(view).is_some_and(|view| view.stride.is_some()) {
+        if doc
+            .views
+            .get(view)
+            .is_some_and(|view| view.stride.is_some())
+        {
             let message = "only a view of vertices has a stride".to_owned();
-            report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_INVALID_BYTE_STRIDE", at, message);
+            report.say(
+                &codes::GLTF_VIEW,
+                "BUFFER_VIEW_INVALID_BYTE_STRIDE",
+                at,
+                message,
+            );
         }
     }
     let ((view, offset, component), of) = (sparse.indices, sparse.count as u64);
     let size = component.size();
-    fits(doc, (view, offset, size), of.saturating_mul(size as u64), indices, report);
+    fits(
+        doc,
+        (view, offset, size),
+        of.saturating_mul(size as u64),
+        indices,
+        report,
+    );
     let ((view, offset), size) = (sparse.values, layout.component.size());
-    fits(doc, (view, offset, size), of.saturating_mul((size * layout.components()) as u64), values, report);
+    fits(
+        doc,
+        (view, offset, size),
+        of.saturating_mul((size * layout.components()) as u64),
+        values,
+        report,
+    );
 }
 
-/// Refuses accessors that stand for more zeros than any asset needs; sparse ones are never sparser than that.
+/// Refuses accessors that stand for more zeros than any asset needs; sparse ones are never sparser
+/// than that.
 pub(super) fn check_claims(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     let mut left = MAX_ZEROS;
     for accessor in &doc.accessors {
-        let (Some(layout), Some(count), None) = (accessor.layout, accessor.count, accessor.view) else { continue };
+        let (Some(layout), Some(count), None) = (accessor.layout, accessor.count, accessor.view)
+        else {
+            continue;
+        };
         let bytes = (count as u64).saturating_mul(layout.packed() as u64);
         match left.checked_sub(bytes) {
             Some(rest) => left = rest,
             None => {
                 let at = report.json.at_or(accessor.at, "count");
-                let message = format!("the accessor has no view and claims {count} elements of zeros, {bytes} bytes");
+                let message = format!(
+                    "the accessor has no view and claims {count} elements of zeros, {bytes} bytes"
+                );
                 report.say(&codes::GLTF_HUGE, "", at, message);
             }
         }
@@ -373,7 +515,12 @@ mod tests {
 
     #[test]
     fn columns_of_matrices_are_padded_as_the_specification_says() {
-        let layout = |component, columns, rows| Layout { component, columns, rows, normalized: false };
+        let layout = |component, columns, rows| Layout {
+            component,
+            columns,
+            rows,
+            normalized: false,
+        };
         let sizes = |component, columns, rows| {
             let layout = layout(component, columns, rows);
             (layout.size(), layout.packed())

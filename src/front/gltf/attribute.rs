@@ -34,9 +34,14 @@ impl Semantic {
             name if name.starts_with('_') => return Self::Custom,
             _ => {}
         }
-        let Some((kind, set)) = name.split_once('_') else { return Self::None };
-        let digits = set.bytes().all(|byte| byte.is_ascii_digit()) && (set.len() == 1 || !set.starts_with('0'));
-        let Some(set) = set.parse().ok().filter(|_| digits) else { return Self::None };
+        let Some((kind, set)) = name.split_once('_') else {
+            return Self::None;
+        };
+        let digits = set.bytes().all(|byte| byte.is_ascii_digit())
+            && (set.len() == 1 || !set.starts_with('0'));
+        let Some(set) = set.parse().ok().filter(|_| digits) else {
+            return Self::None;
+        };
         match kind {
             "TEXCOORD" => Self::Uv(set),
             "COLOR" => Self::Color(set),
@@ -49,21 +54,44 @@ impl Semantic {
 
 /// Checks the names of the attributes of a primitive, and that none is missing.
 pub(super) fn check_names(primitive: &Primitive, report: &mut Report<'_, '_>) {
-    let semantics: Vec<Semantic> = primitive.attributes.iter().map(|attribute| Semantic::of(&attribute.name)).collect();
-    for attribute in primitive.attributes.iter().filter(|attribute| Semantic::of(&attribute.name) == Semantic::None) {
+    let semantics: Vec<Semantic> = primitive
+        .attributes
+        .iter()
+        .map(|attribute| Semantic::of(&attribute.name))
+        .collect();
+    for attribute in primitive
+        .attributes
+        .iter()
+        .filter(|attribute| Semantic::of(&attribute.name) == Semantic::None)
+    {
         let message = format!("`{}` is no name of an attribute", shown(&attribute.name));
-        report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INVALID_ATTRIBUTE", attribute.at, message);
+        report.say(
+            &codes::GLTF_ATTRIBUTE,
+            "MESH_PRIMITIVE_INVALID_ATTRIBUTE",
+            attribute.at,
+            message,
+        );
     }
     let has = |semantic| semantics.contains(&semantic);
     let at = report.json.at_or(primitive.at, "attributes");
     if !primitive.attributes.is_empty() && !has(Semantic::Position) {
         let message = "the primitive has no `POSITION`, so nothing of it shows".to_owned();
-        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_NO_POSITION", at, message);
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_NO_POSITION",
+            at,
+            message,
+        );
     }
     if has(Semantic::Tangent) && !has(Semantic::Normal) {
         let at = report.json.at_or(at, "TANGENT");
         let message = "there are tangents and no normals".to_owned();
-        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL", at, message);
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL",
+            at,
+            message,
+        );
     }
     check_sets(&semantics, at, report);
 }
@@ -80,22 +108,36 @@ fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut Report<'_, '_>) {
     let own: BTreeSet<Semantic> = semantics.iter().copied().collect();
     for ((name, kind), count) in kinds.into_iter().zip(&mut counts) {
         // A set number that no attribute has ends the sets; what lies beyond it is left over.
-        *count =
-            semantics.iter().filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0))).count();
+        *count = semantics
+            .iter()
+            .filter(|own| std::mem::discriminant(*own) == std::mem::discriminant(&kind(0)))
+            .count();
         let gap = (0..*count as u64).find(|set| !own.contains(&kind(*set)));
         if let Some(gap) = gap {
-            let message = format!("there are {count} sets of `{name}`, and none has the number {gap}");
-            report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY", at, message);
+            let message =
+                format!("there are {count} sets of `{name}`, and none has the number {gap}");
+            report.say(
+                &codes::GLTF_ATTRIBUTE,
+                "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY",
+                at,
+                message,
+            );
         }
     }
     let [_, _, joints, weights] = counts;
     if joints != weights {
         let message = format!("{joints} sets of joints, and {weights} of weights");
-        report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH", at, message);
+        report.say(
+            &codes::GLTF_COUNT,
+            "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH",
+            at,
+            message,
+        );
     }
 }
 
-/// Checks that an attribute of a primitive, or of a morph target, has a format that its name allows.
+/// Checks that an attribute of a primitive, or of a morph target, has a format that its name
+/// allows.
 pub(super) fn check_format(
     doc: &Document<'_>,
     attribute: &Attribute,
@@ -106,11 +148,19 @@ pub(super) fn check_format(
     let semantic = Semantic::of(&attribute.name);
     if semantic == Semantic::Position && !accessor.has_bounds() {
         let message = "positions come without `min` and `max`".to_owned();
-        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS", attribute.at, message);
+        report.say(
+            &codes::GLTF_FORMAT,
+            "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
+            attribute.at,
+            message,
+        );
     }
     let Some(layout) = accessor.layout else {
         if !matches!(semantic, Semantic::Custom | Semantic::None) {
-            let message = format!("`{}` has no element type or no component type", attribute.name);
+            let message = format!(
+                "`{}` has no element type or no component type",
+                attribute.name
+            );
             let alias = "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT";
             report.say(&codes::GLTF_FORMAT, alias, attribute.at, message);
         }
@@ -118,18 +168,38 @@ pub(super) fn check_format(
     };
     let quantized = doc.uses("KHR_mesh_quantization");
     if !allows(semantic, layout, quantized, in_target) {
-        let message = format!("`{}` is {}, which no `{}` is", attribute.name, layout.name(), attribute.name);
-        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", attribute.at, message);
+        let message = format!(
+            "`{}` is {}, which no `{}` is",
+            attribute.name,
+            layout.name(),
+            attribute.name
+        );
+        report.say(
+            &codes::GLTF_FORMAT,
+            "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
+            attribute.at,
+            message,
+        );
     } else if semantic == Semantic::Custom && layout.component == Component::U32 {
         let message = "attributes of vertices are not u32".to_owned();
-        report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT", attribute.at, message);
+        report.say(
+            &codes::GLTF_FORMAT,
+            "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",
+            attribute.at,
+            message,
+        );
     }
 }
 
 /// True if the specification, or `KHR_mesh_quantization`, has the format for the attribute.
 fn allows(semantic: Semantic, layout: Layout, quantized: bool, in_target: bool) -> bool {
     use Component::{F32, I8, I16, U8, U16, U32};
-    let Layout { component, columns, rows, normalized } = layout;
+    let Layout {
+        component,
+        columns,
+        rows,
+        normalized,
+    } = layout;
     let is = |rows_of: &[usize]| columns == 1 && rows_of.contains(&rows);
     let float = component == F32 && !normalized;
     let unsigned_fraction = normalized && matches!(component, U8 | U16);
@@ -137,21 +207,26 @@ fn allows(semantic: Semantic, layout: Layout, quantized: bool, in_target: bool) 
     let small = matches!(component, I8 | U8 | I16 | U16);
     let signed = matches!(component, I8 | I16);
     match semantic {
-        Semantic::Position => is(&[3]) && (float || quantized && if in_target { signed } else { small }),
+        Semantic::Position => {
+            is(&[3]) && (float || quantized && if in_target { signed } else { small })
+        }
         Semantic::Normal => is(&[3]) && (float || quantized && signed_fraction),
         Semantic::Tangent => {
             let rows: &[usize] = if in_target { &[3] } else { &[4] };
             is(rows) && (float || quantized && signed_fraction)
         }
         Semantic::Uv(_) => is(&[2]) && (float || unsigned_fraction || quantized && small),
-        Semantic::Color(_) => is(&[3, 4]) && (float || unsigned_fraction || in_target && signed_fraction),
+        Semantic::Color(_) => {
+            is(&[3, 4]) && (float || unsigned_fraction || in_target && signed_fraction)
+        }
         Semantic::Joints(_) => is(&[4]) && !normalized && matches!(component, U8 | U16),
         Semantic::Weights(_) => is(&[4]) && (float || unsigned_fraction),
         Semantic::Custom | Semantic::None => component != U32 || semantic == Semantic::Custom,
     }
 }
 
-/// Checks that vertex data is aligned, and has a stride where accessors share a view; `streams` has those seen before.
+/// Checks that vertex data is aligned, and has a stride where accessors share a view; `streams` has
+/// those seen before.
 pub(super) fn check_place(
     doc: &Document<'_>,
     attribute: &Attribute,
@@ -159,17 +234,34 @@ pub(super) fn check_place(
     streams: &mut BTreeMap<usize, usize>,
     report: &mut Report<'_, '_>,
 ) {
-    let Some((index, view)) = accessor.view.and_then(|view| Some((view, doc.views.get(view)?))) else { return };
+    let Some((index, view)) = accessor
+        .view
+        .and_then(|view| Some((view, doc.views.get(view)?)))
+    else {
+        return;
+    };
     if !report.is_part(view.at) {
         return;
     }
     if !is_aligned(accessor, view.stride) {
         let message = "vertices start at multiples of 4 bytes, and these don't".to_owned();
-        report.say(&codes::GLTF_ACCESSOR, "MESH_PRIMITIVE_ACCESSOR_UNALIGNED", attribute.at, message);
+        report.say(
+            &codes::GLTF_ACCESSOR,
+            "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
+            attribute.at,
+            message,
+        );
     }
-    if view.stride.is_none() && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor {
+    if view.stride.is_none()
+        && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor
+    {
         let message = format!("buffer view {index} holds several attributes and has no stride");
-        report.say(&codes::GLTF_VIEW, "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", attribute.at, message);
+        report.say(
+            &codes::GLTF_VIEW,
+            "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
+            attribute.at,
+            message,
+        );
     }
 }
 
@@ -178,7 +270,11 @@ pub(super) fn demand(attribute: &Attribute, accessor: &Accessor, demands: &mut D
     let mut add = |demand| demands.add(attribute.accessor, demand, attribute.at);
     match Semantic::of(&attribute.name) {
         Semantic::Normal => add(Demand::Unit),
-        Semantic::Tangent if accessor.layout.is_some_and(|layout| layout.components() == 4) => {
+        Semantic::Tangent
+            if accessor
+                .layout
+                .is_some_and(|layout| layout.components() == 4) =>
+        {
             add(Demand::Unit);
             add(Demand::Sign);
         }

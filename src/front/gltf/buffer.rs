@@ -1,4 +1,5 @@
-//! Buffers and the views of them: their bytes, and whether the views lie within and serve one purpose.
+//! Buffers and the views of them: their bytes, and whether the views lie within and serve one
+//! purpose.
 
 use super::document::Document;
 use super::field::Fields;
@@ -33,12 +34,17 @@ pub(super) fn stretch(bytes: &[u8]) -> Stretch {
 
 impl Buffer<'_> {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let compressed = |name| fields.extension(name).is_some_and(|fields| fields.truth("fallback"));
+        let compressed = |name| {
+            fields
+                .extension(name)
+                .is_some_and(|fields| fields.truth("fallback"))
+        };
         Self {
             at: fields.at,
             length: fields.index("byteLength").filter(|length| *length > 0),
             bytes: None,
-            is_fallback: compressed("EXT_meshopt_compression") || compressed("KHR_meshopt_compression"),
+            is_fallback: compressed("EXT_meshopt_compression")
+                || compressed("KHR_meshopt_compression"),
         }
     }
 }
@@ -87,7 +93,9 @@ impl View {
             buffer: fields.index("buffer"),
             offset: fields.index("byteOffset").unwrap_or(0),
             length: fields.index("byteLength").filter(|length| *length > 0),
-            stride: fields.index("byteStride").filter(|stride| (4..=252).contains(stride)),
+            stride: fields
+                .index("byteStride")
+                .filter(|stride| (4..=252).contains(stride)),
             target: match fields.whole("target") {
                 Some(34962) => Some(Purpose::Vertices),
                 Some(34963) => Some(Purpose::Indices),
@@ -102,7 +110,15 @@ impl View {
     /// A view of bytes that stand nowhere in the asset.
     pub(super) fn decoded(at: NodeId, bytes: Bytes<'static>) -> Self {
         let (buffer, offset, length, stride, target) = (None, 0, Some(bytes.len()), None, None);
-        Self { at, buffer, offset, length, stride, target, decoded: Some(bytes) }
+        Self {
+            at,
+            buffer,
+            offset,
+            length,
+            stride,
+            target,
+            decoded: Some(bytes),
+        }
     }
 }
 
@@ -123,13 +139,22 @@ impl Document<'_> {
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     for view in &doc.views {
         stride(view, report);
-        let (Some(buffer), Some(length)) = (view.buffer, view.length) else { continue };
-        let Some(size) = doc.buffers.get(buffer).and_then(|buffer| buffer.length) else { continue };
+        let (Some(buffer), Some(length)) = (view.buffer, view.length) else {
+            continue;
+        };
+        let Some(size) = doc.buffers.get(buffer).and_then(|buffer| buffer.length) else {
+            continue;
+        };
         let end = view.offset.saturating_add(length);
         if end > size {
-            let key = if view.offset >= size { "byteOffset" } else { "byteLength" };
+            let key = if view.offset >= size {
+                "byteOffset"
+            } else {
+                "byteLength"
+            };
             let at = report.json.at_or(view.at, key);
-            let message = format!("the view ends at byte {end} of buffer {buffer}, which has {size}");
+            let message =
+                format!("the view ends at byte {end} of buffer {buffer}, which has {size}");
             report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_LONG", at, message);
         }
     }
@@ -143,12 +168,23 @@ fn stride(view: &View, report: &mut Report<'_, '_>) {
         report.say(&codes::GLTF_VALUE, "VALUE_MULTIPLE_OF", at, message);
     }
     if let Some(length) = view.length.filter(|length| *length < stride) {
-        let message = format!("the stride is {stride}, longer than the view, which has {length} bytes");
-        report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", at, message);
+        let message =
+            format!("the stride is {stride}, longer than the view, which has {length} bytes");
+        report.say(
+            &codes::GLTF_VIEW,
+            "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE",
+            at,
+            message,
+        );
     }
     if view.target == Some(Purpose::Indices) {
         let message = "a view of indices has a stride".to_owned();
-        report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_INVALID_BYTE_STRIDE", at, message);
+        report.say(
+            &codes::GLTF_VIEW,
+            "BUFFER_VIEW_INVALID_BYTE_STRIDE",
+            at,
+            message,
+        );
     }
 }
 
@@ -161,13 +197,30 @@ impl Purposes {
     }
 
     /// Takes down that the node `at` uses a view for a purpose; two purposes don't go together.
-    pub(super) fn set(&mut self, view: Option<usize>, purpose: Purpose, at: NodeId, report: &mut Report<'_, '_>) {
-        let Some(slot) = view.and_then(|view| self.0.get_mut(view)) else { return };
+    pub(super) fn set(
+        &mut self,
+        view: Option<usize>,
+        purpose: Purpose,
+        at: NodeId,
+        report: &mut Report<'_, '_>,
+    ) {
+        let Some(slot) = view.and_then(|view| self.0.get_mut(view)) else {
+            return;
+        };
         match slot {
             None => *slot = Some(purpose),
             Some(first) if *first != purpose => {
-                let message = format!("the view is used for {} here, and is for {}", purpose.name(), first.name());
-                report.say(&codes::GLTF_VIEW, "BUFFER_VIEW_TARGET_OVERRIDE", at, message);
+                let message = format!(
+                    "the view is used for {} here, and is for {}",
+                    purpose.name(),
+                    first.name()
+                );
+                report.say(
+                    &codes::GLTF_VIEW,
+                    "BUFFER_VIEW_TARGET_OVERRIDE",
+                    at,
+                    message,
+                );
             }
             Some(_) => {}
         }

@@ -24,16 +24,29 @@ pub(super) enum Projection {
 
 impl Camera {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let perspective = fields.object("perspective").filter(|_| fields.is("type", "perspective"));
+        let perspective = fields
+            .object("perspective")
+            .filter(|_| fields.is("type", "perspective"));
         let perspective = perspective.and_then(|fields| {
             let yfov = fields.number("yfov").filter(|yfov| *yfov > 0.0)?;
-            Some(Projection::Perspective { yfov, aspect: fields.number("aspectRatio").filter(|ratio| *ratio > 0.0) })
+            Some(Projection::Perspective {
+                yfov,
+                aspect: fields.number("aspectRatio").filter(|ratio| *ratio > 0.0),
+            })
         });
-        let orthographic = fields.object("orthographic").filter(|_| fields.is("type", "orthographic"));
+        let orthographic = fields
+            .object("orthographic")
+            .filter(|_| fields.is("type", "orthographic"));
         let orthographic = orthographic.and_then(|fields| {
-            Some(Projection::Orthographic { xmag: fields.number("xmag")?, ymag: fields.number("ymag")? })
+            Some(Projection::Orthographic {
+                xmag: fields.number("xmag")?,
+                ymag: fields.number("ymag")?,
+            })
         });
-        Self { at: fields.at, projection: perspective.or(orthographic) }
+        Self {
+            at: fields.at,
+            projection: perspective.or(orthographic),
+        }
     }
 }
 
@@ -41,7 +54,8 @@ impl Camera {
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     for camera in &doc.cameras {
         let fields = Fields::new(report.json, camera.at);
-        let (perspective, orthographic) = (fields.object("perspective"), fields.object("orthographic"));
+        let (perspective, orthographic) =
+            (fields.object("perspective"), fields.object("orthographic"));
         if fields.has("perspective") && fields.has("orthographic") {
             let message = "a camera is perspective or orthographic, not both".to_owned();
             report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", camera.at, message);
@@ -49,29 +63,57 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
         for kind in ["perspective", "orthographic"] {
             if fields.is("type", kind) && !fields.has(kind) {
                 let message = format!("the camera has no `{kind}`");
-                report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", camera.at, message);
+                report.say(
+                    &codes::GLTF_MISSING,
+                    "UNDEFINED_PROPERTY",
+                    camera.at,
+                    message,
+                );
             }
         }
         for part in [perspective, orthographic].into_iter().flatten() {
             if let (Some(near), Some(far)) = (part.number("znear"), part.number("zfar"))
                 && far <= near
             {
-                let message = format!("the far plane at {far} is no farther than the near one at {near}");
-                report.say(&codes::GLTF_VALUE, "CAMERA_ZFAR_LEQUAL_ZNEAR", part.at, message);
+                let message =
+                    format!("the far plane at {far} is no farther than the near one at {near}");
+                report.say(
+                    &codes::GLTF_VALUE,
+                    "CAMERA_ZFAR_LEQUAL_ZNEAR",
+                    part.at,
+                    message,
+                );
             }
         }
-        if let Some(part) = perspective.filter(|part| part.number_or("yfov", 0.0) >= std::f64::consts::PI) {
+        if let Some(part) =
+            perspective.filter(|part| part.number_or("yfov", 0.0) >= std::f64::consts::PI)
+        {
             let message = "the camera opens half a turn or more".to_owned();
-            report.say(&codes::GLTF_MATERIAL_ODD, "CAMERA_YFOV_GEQUAL_PI", part.at, message);
+            report.say(
+                &codes::GLTF_MATERIAL_ODD,
+                "CAMERA_YFOV_GEQUAL_PI",
+                part.at,
+                message,
+            );
         }
         if let Some(part) = orthographic {
             let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
             if mags.contains(&0.0) {
                 let message = "the picture of the camera has no width or no height".to_owned();
-                report.say(&codes::GLTF_VALUE, "CAMERA_XMAG_YMAG_ZERO", part.at, message);
+                report.say(
+                    &codes::GLTF_VALUE,
+                    "CAMERA_XMAG_YMAG_ZERO",
+                    part.at,
+                    message,
+                );
             } else if mags.iter().any(|mag| *mag < 0.0) {
                 let message = "a negative `xmag` or `ymag` mirrors the picture".to_owned();
-                report.say(&codes::GLTF_MATERIAL_ODD, "CAMERA_XMAG_YMAG_NEGATIVE", part.at, message);
+                report.say(
+                    &codes::GLTF_MATERIAL_ODD,
+                    "CAMERA_XMAG_YMAG_NEGATIVE",
+                    part.at,
+                    message,
+                );
             }
         }
     }

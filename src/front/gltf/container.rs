@@ -1,4 +1,5 @@
-//! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and `.gltf` alike.
+//! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and
+//! `.gltf` alike.
 
 use crate::diag::{Code, Diagnostic, Sink, codes};
 use crate::source::{FileId, Span};
@@ -33,11 +34,23 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
 
 /// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
 pub(super) fn open(file: FileId, bytes: &[u8], sink: &mut Sink) -> Option<Parts> {
-    let mut scan = Scan { file, bytes, sink, json: None, bin: None, chunks: 0 };
+    let mut scan = Scan {
+        file,
+        bytes,
+        sink,
+        json: None,
+        bin: None,
+        chunks: 0,
+    };
     scan.header()?;
     let is_whole = scan.chunks();
     let Scan { json, bin, .. } = scan;
-    json.filter(|json| !json.is_empty()).map(|json| Parts { json, bin, is_glb: true, is_whole })
+    json.filter(|json| !json.is_empty()).map(|json| Parts {
+        json,
+        bin,
+        is_glb: true,
+        is_whole,
+    })
 }
 
 struct Scan<'a> {
@@ -54,7 +67,8 @@ impl Scan<'_> {
     fn say(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
         let offset = |at: usize| u32::try_from(at.min(self.bytes.len())).unwrap_or(u32::MAX);
         let span = Span::new(self.file, offset(at.start), offset(at.end));
-        self.sink.push(Diagnostic::new(code, message).at(span, "").alias(alias));
+        self.sink
+            .push(Diagnostic::new(code, message).at(span, "").alias(alias));
     }
 
     fn word(&self, at: usize) -> Option<usize> {
@@ -67,27 +81,43 @@ impl Scan<'_> {
         let code = &codes::GLB_HEADER;
         let size = self.bytes.len();
         if size >= MAGIC.len() && !self.bytes.starts_with(MAGIC) {
-            let found = String::from_utf8_lossy(&self.bytes[..4]).escape_debug().to_string();
-            self.say(code, "GLB_INVALID_MAGIC", 0..4, format!("the file starts with `{found}`, not with `glTF`"));
+            let found = String::from_utf8_lossy(&self.bytes[..4])
+                .escape_debug()
+                .to_string();
+            self.say(
+                code,
+                "GLB_INVALID_MAGIC",
+                0..4,
+                format!("the file starts with `{found}`, not with `glTF`"),
+            );
             return None;
         }
         let (Some(version), Some(length)) = (self.word(4), self.word(8)) else {
-            let message = format!("the file ends within its header, after {size} of {HEADER} bytes");
+            let message =
+                format!("the file ends within its header, after {size} of {HEADER} bytes");
             self.say(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
             return None;
         };
         if version != 2 {
-            self.say(code, "GLB_INVALID_VERSION", 4..8, format!("the container has version {version}, not 2"));
+            self.say(
+                code,
+                "GLB_INVALID_VERSION",
+                4..8,
+                format!("the container has version {version}, not 2"),
+            );
             return None;
         }
         if length <= HEADER {
-            let message = format!("the header gives the file a length of {length} bytes, no more than its own");
+            let message = format!(
+                "the header gives the file a length of {length} bytes, no more than its own"
+            );
             self.say(code, "GLB_LENGTH_TOO_SMALL", 8..12, message);
         }
         Some(())
     }
 
-    /// The chunks, up to where the header says that the file ends, or else to its end; false if it ends within one.
+    /// The chunks, up to where the header says that the file ends, or else to its end; false if it
+    /// ends within one.
     fn chunks(&mut self) -> bool {
         let (declared, size) = (self.word(8).unwrap_or(0), self.bytes.len());
         let mut at = HEADER;
@@ -97,9 +127,16 @@ impl Scan<'_> {
                 self.say(&codes::GLB_EXTRA, "GLB_EXTRA_DATA", declared..size, message);
                 return true;
             }
-            let (Some(length), Some(kind)) = (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER)) else {
+            let (Some(length), Some(kind)) =
+                (self.word(at), self.bytes.get(at + 4..at + CHUNK_HEADER))
+            else {
                 let message = "the file ends within the header of a chunk".to_owned();
-                self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", at..size, message);
+                self.say(
+                    &codes::GLB_CHUNK,
+                    "GLB_UNEXPECTED_END_OF_CHUNK_HEADER",
+                    at..size,
+                    message,
+                );
                 return false;
             };
             let kind = [kind[0], kind[1], kind[2], kind[3]];
@@ -109,20 +146,33 @@ impl Scan<'_> {
             if end > size {
                 self.json = self.json.take().filter(|json| json.start != start);
                 let message = format!("the file ends {} bytes before its chunk does", end - size);
-                self.say(&codes::GLB_CHUNK, "GLB_UNEXPECTED_END_OF_CHUNK_DATA", size..size, message);
+                self.say(
+                    &codes::GLB_CHUNK,
+                    "GLB_UNEXPECTED_END_OF_CHUNK_DATA",
+                    size..size,
+                    message,
+                );
                 return false;
             }
             at = end;
         }
         if at != declared {
-            let message = format!("the header gives the file a length of {declared} bytes, and it has {at}");
+            let message =
+                format!("the header gives the file a length of {declared} bytes, and it has {at}");
             self.say(&codes::GLB_HEADER, "GLB_LENGTH_MISMATCH", 8..12, message);
         }
         true
     }
 
     /// One chunk, whose header is at `at` and whose content should end at `end`.
-    fn chunk(&mut self, kind: [u8; 4], at: usize, content: Range<usize>, end: usize, declared: usize) {
+    fn chunk(
+        &mut self,
+        kind: [u8; 4],
+        at: usize,
+        content: Range<usize>,
+        end: usize,
+        declared: usize,
+    ) {
         let (header, code) = (at..at + CHUNK_HEADER, &codes::GLB_CHUNK);
         let name = shown(kind);
         self.chunks += 1;
@@ -131,7 +181,10 @@ impl Scan<'_> {
             self.say(code, "GLB_CHUNK_LENGTH_UNALIGNED", header.clone(), message);
         }
         if end > declared {
-            let message = format!("the {name} chunk ends {} bytes after the file should", end - declared);
+            let message = format!(
+                "the {name} chunk ends {} bytes after the file should",
+                end - declared
+            );
             self.say(code, "GLB_CHUNK_TOO_BIG", header.clone(), message);
         }
         if self.chunks == 1 && kind != JSON {
@@ -140,14 +193,24 @@ impl Scan<'_> {
         }
         if kind == BIN && content.is_empty() {
             let message = "an empty binary chunk may as well be left out".to_owned();
-            self.say(&codes::GLTF_REMARK, "GLB_EMPTY_BIN_CHUNK", header.clone(), message);
+            self.say(
+                &codes::GLTF_REMARK,
+                "GLB_EMPTY_BIN_CHUNK",
+                header.clone(),
+                message,
+            );
         }
         if kind == BIN && self.chunks > 2 && self.bin.is_none() {
             let message = "the binary chunk is not the second one".to_owned();
             self.say(code, "GLB_UNEXPECTED_BIN_CHUNK", header.clone(), message);
         }
         if kind == JSON && content.is_empty() {
-            self.say(code, "GLB_EMPTY_CHUNK", header.clone(), "the JSON chunk is empty".to_owned());
+            self.say(
+                code,
+                "GLB_EMPTY_CHUNK",
+                header.clone(),
+                "the JSON chunk is empty".to_owned(),
+            );
         }
         let slot = match &kind[..] {
             JSON => &mut self.json,
@@ -186,25 +249,50 @@ mod tests {
         let file = map.add("x.glb", bytes.to_vec());
         let mut sink = Sink::default();
         let parts = open(file, map.bytes(file), &mut sink);
-        (parts, sink.kept().iter().filter_map(|finding| finding.alias).collect())
+        (
+            parts,
+            sink.kept()
+                .iter()
+                .filter_map(|finding| finding.alias)
+                .collect(),
+        )
     }
 
     fn glb(chunks: &[(&[u8], &[u8])]) -> Vec<u8> {
         let body: Vec<u8> = chunks
             .iter()
             .flat_map(|(kind, content)| {
-                [&u32::try_from(content.len()).unwrap().to_le_bytes()[..], kind, content].concat()
+                [
+                    &u32::try_from(content.len()).unwrap().to_le_bytes()[..],
+                    kind,
+                    content,
+                ]
+                .concat()
             })
             .collect();
         let length = u32::try_from(body.len() + HEADER).unwrap();
-        [MAGIC, &2u32.to_le_bytes()[..], &length.to_le_bytes()[..], &body].concat()
+        [
+            MAGIC,
+            &2u32.to_le_bytes()[..],
+            &length.to_le_bytes()[..],
+            &body,
+        ]
+        .concat()
     }
 
     #[test]
     fn parts_are_where_the_chunks_say() {
         let bytes = glb(&[(JSON, b"{}  "), (BIN, b"12345678")]);
         let (parts, faults) = open_bytes(&bytes);
-        assert_eq!(parts, Some(Parts { json: 20..24, bin: Some(32..40), is_glb: true, is_whole: true }));
+        assert_eq!(
+            parts,
+            Some(Parts {
+                json: 20..24,
+                bin: Some(32..40),
+                is_glb: true,
+                is_whole: true
+            })
+        );
         assert!(faults.is_empty(), "{faults:?}");
     }
 

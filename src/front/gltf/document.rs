@@ -57,7 +57,11 @@ const PLACED: usize = 256;
 /// Bytes that the parts of an asset take. An item of a list counts as a part, whatever it is.
 pub(super) fn cost(json: &Tree<'_>) -> u64 {
     let count = |map: NodeId, key| json.list(map, key).count();
-    let inner = |key, part| json.list(json.root(), key).map(|map| count(map, part)).sum::<usize>();
+    let inner = |key, part| {
+        json.list(json.root(), key)
+            .map(|map| count(map, part))
+            .sum::<usize>()
+    };
     let parts = [
         (count(json.root(), "bufferViews"), size_of::<View>()),
         (count(json.root(), "accessors"), size_of::<Accessor>()),
@@ -70,18 +74,27 @@ pub(super) fn cost(json: &Tree<'_>) -> u64 {
         (inner("animations", "channels"), size_of::<Channel>()),
         (inner("animations", "samplers"), size_of::<Keyframes>()),
     ];
-    let parts: u64 = parts.iter().map(|(count, size)| *count as u64 * *size as u64).sum();
+    let parts: u64 = parts
+        .iter()
+        .map(|(count, size)| *count as u64 * *size as u64)
+        .sum();
     parts.saturating_add(VALUE * json.len() as u64)
 }
 
 impl Document<'_> {
     /// Reads the parts; buffers are still empty.
     pub(super) fn read(json: &Tree<'_>, is_glb: bool) -> Self {
-        fn each<'t, 's: 't, T>(root: Fields<'t, 's>, key: &str, read: impl Fn(Fields<'t, 's>) -> T) -> Vec<T> {
+        fn each<'t, 's: 't, T>(
+            root: Fields<'t, 's>,
+            key: &str,
+            read: impl Fn(Fields<'t, 's>) -> T,
+        ) -> Vec<T> {
             root.objects(key).map(read).collect()
         }
         let root = Fields::new(json, json.root());
-        let texts = json.list(json.root(), "extensionsUsed").filter_map(|item| json.text(item));
+        let texts = json
+            .list(json.root(), "extensionsUsed")
+            .filter_map(|item| json.text(item));
         let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
         let has_lights = extensions.contains("KHR_lights_punctual");
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
@@ -99,8 +112,13 @@ impl Document<'_> {
             skins: each(root, "skins", Skin::read),
             animations: each(root, "animations", Animation::read),
             cameras: each(root, "cameras", Camera::read),
-            lights: lights.map_or_else(Vec::new, |lights| each(lights, "lights", |fields| fields.at)),
-            scenes: each(root, "scenes", |fields| Scene { at: fields.at, nodes: fields.indices("nodes") }),
+            lights: lights.map_or_else(Vec::new, |lights| {
+                each(lights, "lights", |fields| fields.at)
+            }),
+            scenes: each(root, "scenes", |fields| Scene {
+                at: fields.at,
+                nodes: fields.indices("nodes"),
+            }),
             scene: root.index("scene"),
             extensions,
             is_glb,

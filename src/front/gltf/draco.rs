@@ -1,5 +1,5 @@
-//! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put in place as views of
-//! the accessors that stand for them. The one file that names the decoder.
+//! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put
+//! in place as views of the accessors that stand for them. The one file that names the decoder.
 
 use super::accessor::{Component, Layout};
 use super::buffer::{Bytes, Stretch, View, stretch};
@@ -53,7 +53,9 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
     let mut made = Made::default();
     for packed in find(doc, report) {
         match unpack(doc, &packed, &mut made, report) {
-            Ok(accessors) => accessors.into_iter().for_each(|(accessor, bytes)| fill(doc, accessor, bytes)),
+            Ok(accessors) => accessors
+                .into_iter()
+                .for_each(|(accessor, bytes)| fill(doc, accessor, bytes)),
             Err(fault) => {
                 let message = format!("the primitive can't be decompressed: {fault}");
                 report.say(&codes::GLTF_COMPRESSED, "", packed.at, message);
@@ -69,8 +71,15 @@ fn find(doc: &Document<'_>, report: &Report<'_, '_>) -> Vec<Packed> {
         let numbers = fields.object("attributes")?;
         let number = |name: &str| u32::try_from(numbers.whole(name)?).ok();
         let attributes = primitive.attributes.iter();
-        let attributes = attributes.filter_map(|own| Some((own.accessor, number(&own.name)?))).collect();
-        Some(Packed { at: fields.at, view: fields.index("bufferView")?, attributes, indices: primitive.indices })
+        let attributes = attributes
+            .filter_map(|own| Some((own.accessor, number(&own.name)?)))
+            .collect();
+        Some(Packed {
+            at: fields.at,
+            view: fields.index("bufferView")?,
+            attributes,
+            indices: primitive.indices,
+        })
     });
     packed.collect()
 }
@@ -84,9 +93,16 @@ fn unpack(
 ) -> Result<Vec<(usize, Bytes<'static>)>, String> {
     let bytes = doc.view_bytes(packed.view).ok_or("its view is not there")?;
     let own = stretch(bytes);
-    let corners = packed.indices.map_or(Ok(0), |accessor| layout_of(doc, accessor).map(|own| own.1))?;
-    let points = packed.attributes.first().map_or(Ok(corners), |(own, _)| layout_of(doc, *own).map(|own| own.1))?;
-    let size = Size { points: points as u64, faces: corners as u64 / 3 };
+    let corners = packed
+        .indices
+        .map_or(Ok(0), |accessor| layout_of(doc, accessor).map(|own| own.1))?;
+    let points = packed.attributes.first().map_or(Ok(corners), |(own, _)| {
+        layout_of(doc, *own).map(|own| own.1)
+    })?;
+    let size = Size {
+        points: points as u64,
+        faces: corners as u64 / 3,
+    };
     let mesh = match made.meshes.get(&(own, size)) {
         Some(known) => known.clone(),
         None => {
@@ -96,7 +112,10 @@ fn unpack(
         }
     }?;
     let mut accessors = Vec::new();
-    let parts = packed.attributes.iter().map(|(accessor, number)| (*accessor, Some(*number)));
+    let parts = packed
+        .attributes
+        .iter()
+        .map(|(accessor, number)| (*accessor, Some(*number)));
     for (accessor, number) in parts.chain(packed.indices.map(|accessor| (accessor, None))) {
         if made.filled.insert(accessor, (own, number)) == Some((own, number)) {
             continue;
@@ -109,7 +128,12 @@ fn unpack(
             continue;
         }
         let memory = count as u64 * layout.packed() as u64;
-        if !report.charge(Resource::Memory, memory, packed.at, "the compressed primitive") {
+        if !report.charge(
+            Resource::Memory,
+            memory,
+            packed.at,
+            "the compressed primitive",
+        ) {
             return Err("it asks for too much".to_owned());
         }
         let column = Rc::new(Cow::Owned(column(&mesh, number, layout)));
@@ -121,34 +145,65 @@ fn unpack(
 
 fn charge(size: Size, packed: &Packed, report: &mut Report<'_, '_>) -> Result<(), String> {
     let Size { points, faces } = size;
-    let memory = points.saturating_mul(POINT).saturating_add(faces.saturating_mul(FACE));
-    let is_small =
-        report.charge(Resource::Vertices, points.saturating_add(3 * faces), packed.at, "the compressed primitive")
-            && report.charge(Resource::Memory, memory, packed.at, "the compressed primitive");
-    if is_small { Ok(()) } else { Err("it asks for too much".to_owned()) }
+    let memory = points
+        .saturating_mul(POINT)
+        .saturating_add(faces.saturating_mul(FACE));
+    let is_small = report.charge(
+        Resource::Vertices,
+        points.saturating_add(3 * faces),
+        packed.at,
+        "the compressed primitive",
+    ) && report.charge(
+        Resource::Memory,
+        memory,
+        packed.at,
+        "the compressed primitive",
+    );
+    if is_small {
+        Ok(())
+    } else {
+        Err("it asks for too much".to_owned())
+    }
 }
 
 /// The mesh of compressed bytes, if it has the size that its accessors claim.
 fn decode(bytes: &[u8], size: Size) -> Result<Rc<Mesh>, String> {
-    let limit = (bytes.len() as u64).saturating_mul(MAX_RATIO).saturating_add(FREE);
-    let limits = DecodeLimits::default().with_max_points(size.points.min(limit)).with_max_decoded_bytes(limit);
+    let limit = (bytes.len() as u64)
+        .saturating_mul(MAX_RATIO)
+        .saturating_add(FREE);
+    let limits = DecodeLimits::default()
+        .with_max_points(size.points.min(limit))
+        .with_max_decoded_bytes(limit);
     let limits = limits.with_max_faces(size.faces.min(limit));
     let mut mesh = Mesh::new();
     let mut buffer = DecoderBuffer::new(bytes).with_limits(limits);
-    MeshDecoder::new().decode(&mut buffer, &mut mesh).map_err(|fault| fault.to_string())?;
+    MeshDecoder::new()
+        .decode(&mut buffer, &mut mesh)
+        .map_err(|fault| fault.to_string())?;
     Ok(Rc::new(mesh))
 }
 
-/// Checks that an attribute, or the corners without a number, have the size that an accessor claims.
+/// Checks that an attribute, or the corners without a number, have the size that an accessor
+/// claims.
 fn check(mesh: &Mesh, number: Option<u32>, (layout, count): (Layout, usize)) -> Result<(), String> {
     let Some(number) = number else {
         let faces = mesh.num_faces();
         let message = || format!("there are {count} indices, and the data has {faces} triangles");
-        return if count == 3 * faces { Ok(()) } else { Err(message()) };
+        return if count == 3 * faces {
+            Ok(())
+        } else {
+            Err(message())
+        };
     };
-    let (points, attribute) = (mesh.num_points(), mesh.attribute_by_unique_id(number).ok_or("it lacks an attribute")?);
+    let (points, attribute) = (
+        mesh.num_points(),
+        mesh.attribute_by_unique_id(number)
+            .ok_or("it lacks an attribute")?,
+    );
     if count != points || usize::from(attribute.num_components()) != layout.components() {
-        return Err(format!("an accessor has {count} elements, and the data {points}"));
+        return Err(format!(
+            "an accessor has {count} elements, and the data {points}"
+        ));
     }
     Ok(())
 }
@@ -156,10 +211,20 @@ fn check(mesh: &Mesh, number: Option<u32>, (layout, count): (Layout, usize)) -> 
 /// The bytes of an attribute, or of the corners.
 fn column(mesh: &Mesh, number: Option<u32>, layout: Layout) -> Vec<u8> {
     match number.map(|number| mesh.attribute_by_unique_id(number)) {
-        None => to_bytes(mesh.faces().iter().flatten().map(|point| f64::from(point.0)), layout.component),
+        None => to_bytes(
+            mesh.faces()
+                .iter()
+                .flatten()
+                .map(|point| f64::from(point.0)),
+            layout.component,
+        ),
         Some(attribute) => {
-            let numbers = attribute.map(|own| own.read_f32s(mesh.num_points(), layout.components()));
-            to_bytes(numbers.unwrap_or_default().into_iter().map(f64::from), layout.component)
+            let numbers =
+                attribute.map(|own| own.read_f32s(mesh.num_points(), layout.components()));
+            to_bytes(
+                numbers.unwrap_or_default().into_iter().map(f64::from),
+                layout.component,
+            )
         }
     }
 }
@@ -174,7 +239,11 @@ fn layout_of(doc: &Document<'_>, accessor: usize) -> Result<(Layout, usize), Str
 /// Numbers as the components of an accessor; those out of range are cut off.
 fn to_bytes(numbers: impl Iterator<Item = f64>, component: Component) -> Vec<u8> {
     let mut bytes = Vec::new();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast keeps within the range")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a cast keeps within the range"
+    )]
     for number in numbers {
         match component {
             Component::I8 => bytes.extend((number as i8).to_le_bytes()),

@@ -32,7 +32,12 @@ impl Integers<'_> {
     pub(super) fn get(&self, at: usize) -> Option<usize> {
         let size = self.component.size();
         let bytes = self.bytes.get(at * size..(at + 1) * size)?;
-        Some(bytes.iter().rev().fold(0, |number, byte| number << 8 | usize::from(*byte)))
+        Some(
+            bytes
+                .iter()
+                .rev()
+                .fold(0, |number, byte| number << 8 | usize::from(*byte)),
+        )
     }
 
     /// Where a number is among rising ones.
@@ -59,12 +64,21 @@ impl<'d> Elements<'d> {
             Some(view) => {
                 let holder = doc.views.get(view)?;
                 let stride = holder.stride.unwrap_or(layout.packed());
-                let start = if holder.decoded.is_some() { 0 } else { holder.offset };
-                if !start.checked_add(accessor.offset)?.is_multiple_of(layout.component.size()) {
+                let start = if holder.decoded.is_some() {
+                    0
+                } else {
+                    holder.offset
+                };
+                if !start
+                    .checked_add(accessor.offset)?
+                    .is_multiple_of(layout.component.size())
+                {
                     return None;
                 }
                 let end = stride.checked_mul(count - 1)?.checked_add(extent(layout))?;
-                let bytes = doc.view_bytes(view)?.get(accessor.offset..accessor.offset.checked_add(end)?)?;
+                let bytes = doc
+                    .view_bytes(view)?
+                    .get(accessor.offset..accessor.offset.checked_add(end)?)?;
                 (stride >= extent(layout)).then_some((bytes, stride))
             }
         };
@@ -75,15 +89,24 @@ impl<'d> Elements<'d> {
             None => None,
             Some(sparse) => {
                 let part = |view, offset: usize, size: usize| {
-                    doc.view_bytes(view)?.get(offset..offset.checked_add(sparse.count.checked_mul(size)?)?)
+                    doc.view_bytes(view)?
+                        .get(offset..offset.checked_add(sparse.count.checked_mul(size)?)?)
                 };
                 let (view, offset, component) = sparse.indices;
-                let indices = Integers { bytes: part(view, offset, component.size())?, component };
+                let indices = Integers {
+                    bytes: part(view, offset, component.size())?,
+                    component,
+                };
                 let size = layout.components() * layout.component.size();
                 Some((indices, part(sparse.values.0, sparse.values.1, size)?))
             }
         };
-        Some(Self { layout, count, base, sparse })
+        Some(Self {
+            layout,
+            count,
+            base,
+            sparse,
+        })
     }
 
     /// The indices of the elements that are replaced.
@@ -91,22 +114,34 @@ impl<'d> Elements<'d> {
         self.sparse.as_ref().map(|(indices, _)| *indices)
     }
 
-    /// The element at `at`, which is below the count, its components as the fractions they stand for.
+    /// The element at `at`, which is below the count, its components as the fractions they stand
+    /// for.
     pub(super) fn at<const N: usize>(&self, at: usize) -> [f64; N] {
         let (layout, mut element) = (self.layout, Element::default());
-        let replaced = self.sparse.as_ref().and_then(|(indices, values)| Some((indices.find(at)?, *values)));
+        let replaced = self
+            .sparse
+            .as_ref()
+            .and_then(|(indices, values)| Some((indices.find(at)?, *values)));
         if let Some((place, values)) = replaced {
-            let flat = Layout { columns: 1, rows: layout.components(), ..layout };
+            let flat = Layout {
+                columns: 1,
+                rows: layout.components(),
+                ..layout
+            };
             read(&values[place * flat.packed()..], flat, &mut element);
         } else if let Some((bytes, stride)) = self.base {
             read(&bytes[at * stride..], layout, &mut element);
         }
         let mut vector = [0.0; N];
-        vector.iter_mut().zip(&element[..layout.components()]).for_each(|(to, from)| *to = self.fraction(*from));
+        vector
+            .iter_mut()
+            .zip(&element[..layout.components()])
+            .for_each(|(to, from)| *to = self.fraction(*from));
         vector
     }
 
-    /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do are put in place.
+    /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do
+    /// are put in place.
     pub(super) fn each(&self, mut see: impl FnMut(usize, &[f64])) {
         let (layout, mut element) = (self.layout, Element::default());
         let components = layout.components();
@@ -114,7 +149,11 @@ impl<'d> Elements<'d> {
         let mut place = 0;
         for at in 0..self.count {
             if let (true, Some((indices, values))) = (next == Some(at), &self.sparse) {
-                let flat = Layout { columns: 1, rows: components, ..layout };
+                let flat = Layout {
+                    columns: 1,
+                    rows: components,
+                    ..layout
+                };
                 read(&values[place * flat.packed()..], flat, &mut element);
                 place += 1;
                 next = indices.get(place);
@@ -127,24 +166,35 @@ impl<'d> Elements<'d> {
         }
     }
 
-    /// All elements, of `N` components; integers as the fractions they stand for, if they are normalised.
+    /// All elements, of `N` components; integers as the fractions they stand for, if they are
+    /// normalised.
     pub(super) fn vectors<const N: usize>(&self) -> Vec<[f64; N]> {
         let mut vectors = Vec::with_capacity(self.count);
         self.each(|_, element| {
             let mut vector = [0.0; N];
-            vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from));
+            vector
+                .iter_mut()
+                .zip(element)
+                .for_each(|(to, from)| *to = self.fraction(*from));
             vectors.push(vector);
         });
         vectors
     }
 
-    /// The same as a column of 32-bit floats, which hold what floats and short integers say exactly.
+    /// The same as a column of 32-bit floats, which hold what floats and short integers say
+    /// exactly.
     pub(super) fn column<const N: usize>(&self) -> Column<N> {
         let mut vectors = Vec::with_capacity(self.count);
-        #[expect(clippy::cast_possible_truncation, reason = "components are of 32 bits or are rounded to them")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "components are of 32 bits or are rounded to them"
+        )]
         self.each(|_, element| {
             let mut vector = [0.0; N];
-            vector.iter_mut().zip(element).for_each(|(to, from)| *to = self.fraction(*from) as f32);
+            vector
+                .iter_mut()
+                .zip(element)
+                .for_each(|(to, from)| *to = self.fraction(*from) as f32);
             vectors.push(vector);
         });
         vectors.into()

@@ -1,12 +1,14 @@
-//! What an image file says beside its pixels and is not followed: colour profiles, pixels that are no squares, animation.
-//! glTF lays down what the numbers mean, whatever the file says.
+//! What an image file says beside its pixels and is not followed: colour profiles, pixels that are
+//! no squares, animation. glTF lays down what the numbers mean, whatever the file says.
 
 use super::image::Format;
 
 /// The gamma of an ordinary PNG and of a linear one, times 100 000.
 const GAMMAS: [u32; 2] = [45_455, 100_000];
 /// The white point and the primaries of sRGB, times 100 000.
-const SRGB: [u32; 8] = [31_270, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6_000];
+const SRGB: [u32; 8] = [
+    31_270, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6_000,
+];
 
 /// What an image has that is not followed, if it has any such thing.
 pub(super) fn unfollowed(format: Format, bytes: &[u8]) -> Option<&'static str> {
@@ -17,11 +19,14 @@ pub(super) fn unfollowed(format: Format, bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
-/// Looks at the chunks before the pixels. Of the chunks about colour the first decides, and `sRGB` before all.
+/// Looks at the chunks before the pixels. Of the chunks about colour the first decides, and `sRGB`
+/// before all.
 fn png(bytes: &[u8]) -> Option<&'static str> {
     let (mut rest, mut gamma, mut primaries, mut squares) = (bytes.get(8..)?, None, None, true);
     while let Some((kind, content, after)) = chunk(rest) {
-        let mut words = content.chunks_exact(4).map(|word| u32::from_be_bytes([word[0], word[1], word[2], word[3]]));
+        let mut words = content
+            .chunks_exact(4)
+            .map(|word| u32::from_be_bytes([word[0], word[1], word[2], word[3]]));
         match kind {
             b"IDAT" => break,
             b"iCCP" => (gamma, primaries) = (Some(false), Some(false)),
@@ -52,8 +57,14 @@ fn chunk(bytes: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
 fn webp(bytes: &[u8]) -> Option<&'static str> {
     const ANIMATION: u8 = 0x02;
     const PROFILE: u8 = 0x20;
-    let flags = *bytes.get(20).filter(|_| bytes.get(12..16) == Some(b"VP8X"))?;
-    if flags & ANIMATION != 0 { Some("an animation") } else { (flags & PROFILE != 0).then_some("colours of its own") }
+    let flags = *bytes
+        .get(20)
+        .filter(|_| bytes.get(12..16) == Some(b"VP8X"))?;
+    if flags & ANIMATION != 0 {
+        Some("an animation")
+    } else {
+        (flags & PROFILE != 0).then_some("colours of its own")
+    }
 }
 
 #[cfg(test)]
@@ -74,20 +85,32 @@ mod tests {
         let found = |chunks: &[(&[u8; 4], &[u8])]| unfollowed(Format::Png, &image(chunks));
         let gamma = 50_000_u32.to_be_bytes();
         let srgb: Vec<u8> = SRGB.iter().flat_map(|word| word.to_be_bytes()).collect();
-        assert_eq!(found(&[(b"gAMA", &45_455_u32.to_be_bytes()), (b"cHRM", &srgb)]), None);
+        assert_eq!(
+            found(&[(b"gAMA", &45_455_u32.to_be_bytes()), (b"cHRM", &srgb)]),
+            None
+        );
         assert_eq!(found(&[(b"gAMA", &gamma)]), Some("colours of its own"));
         assert_eq!(found(&[(b"sRGB", &[0]), (b"gAMA", &gamma)]), None);
         assert_eq!(found(&[(b"cHRM", &[0; 32])]), Some("colours of its own"));
         assert_eq!(found(&[(b"IDAT", &[]), (b"iCCP", &[])]), None);
-        assert_eq!(found(&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 2, 0])]), Some("pixels that are no squares"));
+        assert_eq!(
+            found(&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 2, 0])]),
+            Some("pixels that are no squares")
+        );
         assert_eq!(unfollowed(Format::Png, b"\x89PNG"), None);
     }
 
     #[test]
     fn flags_of_a_webp_count_if_it_is_extended() {
         let webp = |kind: &[u8], flags| [b"RIFF\0\0\0\0WEBP", kind, &[10, 0, 0, 0, flags]].concat();
-        assert_eq!(unfollowed(Format::WebP, &webp(b"VP8X", 0x20)), Some("colours of its own"));
-        assert_eq!(unfollowed(Format::WebP, &webp(b"VP8X", 0x02)), Some("an animation"));
+        assert_eq!(
+            unfollowed(Format::WebP, &webp(b"VP8X", 0x20)),
+            Some("colours of its own")
+        );
+        assert_eq!(
+            unfollowed(Format::WebP, &webp(b"VP8X", 0x02)),
+            Some("an animation")
+        );
         assert_eq!(unfollowed(Format::WebP, &webp(b"VP8L", 0x22)), None);
     }
 }

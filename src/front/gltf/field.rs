@@ -1,4 +1,5 @@
-//! The properties of an object as values, once its shape was checked: what is absent or wrong is simply not there.
+//! The properties of an object as values, once its shape was checked: what is absent or wrong is
+//! simply not there.
 
 use super::json::{Kind, NodeId, Tree};
 
@@ -24,7 +25,9 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// The object that `key` holds.
     pub(super) fn object(&self, key: &str) -> Option<Self> {
-        let at = self.node(key).filter(|at| self.json.kind(*at) == Kind::Map)?;
+        let at = self
+            .node(key)
+            .filter(|at| self.json.kind(*at) == Kind::Map)?;
         Some(Self { at, ..*self })
     }
 
@@ -37,7 +40,9 @@ impl<'t, 's> Fields<'t, 's> {
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
         let (json, list) = (self.json, self.node(key));
         let list = list.filter(|list| json.kind(*list) == Kind::List);
-        list.into_iter().flat_map(|list| json.items(list)).map(|at| Self { json, at })
+        list.into_iter()
+            .flat_map(|list| json.items(list))
+            .map(|at| Self { json, at })
     }
 
     pub(super) fn whole(&self, key: &str) -> Option<u64> {
@@ -46,17 +51,22 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// An index or a size.
     pub(super) fn index(&self, key: &str) -> Option<usize> {
-        self.whole(key).and_then(|number| usize::try_from(number).ok())
+        self.whole(key)
+            .and_then(|number| usize::try_from(number).ok())
     }
 
     pub(super) fn indices(&self, key: &str) -> Vec<usize> {
         let items = self.json.list(self.at, key);
-        items.filter_map(|item| usize::try_from(self.json.whole(item)?).ok()).collect()
+        items
+            .filter_map(|item| usize::try_from(self.json.whole(item)?).ok())
+            .collect()
     }
 
     /// A finite number.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
-        self.json.number(self.node(key)?).filter(|number| number.is_finite())
+        self.json
+            .number(self.node(key)?)
+            .filter(|number| number.is_finite())
     }
 
     pub(super) fn number_or(&self, key: &str, default: f64) -> f64 {
@@ -65,8 +75,13 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// A list of finite numbers, whatever their number.
     pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
-        let list = self.node(key).filter(|list| self.json.kind(*list) == Kind::List)?;
-        self.json.items(list).map(|item| self.json.number(item).filter(|number| number.is_finite())).collect()
+        let list = self
+            .node(key)
+            .filter(|list| self.json.kind(*list) == Kind::List)?;
+        self.json
+            .items(list)
+            .map(|item| self.json.number(item).filter(|number| number.is_finite()))
+            .collect()
     }
 
     /// A list of just so many finite numbers.
@@ -79,11 +94,15 @@ impl<'t, 's> Fields<'t, 's> {
     }
 
     pub(super) fn truth(&self, key: &str) -> bool {
-        self.node(key).and_then(|node| self.json.truth(node)).unwrap_or_default()
+        self.node(key)
+            .and_then(|node| self.json.truth(node))
+            .unwrap_or_default()
     }
 
     pub(super) fn text(&self, key: &str) -> Option<String> {
-        self.json.text(self.node(key)?).map(std::borrow::Cow::into_owned)
+        self.json
+            .text(self.node(key)?)
+            .map(std::borrow::Cow::into_owned)
     }
 
     /// True if `key` holds the text given.

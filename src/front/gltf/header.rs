@@ -8,7 +8,8 @@ use crate::diag::codes;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
-/// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of several vendors.
+/// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
+/// several vendors.
 const PREFIXES: &[&str] = &[
     "3DTILES",
     "ADOBE",
@@ -67,21 +68,48 @@ const PREFIXES: &[&str] = &[
 
 /// Checks the version. True if it is 2, whatever comes after the point.
 pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
-    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else { return false };
-    let Some((at, (major, minor))) = version(asset, "version") else { return false };
+    let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else {
+        return false;
+    };
+    let Some((at, (major, minor))) = version(asset, "version") else {
+        return false;
+    };
     if major != 2 {
         let message = format!("the asset is glTF {major}.{minor}, not 2");
-        report.say(&codes::GLTF_VERSION, "UNKNOWN_ASSET_MAJOR_VERSION", at, message);
+        report.say(
+            &codes::GLTF_VERSION,
+            "UNKNOWN_ASSET_MAJOR_VERSION",
+            at,
+            message,
+        );
     } else if minor > 0 {
         let message = format!("the asset is glTF {major}.{minor} and is read as 2.0");
-        report.say(&codes::GLTF_MINOR_VERSION, "UNKNOWN_ASSET_MINOR_VERSION", at, message);
+        report.say(
+            &codes::GLTF_MINOR_VERSION,
+            "UNKNOWN_ASSET_MINOR_VERSION",
+            at,
+            message,
+        );
     }
-    let Some((at, least)) = version(asset, "minVersion") else { return major == 2 };
+    let Some((at, least)) = version(asset, "minVersion") else {
+        return major == 2;
+    };
     if least > (major, minor) {
-        let message = format!("the asset needs glTF {}.{}, and says that it is {major}.{minor}", least.0, least.1);
-        report.say(&codes::GLTF_VERSION, "ASSET_MIN_VERSION_GREATER_THAN_VERSION", at, message);
+        let message = format!(
+            "the asset needs glTF {}.{}, and says that it is {major}.{minor}",
+            least.0, least.1
+        );
+        report.say(
+            &codes::GLTF_VERSION,
+            "ASSET_MIN_VERSION_GREATER_THAN_VERSION",
+            at,
+            message,
+        );
     } else if least > (2, 0) {
-        let message = format!("the asset needs glTF {}.{}, and this rtc reads 2.0", least.0, least.1);
+        let message = format!(
+            "the asset needs glTF {}.{}, and this rtc reads 2.0",
+            least.0, least.1
+        );
         report.say(&codes::GLTF_VERSION, "", at, message);
     }
     major == 2
@@ -100,26 +128,50 @@ fn version(asset: Fields<'_, '_>, key: &str) -> Option<(super::json::NodeId, (u6
 /// Checks the lists of extensions; one that is required and not supported is refused.
 pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
     let json = report.json;
-    let texts = |key| -> Vec<_> { json.list(json.root(), key).filter_map(|at| Some((at, json.text(at)?))).collect() };
+    let texts = |key| -> Vec<_> {
+        json.list(json.root(), key)
+            .filter_map(|at| Some((at, json.text(at)?)))
+            .collect()
+    };
     let (used, required) = (texts("extensionsUsed"), texts("extensionsRequired"));
     let names = |list: &[(NodeId, Cow<'_, str>)]| -> BTreeSet<String> {
         list.iter().map(|(_, name)| name.to_string()).collect()
     };
     let (used_names, required_names) = (names(&used), names(&required));
     let has_used = json.get(json.root(), "extensionsUsed").is_some();
-    if let Some(at) = json.get(json.root(), "extensionsRequired").filter(|_| !has_used) {
+    if let Some(at) = json
+        .get(json.root(), "extensionsRequired")
+        .filter(|_| !has_used)
+    {
         let message = "extensions are required, and none is listed in `extensionsUsed`".to_owned();
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
         if !used_names.contains(&**name) {
-            let message = format!("`{}` is required and not listed in `extensionsUsed`", shown(name));
-            report.say(&codes::GLTF_EXTENSION, "UNUSED_EXTENSION_REQUIRED", *at, message);
+            let message = format!(
+                "`{}` is required and not listed in `extensionsUsed`",
+                shown(name)
+            );
+            report.say(
+                &codes::GLTF_EXTENSION,
+                "UNUSED_EXTENSION_REQUIRED",
+                *at,
+                message,
+            );
         }
         if !schema::is_supported(name) {
-            let message = format!("the asset requires the extension `{}`, which is not supported", shown(name));
+            let message = format!(
+                "the asset requires the extension `{}`, which is not supported",
+                shown(name)
+            );
             let hint = "export the asset without it".to_owned();
-            report.advise(&codes::GLTF_REQUIRES, "UNSUPPORTED_EXTENSION", *at, message, hint);
+            report.advise(
+                &codes::GLTF_REQUIRES,
+                "UNSUPPORTED_EXTENSION",
+                *at,
+                message,
+                hint,
+            );
         }
     }
     let in_materials = in_materials(report);
@@ -128,29 +180,54 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
         let needed = name == "KHR_mesh_quantization";
         if needed && !is_required {
             let message = format!("no reader can do without `{name}`, so it must be required");
-            report.say(&codes::GLTF_EXTENSION, "NON_REQUIRED_EXTENSION", *at, message);
+            report.say(
+                &codes::GLTF_EXTENSION,
+                "NON_REQUIRED_EXTENSION",
+                *at,
+                message,
+            );
         }
         if !is_required && !schema::is_supported(name) {
             if in_materials.contains(&**name) {
-                let message = format!("materials have `{}`, which is not drawn: they look otherwise", shown(name));
+                let message = format!(
+                    "materials have `{}`, which is not drawn: they look otherwise",
+                    shown(name)
+                );
                 report.say(&codes::GLTF_MATERIAL_ODD, "", *at, message);
             } else {
                 let message = format!("the extension `{}` has no effect", shown(name));
-                let alias =
-                    if schema::find(name).is_none() { "UNSUPPORTED_EXTENSION" } else { "INCOMPLETE_EXTENSION_SUPPORT" };
+                let alias = if schema::find(name).is_none() {
+                    "UNSUPPORTED_EXTENSION"
+                } else {
+                    "INCOMPLETE_EXTENSION_SUPPORT"
+                };
                 report.say(&codes::GLTF_IGNORES, alias, *at, message);
             }
         }
         match name.split_once('_') {
             Some((prefix, rest)) if !prefix.is_empty() && !rest.is_empty() => {
                 if !PREFIXES.contains(&prefix) {
-                    let message = format!("`{}` is no registered prefix of extensions", shown(prefix));
-                    report.say(&codes::GLTF_EXTENSION_ODD, "UNRESERVED_EXTENSION_PREFIX", *at, message);
+                    let message =
+                        format!("`{}` is no registered prefix of extensions", shown(prefix));
+                    report.say(
+                        &codes::GLTF_EXTENSION_ODD,
+                        "UNRESERVED_EXTENSION_PREFIX",
+                        *at,
+                        message,
+                    );
                 }
             }
             _ => {
-                let message = format!("`{}` is no name of an extension, as `KHR_lights_punctual` is", shown(name));
-                report.say(&codes::GLTF_EXTENSION_ODD, "INVALID_EXTENSION_NAME_FORMAT", *at, message);
+                let message = format!(
+                    "`{}` is no name of an extension, as `KHR_lights_punctual` is",
+                    shown(name)
+                );
+                report.say(
+                    &codes::GLTF_EXTENSION_ODD,
+                    "INVALID_EXTENSION_NAME_FORMAT",
+                    *at,
+                    message,
+                );
             }
         }
     }
@@ -159,7 +236,11 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
 /// The extensions that some material has.
 fn in_materials(report: &Report<'_, '_>) -> BTreeSet<String> {
     let json = report.json;
-    let extensions = json.list(json.root(), "materials").filter_map(|material| json.get(material, "extensions"));
-    let keys = extensions.flat_map(|all| json.pairs(all)).filter_map(|(key, _)| json.text(key));
+    let extensions = json
+        .list(json.root(), "materials")
+        .filter_map(|material| json.get(material, "extensions"));
+    let keys = extensions
+        .flat_map(|all| json.pairs(all))
+        .filter_map(|(key, _)| json.text(key));
     keys.map(std::borrow::Cow::into_owned).collect()
 }

@@ -74,7 +74,9 @@ fn jpeg_ends_early(bytes: &[u8]) -> bool {
     loop {
         match (bytes.get(at), bytes.get(at + 1)) {
             (Some(0xff), Some(0xff)) => at += 1,
-            (Some(0xff), Some(0xc0..=0xc3 | 0xc5..=0xc7 | 0xc9..=0xcb | 0xcd..=0xcf)) => return bytes.len() < at + 9,
+            (Some(0xff), Some(0xc0..=0xc3 | 0xc5..=0xc7 | 0xc9..=0xcb | 0xcd..=0xcf)) => {
+                return bytes.len() < at + 9;
+            }
             (Some(0xff), Some(0x01 | 0xd0..=0xd7)) => at += 2,
             (Some(0xff), Some(_)) => match bytes.get(at + 2..at + 4) {
                 Some(length) => {
@@ -119,21 +121,37 @@ impl Document<'_> {
 
 /// Checks what is written about each image.
 pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
-    for image in doc.images.iter().filter(|image| report.json.kind(image.at) == Kind::Map) {
+    for image in doc
+        .images
+        .iter()
+        .filter(|image| report.json.kind(image.at) == Kind::Map)
+    {
         let fields = Fields::new(report.json, image.at);
         if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
             let message = "an image has a `uri` or a `bufferView`, and one only".to_owned();
             report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", image.at, message);
         }
-        let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else { continue };
+        let Some(at) = fields.node("bufferView").filter(|_| image.view.is_some()) else {
+            continue;
+        };
         if fields.text("mimeType").is_none() {
-            let message = "an image in a buffer view has a `mimeType`, and this has none".to_owned();
+            let message =
+                "an image in a buffer view has a `mimeType`, and this has none".to_owned();
             report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
         }
         purposes.set(image.view, Purpose::Image, at, report);
-        if image.view.and_then(|view| doc.views.get(view)).is_some_and(|view| view.stride.is_some()) {
+        if image
+            .view
+            .and_then(|view| doc.views.get(view))
+            .is_some_and(|view| view.stride.is_some())
+        {
             let message = "the view of an image has a stride".to_owned();
-            report.say(&codes::GLTF_VIEW, "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", at, message);
+            report.say(
+                &codes::GLTF_VIEW,
+                "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE",
+                at,
+                message,
+            );
         }
     }
 }
@@ -146,24 +164,45 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
     let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
-        let Some(bytes) = doc.image_bytes(image) else { continue };
+        let Some(bytes) = doc.image_bytes(image) else {
+            continue;
+        };
         let (at, media) = (image.at, image.media.as_deref());
         let Some(format) = Format::of(bytes) else {
             let message = "the image is neither PNG nor JPEG nor WebP".to_owned();
-            report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_UNRECOGNIZED_FORMAT", at, message);
+            report.say(
+                &codes::GLTF_IMAGE_ODD,
+                "IMAGE_UNRECOGNIZED_FORMAT",
+                at,
+                message,
+            );
             continue;
         };
         if let Some(media) = media.filter(|media| *media != format.media()) {
-            let message = format!("the image is {}, not {}, as is said", format.media(), super::report::shown(media));
+            let message = format!(
+                "the image is {}, not {}, as is said",
+                format.media(),
+                super::report::shown(media)
+            );
             report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
         }
         if format == Format::WebP && !doc.uses("EXT_texture_webp") {
             let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
-            report.say(&codes::GLTF_IMAGE, "IMAGE_NON_ENABLED_MIME_TYPE", at, message);
+            report.say(
+                &codes::GLTF_IMAGE,
+                "IMAGE_NON_ENABLED_MIME_TYPE",
+                at,
+                message,
+            );
         }
         if let Some(what) = features::unfollowed(format, bytes) {
             let message = format!("the image has {what}, and that is not followed");
-            report.say(&codes::GLTF_IMAGE_ODD, "IMAGE_FEATURES_UNSUPPORTED", at, message);
+            report.say(
+                &codes::GLTF_IMAGE_ODD,
+                "IMAGE_FEATURES_UNSUPPORTED",
+                at,
+                message,
+            );
         }
         let own = stretch(bytes);
         let picture = match known.get(&own) {
@@ -204,14 +243,23 @@ enum Refusal {
 fn picture(format: Format, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
-        return Err(Refusal::Fault((&codes::GLTF_IMAGE, "IMAGE_UNEXPECTED_EOS", message)));
+        return Err(Refusal::Fault((
+            &codes::GLTF_IMAGE,
+            "IMAGE_UNEXPECTED_EOS",
+            message,
+        )));
     }
     let pixels = pixels::decode(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
         Refused::Limit(fault) => Refusal::Limit(fault),
         Refused::File(fault) => {
             let (code, alias) = match fault {
-                DecodeError::TooLarge { width: _, height: _ } => (&codes::GLTF_HUGE_IMAGE, ""),
-                DecodeError::Format(_) | DecodeError::Damaged(_) => (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID"),
+                DecodeError::TooLarge {
+                    width: _,
+                    height: _,
+                } => (&codes::GLTF_HUGE_IMAGE, ""),
+                DecodeError::Format(_) | DecodeError::Damaged(_) => {
+                    (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
+                }
             };
             Refusal::Fault((code, alias, format!("the image {fault}")))
         }
@@ -220,7 +268,11 @@ fn picture(format: Format, bytes: &[u8], budget: &Budget) -> Result<ir::Image, R
         name: String::new(),
         width: pixels.width,
         height: pixels.height,
-        kind: if pixels.has_alpha { ir::Pixels::Rgba8 } else { ir::Pixels::Rgb8 },
+        kind: if pixels.has_alpha {
+            ir::Pixels::Rgba8
+        } else {
+            ir::Pixels::Rgb8
+        },
         pixels: pixels.bytes.into(),
     })
 }

@@ -11,9 +11,17 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
         let fields = Fields::new(report.json, *light);
         if fields.is("type", "spot") && !fields.has("spot") {
             let message = "the light has no `spot`".to_owned();
-            report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", fields.at, message);
+            report.say(
+                &codes::GLTF_MISSING,
+                "UNDEFINED_PROPERTY",
+                fields.at,
+                message,
+            );
         }
-        if let Some(at) = fields.node("range").filter(|_| fields.is("type", "directional")) {
+        if let Some(at) = fields
+            .node("range")
+            .filter(|_| fields.is("type", "directional"))
+        {
             let message = "a directional light reaches everywhere".to_owned();
             report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
@@ -21,13 +29,21 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
             let message = "only a spot light has a cone".to_owned();
             report.say(&codes::GLTF_REMARK, "EXTRA_PROPERTY", at, message);
         }
-        let Some(spot) = fields.object("spot") else { continue };
+        let Some(spot) = fields.object("spot") else {
+            continue;
+        };
         let inner = spot.number_or("innerConeAngle", 0.0);
         let outer = spot.number_or("outerConeAngle", std::f64::consts::FRAC_PI_4);
         if outer <= inner {
             let at = report.json.at_or(spot.at, "outerConeAngle");
-            let message = format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
-            report.say(&codes::GLTF_VALUE, "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", at, message);
+            let message =
+                format!("the outer cone opens by {outer}, no wider than the inner one, by {inner}");
+            report.say(
+                &codes::GLTF_VALUE,
+                "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES",
+                at,
+                message,
+            );
         }
     }
 }

@@ -7,22 +7,43 @@ use super::report::Report;
 use crate::diag::codes;
 
 /// Each texture of a material with the set of texture coordinates it asks for.
-pub(super) fn texture_coordinates(doc: &Document<'_>, json: &Tree<'_>, material: NodeId) -> Vec<(NodeId, u64)> {
+pub(super) fn texture_coordinates(
+    doc: &Document<'_>,
+    json: &Tree<'_>,
+    material: NodeId,
+) -> Vec<(NodeId, u64)> {
     let parts = json.at(material, &["pbrMetallicRoughness"]).into_iter();
     let is_used = |key: NodeId| json.text(key).is_some_and(|name| doc.uses(&name));
-    let extensions = json.get(material, "extensions").into_iter().flat_map(|all| json.pairs(all));
-    let extensions = extensions.filter(|(key, _)| is_used(*key)).map(|(_, one)| one);
+    let extensions = json
+        .get(material, "extensions")
+        .into_iter()
+        .flat_map(|all| json.pairs(all));
+    let extensions = extensions
+        .filter(|(key, _)| is_used(*key))
+        .map(|(_, one)| one);
     let holders = std::iter::once(material).chain(parts).chain(extensions);
     let mut found = Vec::new();
     for (key, at) in holders.flat_map(|holder| json.pairs(holder)) {
-        let is_texture = json.text(key).is_some_and(|key| key.ends_with("Texture")) && json.kind(at) == Kind::Map;
+        let is_texture = json.text(key).is_some_and(|key| key.ends_with("Texture"))
+            && json.kind(at) == Kind::Map;
         if !is_texture {
             continue;
         }
         let fields = Fields::new(json, at);
-        let transform = fields.extension("KHR_texture_transform").filter(|_| doc.uses("KHR_texture_transform"));
+        let transform = fields
+            .extension("KHR_texture_transform")
+            .filter(|_| doc.uses("KHR_texture_transform"));
         let transform = transform.and_then(|fields| Some((fields.at, fields.whole("texCoord")?)));
-        let own = || Some((at, if fields.has("texCoord") { fields.whole("texCoord")? } else { 0 }));
+        let own = || {
+            Some((
+                at,
+                if fields.has("texCoord") {
+                    fields.whole("texCoord")?
+                } else {
+                    0
+                },
+            ))
+        };
         found.extend(transform.or_else(own));
     }
     found
@@ -30,19 +51,34 @@ pub(super) fn texture_coordinates(doc: &Document<'_>, json: &Tree<'_>, material:
 
 /// True if a texture of the material follows tangents.
 pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bool {
-    let textures =
-        [("KHR_materials_clearcoat", "clearcoatNormalTexture"), ("KHR_materials_anisotropy", "anisotropyTexture")];
-    let has = |name, key| extension(doc, material, name).and_then(|own| own.object(key)).is_some();
-    material.object("normalTexture").is_some() || textures.into_iter().any(|(name, key)| has(name, key))
+    let textures = [
+        ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
+        ("KHR_materials_anisotropy", "anisotropyTexture"),
+    ];
+    let has = |name, key| {
+        extension(doc, material, name)
+            .and_then(|own| own.object(key))
+            .is_some()
+    };
+    material.object("normalTexture").is_some()
+        || textures.into_iter().any(|(name, key)| has(name, key))
 }
 
 /// Checks all materials.
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     for material in &doc.materials {
         let fields = Fields::new(report.json, *material);
-        if let Some(at) = fields.node("alphaCutoff").filter(|_| !fields.is("alphaMode", "MASK")) {
+        if let Some(at) = fields
+            .node("alphaCutoff")
+            .filter(|_| !fields.is("alphaMode", "MASK"))
+        {
             let message = "the cutoff has no effect without the mode `MASK`".to_owned();
-            report.say(&codes::GLTF_MATERIAL_ODD, "MATERIAL_ALPHA_CUTOFF_INVALID_MODE", at, message);
+            report.say(
+                &codes::GLTF_MATERIAL_ODD,
+                "MATERIAL_ALPHA_CUTOFF_INVALID_MODE",
+                at,
+                message,
+            );
         }
         check_models(fields, report);
         check_ior(doc, fields, report);
@@ -56,23 +92,36 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.
 fn check_models(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(extensions) = fields.node("extensions") else { return };
+    let Some(extensions) = fields.node("extensions") else {
+        return;
+    };
     let count = report.json.pairs(extensions).count();
     for name in ["KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"] {
         if let Some(one) = fields.extension(name).filter(|_| count > 1) {
             let message = format!("`{name}` does not go together with other extensions");
-            report.say(&codes::GLTF_EXTENSION_ODD, "MULTIPLE_EXTENSIONS", one.at, message);
+            report.say(
+                &codes::GLTF_EXTENSION_ODD,
+                "MULTIPLE_EXTENSIONS",
+                one.at,
+                message,
+            );
         }
     }
 }
 
 /// The object of an extension that the asset uses.
-fn extension<'t, 's>(doc: &Document<'_>, fields: Fields<'t, 's>, name: &str) -> Option<Fields<'t, 's>> {
+fn extension<'t, 's>(
+    doc: &Document<'_>,
+    fields: Fields<'t, 's>,
+    name: &str,
+) -> Option<Fields<'t, 's>> {
     fields.extension(name).filter(|_| doc.uses(name))
 }
 
 fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(ior) = extension(doc, fields, "KHR_materials_ior") else { return };
+    let Some(ior) = extension(doc, fields, "KHR_materials_ior") else {
+        return;
+    };
     if let (Some(at), Some(value)) = (ior.node("ior"), ior.number("ior"))
         && value > 0.0
         && value < 1.0
@@ -83,73 +132,136 @@ fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_,
 }
 
 fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else { return };
-    let [least, most] =
-        [film.number_or("iridescenceThicknessMinimum", 100.0), film.number_or("iridescenceThicknessMaximum", 400.0)];
+    let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else {
+        return;
+    };
+    let [least, most] = [
+        film.number_or("iridescenceThicknessMinimum", 100.0),
+        film.number_or("iridescenceThicknessMaximum", 400.0),
+    ];
     let texture = film.has("iridescenceThicknessTexture");
-    if let Some(at) = film.node("iridescenceThicknessMinimum").filter(|_| !texture) {
+    if let Some(at) = film
+        .node("iridescenceThicknessMinimum")
+        .filter(|_| !texture)
+    {
         let message = "the least thickness has no effect without a texture".to_owned();
         let alias = "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE";
         report.say(&codes::GLTF_REMARK, alias, at, message);
     }
     if texture && least > most {
-        let message = format!("the least thickness is {least}, above the greatest, which is {most}");
-        report.say(&codes::GLTF_VALUE, "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID", film.at, message);
+        let message =
+            format!("the least thickness is {least}, above the greatest, which is {most}");
+        report.say(
+            &codes::GLTF_VALUE,
+            "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID",
+            film.at,
+            message,
+        );
     } else if texture && least - most == 0.0 {
         let at = report.json.at_or(film.at, "iridescenceThicknessTexture");
         let message = "the texture has no effect: the least thickness is the greatest".to_owned();
-        report.say(&codes::GLTF_REMARK, "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED", at, message);
+        report.say(
+            &codes::GLTF_REMARK,
+            "KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED",
+            at,
+            message,
+        );
     }
 }
 
 fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(volume) = extension(doc, fields, "KHR_materials_volume") else { return };
+    let Some(volume) = extension(doc, fields, "KHR_materials_volume") else {
+        return;
+    };
     let code = &codes::GLTF_MATERIAL_ODD;
-    let entered = ["KHR_materials_transmission", "KHR_materials_diffuse_transmission"];
-    if !entered.iter().any(|name| extension(doc, fields, name).is_some()) {
+    let entered = [
+        "KHR_materials_transmission",
+        "KHR_materials_diffuse_transmission",
+    ];
+    if !entered
+        .iter()
+        .any(|name| extension(doc, fields, name).is_some())
+    {
         let message = "no light enters the volume: the material has no transmission".to_owned();
-        report.say(code, "KHR_MATERIALS_VOLUME_NO_TRANSMISSION", volume.at, message);
+        report.say(
+            code,
+            "KHR_MATERIALS_VOLUME_NO_TRANSMISSION",
+            volume.at,
+            message,
+        );
     }
     if fields.truth("doubleSided") && volume.number_or("thicknessFactor", 0.0) > 0.0 {
         let message = "a volume has one outside, and the material two".to_owned();
-        report.say(code, "KHR_MATERIALS_VOLUME_DOUBLE_SIDED", volume.at, message);
+        report.say(
+            code,
+            "KHR_MATERIALS_VOLUME_DOUBLE_SIDED",
+            volume.at,
+            message,
+        );
     }
 }
 
 fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     let volume = extension(doc, fields, "KHR_materials_volume");
-    if let Some(dispersion) = extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none()) {
-        let message = "only what enters a volume is dispersed, and the material has none".to_owned();
-        report.say(&codes::GLTF_MATERIAL_ODD, "KHR_MATERIALS_DISPERSION_NO_VOLUME", dispersion.at, message);
+    if let Some(dispersion) =
+        extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none())
+    {
+        let message =
+            "only what enters a volume is dispersed, and the material has none".to_owned();
+        report.say(
+            &codes::GLTF_MATERIAL_ODD,
+            "KHR_MATERIALS_DISPERSION_NO_VOLUME",
+            dispersion.at,
+            message,
+        );
     }
 }
 
 /// Textures that share tangents use the texture coordinates of the normal map.
 fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     let set = |texture: Fields<'_, '_>| texture.whole("texCoord").unwrap_or(0);
-    let Some(normal) = fields.object("normalTexture").map(set) else { return };
+    let Some(normal) = fields.object("normalTexture").map(set) else {
+        return;
+    };
     for (name, key, alias) in [
         (
             "KHR_materials_clearcoat",
             "clearcoatNormalTexture",
             "KHR_MATERIALS_CLEARCOAT_CLEARCOAT_NORMAL_TEXTURE_TEXCOORD",
         ),
-        ("KHR_materials_anisotropy", "anisotropyTexture", "KHR_MATERIALS_ANISOTROPY_ANISOTROPY_TEXTURE_TEXCOORD"),
+        (
+            "KHR_materials_anisotropy",
+            "anisotropyTexture",
+            "KHR_MATERIALS_ANISOTROPY_ANISOTROPY_TEXTURE_TEXCOORD",
+        ),
     ] {
         let texture = extension(doc, fields, name).and_then(|fields| fields.object(key));
         if let Some(texture) = texture.filter(|texture| set(*texture) != normal) {
-            let message = "the texture and the normal map use different texture coordinates".to_owned();
+            let message =
+                "the texture and the normal map use different texture coordinates".to_owned();
             report.say(&codes::GLTF_MATERIAL_ODD, alias, texture.at, message);
         }
     }
 }
 
 fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
-    let Some(strength) = extension(doc, fields, "KHR_materials_emissive_strength") else { return };
+    let Some(strength) = extension(doc, fields, "KHR_materials_emissive_strength") else {
+        return;
+    };
     let is_one = strength.number_or("emissiveStrength", 1.0) - 1.0 == 0.0;
-    if !is_one && fields.vector_or("emissiveFactor", [0.0; 3]).iter().all(|channel| *channel == 0.0) {
+    if !is_one
+        && fields
+            .vector_or("emissiveFactor", [0.0; 3])
+            .iter()
+            .all(|channel| *channel == 0.0)
+    {
         let message = "nothing emits: the emissive factor is zero".to_owned();
-        report.say(&codes::GLTF_MATERIAL_ODD, "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR", strength.at, message);
+        report.say(
+            &codes::GLTF_MATERIAL_ODD,
+            "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",
+            strength.at,
+            message,
+        );
     }
 }
 
@@ -159,16 +271,26 @@ pub(super) fn check_variants(doc: &Document<'_>, report: &mut Report<'_, '_>) {
         return;
     }
     for primitive in doc.meshes.iter().flat_map(|mesh| &mesh.primitives) {
-        let Some(variants) = Fields::new(report.json, primitive.at).extension("KHR_materials_variants") else {
+        let Some(variants) =
+            Fields::new(report.json, primitive.at).extension("KHR_materials_variants")
+        else {
             continue;
         };
         let mut seen = std::collections::BTreeSet::new();
         for mapping in variants.objects("mappings") {
             for item in report.json.list(mapping.at, "variants") {
-                let Some(variant) = report.json.whole(item) else { continue };
+                let Some(variant) = report.json.whole(item) else {
+                    continue;
+                };
                 if !seen.insert(variant) {
-                    let message = format!("the primitive has a material for variant {variant} already");
-                    report.say(&codes::GLTF_DUPLICATE, "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", item, message);
+                    let message =
+                        format!("the primitive has a material for variant {variant} already");
+                    report.say(
+                        &codes::GLTF_DUPLICATE,
+                        "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT",
+                        item,
+                        message,
+                    );
                 }
             }
         }

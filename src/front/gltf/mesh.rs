@@ -53,11 +53,14 @@ pub(super) struct Attribute {
 
 impl Mesh {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let primitives: Vec<Primitive> = fields.objects("primitives").map(Primitive::read).collect();
+        let primitives: Vec<Primitive> =
+            fields.objects("primitives").map(Primitive::read).collect();
         Self {
             at: fields.at,
             name: fields.name(),
-            is_skinned: primitives.iter().any(|primitive| primitive.find("JOINTS_0").is_some()),
+            is_skinned: primitives
+                .iter()
+                .any(|primitive| primitive.find("JOINTS_0").is_some()),
             primitives,
             weights: fields.numbers("weights").unwrap_or_default(),
         }
@@ -65,7 +68,9 @@ impl Mesh {
 
     /// How many morph targets its primitives have.
     pub(super) fn targets(&self) -> usize {
-        self.primitives.first().map_or(0, |primitive| primitive.targets.len())
+        self.primitives
+            .first()
+            .map_or(0, |primitive| primitive.targets.len())
     }
 
     /// True if some of its vertices follow joints; nothing is known of a mesh without primitives.
@@ -76,7 +81,10 @@ impl Mesh {
 
 impl Primitive {
     fn read(fields: Fields<'_, '_>) -> Self {
-        let attributes = fields.object("attributes").map(read_attributes).unwrap_or_default();
+        let attributes = fields
+            .object("attributes")
+            .map(read_attributes)
+            .unwrap_or_default();
         let mut sorted: Vec<usize> = (0..attributes.len()).collect();
         sorted.sort_by_key(|place| &attributes[*place].name);
         Self {
@@ -87,15 +95,23 @@ impl Primitive {
             material: fields.index("material"),
             mode: fields.whole("mode").unwrap_or(TRIANGLES),
             targets: fields.objects("targets").map(read_attributes).collect(),
-            draco: fields.extension("KHR_draco_mesh_compression").map(|fields| fields.at),
+            draco: fields
+                .extension("KHR_draco_mesh_compression")
+                .map(|fields| fields.at),
         }
     }
 
     /// The accessor of an attribute.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         let own = |place: usize| &self.attributes[place];
-        let first = self.sorted.partition_point(|place| own(*place).name.as_str() < name);
-        self.sorted.get(first).map(|place| own(*place)).filter(|own| own.name == name).map(|own| own.accessor)
+        let first = self
+            .sorted
+            .partition_point(|place| own(*place).name.as_str() < name);
+        self.sorted
+            .get(first)
+            .map(|place| own(*place))
+            .filter(|own| own.name == name)
+            .map(|own| own.accessor)
     }
 
     /// The accessors of the joints that vertices follow, and of their weights, set after set.
@@ -108,7 +124,11 @@ impl Primitive {
 fn read_attributes(fields: Fields<'_, '_>) -> Vec<Attribute> {
     let attribute = |(key, at): (NodeId, NodeId)| {
         let accessor = usize::try_from(fields.json.whole(at)?).ok()?;
-        Some(Attribute { at, name: fields.json.text(key)?.into_owned(), accessor })
+        Some(Attribute {
+            at,
+            name: fields.json.text(key)?.into_owned(),
+            accessor,
+        })
     };
     fields.json.pairs(fields.at).filter_map(attribute).collect()
 }
@@ -131,20 +151,42 @@ pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Repo
             check_primitive(doc, primitive, links, report);
         }
         let targets = mesh.targets();
-        for primitive in mesh.primitives.iter().filter(|primitive| primitive.targets.len() != targets) {
+        for primitive in mesh
+            .primitives
+            .iter()
+            .filter(|primitive| primitive.targets.len() != targets)
+        {
             let at = report.json.at_or(primitive.at, "targets");
-            let message = format!("{} morph targets, and the first primitive has {targets}", primitive.targets.len());
-            report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT", at, message);
+            let message = format!(
+                "{} morph targets, and the first primitive has {targets}",
+                primitive.targets.len()
+            );
+            report.say(
+                &codes::GLTF_COUNT,
+                "MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT",
+                at,
+                message,
+            );
         }
         if !mesh.weights.is_empty() && mesh.weights.len() != targets {
             let at = report.json.at_or(mesh.at, "weights");
             let message = format!("{} weights for {targets} morph targets", mesh.weights.len());
-            report.say(&codes::GLTF_COUNT, "MESH_INVALID_WEIGHTS_COUNT", at, message);
+            report.say(
+                &codes::GLTF_COUNT,
+                "MESH_INVALID_WEIGHTS_COUNT",
+                at,
+                message,
+            );
         }
     }
 }
 
-fn check_primitive(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
+fn check_primitive(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
     attribute::check_names(primitive, report);
     if primitive.mode < TRIANGLES {
         let message = "the primitive has points or lines, which are not drawn".to_owned();
@@ -152,9 +194,15 @@ fn check_primitive(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<
     }
     let mut vertices = None;
     for attribute in &primitive.attributes {
-        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else { continue };
-        links.usages.set(attribute.accessor, Usage::Vertices, attribute.at, report);
-        links.purposes.set(accessor.view, Purpose::Vertices, attribute.at, report);
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
+            continue;
+        };
+        links
+            .usages
+            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
+        links
+            .purposes
+            .set(accessor.view, Purpose::Vertices, attribute.at, report);
         attribute::check_format(doc, attribute, accessor, false, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
         attribute::demand(attribute, accessor, links.demands);
@@ -162,8 +210,16 @@ fn check_primitive(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<
             None => vertices = accessor.count,
             Some(first) if accessor.count != Some(first) => {
                 let count = accessor.count.unwrap_or(0);
-                let message = format!("`{}` has {count} elements, and the first attribute {first}", attribute.name);
-                report.say(&codes::GLTF_COUNT, "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", attribute.at, message);
+                let message = format!(
+                    "`{}` has {count} elements, and the first attribute {first}",
+                    attribute.name
+                );
+                report.say(
+                    &codes::GLTF_COUNT,
+                    "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
+                    attribute.at,
+                    message,
+                );
             }
             Some(_) => {}
         }
@@ -184,25 +240,61 @@ fn check_indices(
     if let Some((index, accessor)) = indices {
         let at = report.json.at_or(primitive.at, "indices");
         links.usages.set(index, Usage::Indices, at, report);
-        links.purposes.set(accessor.view, Purpose::Indices, at, report);
-        if accessor.view.and_then(|view| doc.views.get(view)).is_some_and(|view| view.stride.is_some()) {
+        links
+            .purposes
+            .set(accessor.view, Purpose::Indices, at, report);
+        if accessor
+            .view
+            .and_then(|view| doc.views.get(view))
+            .is_some_and(|view| view.stride.is_some())
+        {
             let message = "the view of the indices has a stride".to_owned();
-            report.say(&codes::GLTF_VIEW, "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", at, message);
+            report.say(
+                &codes::GLTF_VIEW,
+                "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE",
+                at,
+                message,
+            );
         }
-        let is_index = |layout: Layout| layout.component.is_index() && layout.components() == 1 && !layout.normalized;
+        let is_index = |layout: Layout| {
+            layout.component.is_index() && layout.components() == 1 && !layout.normalized
+        };
         if accessor.layout.is_some_and(is_index) {
-            links.demands.add(index, Demand::Below(vertices.unwrap_or(0), primitive.mode), at);
+            links.demands.add(
+                index,
+                Demand::Below(vertices.unwrap_or(0), primitive.mode),
+                at,
+            );
         } else {
-            let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+            let found = accessor
+                .layout
+                .map_or("of no known type".to_owned(), Layout::name);
             let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
-            report.say(&codes::GLTF_FORMAT, "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", at, message);
+            report.say(
+                &codes::GLTF_FORMAT,
+                "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT",
+                at,
+                message,
+            );
         }
     }
-    let count = if primitive.indices.is_some() { indices.and_then(|(_, indices)| indices.count) } else { vertices };
+    let count = if primitive.indices.is_some() {
+        indices.and_then(|(_, indices)| indices.count)
+    } else {
+        vertices
+    };
     if let Some(count) = count.filter(|count| !fills(primitive.mode, *count)) {
         let at = report.json.at_or(primitive.at, "mode");
-        let message = format!("{count} vertices or indices leave some over in mode {}", primitive.mode);
-        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_INCOMPATIBLE_MODE", at, message);
+        let message = format!(
+            "{count} vertices or indices leave some over in mode {}",
+            primitive.mode
+        );
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
+            at,
+            message,
+        );
     }
 }
 
@@ -217,60 +309,128 @@ fn fills(mode: u64, count: usize) -> bool {
     }
 }
 
-fn check_targets(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
+fn check_targets(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
     for attribute in primitive.targets.iter().flatten() {
-        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else { continue };
-        links.usages.set(attribute.accessor, Usage::Vertices, attribute.at, report);
-        links.purposes.set(accessor.view, Purpose::Vertices, attribute.at, report);
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
+            continue;
+        };
+        links
+            .usages
+            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
+        links
+            .purposes
+            .set(accessor.view, Purpose::Vertices, attribute.at, report);
         attribute::check_format(doc, attribute, accessor, true, report);
         attribute::check_place(doc, attribute, accessor, links.streams, report);
         let Some(base) = primitive.find(&attribute.name) else {
-            let message = format!("the target moves `{}`, which the primitive has not", attribute.name);
-            report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR", attribute.at, message);
+            let message = format!(
+                "the target moves `{}`, which the primitive has not",
+                attribute.name
+            );
+            report.say(
+                &codes::GLTF_ATTRIBUTE,
+                "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
+                attribute.at,
+                message,
+            );
             continue;
         };
         let base = doc.accessors.get(base).and_then(|base| base.count);
         if let Some(base) = base.filter(|base| accessor.count != Some(*base)) {
-            let message = format!("{} elements, and the primitive has {base} vertices", accessor.count.unwrap_or(0));
+            let message = format!(
+                "{} elements, and the primitive has {base} vertices",
+                accessor.count.unwrap_or(0)
+            );
             let alias = "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT";
             report.say(&codes::GLTF_COUNT, alias, attribute.at, message);
         }
     }
 }
 
-fn check_material(doc: &Document<'_>, primitive: &Primitive, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
-    let Some(material) = primitive.material.and_then(|material| doc.materials.get(material)) else { return };
+fn check_material(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    let Some(material) = primitive
+        .material
+        .and_then(|material| doc.materials.get(material))
+    else {
+        return;
+    };
     let textures = || material::texture_coordinates(doc, report.json, *material);
     for (binding, set) in &*links.textures.entry(*material).or_insert_with(textures) {
         if primitive.find(&format!("TEXCOORD_{set}")).is_none() {
             let at = report.json.at_or(primitive.at, "material");
-            let message = format!("the material needs `TEXCOORD_{set}` for `{}`", report.json.pointer(*binding));
-            report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", at, message);
+            let message = format!(
+                "the material needs `TEXCOORD_{set}` for `{}`",
+                report.json.pointer(*binding)
+            );
+            report.say(
+                &codes::GLTF_ATTRIBUTE,
+                "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
+                at,
+                message,
+            );
         }
     }
 }
 
 /// Checks that there are tangents where the material looks at them, and none where not.
 fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut Report<'_, '_>) {
-    let material = primitive.material.and_then(|material| doc.materials.get(material));
+    let material = primitive
+        .material
+        .and_then(|material| doc.materials.get(material));
     let material = material.map(|material| Fields::new(report.json, *material));
     let is_needed = material.is_some_and(|material| material::needs_tangents(doc, material));
-    let find = |name| primitive.attributes.iter().find(|attribute| attribute.name == name);
+    let find = |name| {
+        primitive
+            .attributes
+            .iter()
+            .find(|attribute| attribute.name == name)
+    };
     if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
-        let message = "no texture of the material follows tangents, so they have no effect".to_owned();
-        report.say(&codes::GLTF_REMARK, "UNUSED_MESH_TANGENT", tangent.at, message);
+        let message =
+            "no texture of the material follows tangents, so they have no effect".to_owned();
+        report.say(
+            &codes::GLTF_REMARK,
+            "UNUSED_MESH_TANGENT",
+            tangent.at,
+            message,
+        );
     }
-    let (Some(material), true) = (material, is_needed) else { return };
+    let (Some(material), true) = (material, is_needed) else {
+        return;
+    };
     if find("TANGENT").is_some() && find("NORMAL").is_some() {
         return;
     }
     let at = report.json.at_or(primitive.at, "material");
     if material.object("normalTexture").is_some() {
-        let message = "the material has a normal map, and the tangents it follows are made up".to_owned();
-        report.say(&codes::GLTF_PRIMITIVE_ODD, "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE", at, message);
+        let message =
+            "the material has a normal map, and the tangents it follows are made up".to_owned();
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE",
+            at,
+            message,
+        );
     } else {
-        let message = "the material needs tangents, and there are none, nor a normal map to make them by".to_owned();
-        report.say(&codes::GLTF_ATTRIBUTE, "MESH_PRIMITIVE_NO_TANGENT_SPACE", at, message);
+        let message =
+            "the material needs tangents, and there are none, nor a normal map to make them by"
+                .to_owned();
+        report.say(
+            &codes::GLTF_ATTRIBUTE,
+            "MESH_PRIMITIVE_NO_TANGENT_SPACE",
+            at,
+            message,
+        );
     }
 }
 

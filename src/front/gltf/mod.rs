@@ -1,7 +1,9 @@
-//! glTF 2.0, from bytes to an asset that is known to be sound: container, JSON, structure, references, contents.
+//! glTF 2.0, from bytes to an asset that is known to be sound: container, JSON, structure,
+//! references, contents.
 //!
-//! All mistakes are reported, each with its bytes and its JSON pointer. Nothing recurses, nothing is read outside the
-//! folder of the asset, and what the asset claims is looked at before memory is taken.
+//! All mistakes are reported, each with its bytes and its JSON pointer. Nothing recurses, nothing
+//! is read outside the folder of the asset, and what the asset claims is looked at before memory is
+//! taken.
 
 mod accessor;
 mod animation;
@@ -50,7 +52,8 @@ use usage::Usages;
 /// The mark that some programs put before a text, and glTF forbids.
 const BOM: &str = "\u{feff}";
 
-/// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is that of the file.
+/// True if the bytes are a glTF asset: a `.glb`, or a JSON object that is not the IR. `name` is
+/// that of the file.
 #[must_use]
 pub fn recognise(name: &str, bytes: &[u8]) -> bool {
     let says_so = || memchr::memmem::find(bytes, b"\"asset\"").is_some();
@@ -65,8 +68,13 @@ pub fn begins(head: &[u8]) -> bool {
 
 /// True if the bytes open a JSON object with a key.
 fn opens_object(bytes: &[u8]) -> bool {
-    let text = bytes.strip_prefix(BOM.as_bytes()).unwrap_or(bytes).trim_ascii_start();
-    text.strip_prefix(b"{").map(<[u8]>::trim_ascii_start).is_some_and(|key| key.starts_with(b"\""))
+    let text = bytes
+        .strip_prefix(BOM.as_bytes())
+        .unwrap_or(bytes)
+        .trim_ascii_start();
+    text.strip_prefix(b"{")
+        .map(<[u8]>::trim_ascii_start)
+        .is_some_and(|key| key.starts_with(b"\""))
 }
 
 /// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
@@ -78,7 +86,10 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
         Ok(tree) => tree,
         Err(fault) => {
             let at = base + u32::try_from(fault.at).unwrap_or(u32::MAX - base);
-            sink.push(not_json(Span::new(file, at, at), &format!("the text is not JSON: {}", fault.what)));
+            sink.push(not_json(
+                Span::new(file, at, at),
+                &format!("the text is not JSON: {}", fault.what),
+            ));
             return None;
         }
     };
@@ -103,28 +114,48 @@ fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
     if container::is_glb(map.name(file), bytes) {
         container::open(file, bytes, sink)
     } else {
-        Some(Parts { json: 0..bytes.len(), bin: None, is_glb: false, is_whole: true })
+        Some(Parts {
+            json: 0..bytes.len(),
+            bin: None,
+            is_glb: false,
+            is_whole: true,
+        })
     }
 }
 
 /// The text of an asset, and where it begins in its file.
-fn text<'s>(file: FileId, bytes: &'s [u8], parts: &Parts, sink: &mut Sink) -> Option<(u32, &'s str)> {
+fn text<'s>(
+    file: FileId,
+    bytes: &'s [u8],
+    parts: &Parts,
+    sink: &mut Sink,
+) -> Option<(u32, &'s str)> {
     let offset = |at: usize| u32::try_from(parts.json.start + at).unwrap_or(u32::MAX);
     let text = match std::str::from_utf8(&bytes[parts.json.clone()]) {
         Ok(text) => text,
         Err(error) => {
             let at = offset(error.valid_up_to());
-            sink.push(not_json(Span::new(file, at, at + 1), "the text is not UTF-8"));
+            sink.push(not_json(
+                Span::new(file, at, at + 1),
+                "the text is not UTF-8",
+            ));
             return None;
         }
     };
-    let Some(rest) = text.strip_prefix(BOM) else { return Some((offset(0), text)) };
-    sink.push(not_json(Span::new(file, offset(0), offset(BOM.len())), "the text starts with a byte order mark"));
+    let Some(rest) = text.strip_prefix(BOM) else {
+        return Some((offset(0), text));
+    };
+    sink.push(not_json(
+        Span::new(file, offset(0), offset(BOM.len())),
+        "the text starts with a byte order mark",
+    ));
     Some((offset(BOM.len()), rest))
 }
 
 fn not_json(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(span, "here").alias("INVALID_JSON")
+    Diagnostic::new(&codes::GLTF_NOT_JSON, message)
+        .at(span, "here")
+        .alias("INVALID_JSON")
 }
 
 fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
@@ -132,14 +163,22 @@ fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
         sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
             let key = report::shown(&tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
-            let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message).at(tree.span(*second), "the second");
-            finding.also(tree.span(*first), "the first").pointer(tree.pointer(*second))
+            let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
+                .at(tree.span(*second), "the second");
+            finding
+                .also(tree.span(*first), "the first")
+                .pointer(tree.pointer(*second))
         });
     }
 }
 
-/// Checks the JSON of an asset for itself. Of one that is not glTF 2 nothing is known beyond its header.
-fn shape<'s>(tree: &'s Tree<'s>, is_glb: bool, report: &mut Report<'_, 's>) -> Option<Document<'s>> {
+/// Checks the JSON of an asset for itself. Of one that is not glTF 2 nothing is known beyond its
+/// header.
+fn shape<'s>(
+    tree: &'s Tree<'s>,
+    is_glb: bool,
+    report: &mut Report<'_, 's>,
+) -> Option<Document<'s>> {
     let is_known = header::check_version(report);
     schema::walk(is_known, report);
     header::check_extensions(report);
@@ -187,7 +226,12 @@ fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
     };
     mesh::check(doc, &mut links, report);
     let forest = node::check(doc, report);
-    skin::check(doc, &forest, (&mut purposes, &mut usages, &mut demands), report);
+    skin::check(
+        doc,
+        &forest,
+        (&mut purposes, &mut usages, &mut demands),
+        report,
+    );
     animation::check(doc, &mut (&mut purposes, &mut usages, &mut demands), report);
     demands
 }

@@ -10,7 +10,9 @@ use std::collections::BTreeSet;
 
 /// How far a rotation may be from length 1.
 const UNIT: f64 = 0.007_69;
-const IDENTITY: [f64; 16] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+const IDENTITY: [f64; 16] = [
+    1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+];
 
 /// A node.
 #[derive(Debug)]
@@ -37,7 +39,11 @@ pub(super) enum Transform {
     /// Column by column.
     Matrix([f64; 16]),
     /// Scale first, then rotation, then translation.
-    Parts { translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3] },
+    Parts {
+        translation: [f64; 3],
+        rotation: [f64; 4],
+        scale: [f64; 3],
+    },
 }
 
 impl Node {
@@ -47,7 +53,9 @@ impl Node {
             rotation: fields.vector_or("rotation", [0.0, 0.0, 0.0, 1.0]),
             scale: fields.vector_or("scale", [1.0; 3]),
         };
-        let instancing = fields.extension("EXT_mesh_gpu_instancing").and_then(|fields| fields.object("attributes"));
+        let instancing = fields
+            .extension("EXT_mesh_gpu_instancing")
+            .and_then(|fields| fields.object("attributes"));
         Self {
             at: fields.at,
             name: fields.name(),
@@ -56,12 +64,15 @@ impl Node {
             mesh: fields.index("mesh"),
             skin: fields.index("skin"),
             camera: fields.index("camera"),
-            light: fields.extension("KHR_lights_punctual").and_then(|fields| fields.index("light")),
+            light: fields
+                .extension("KHR_lights_punctual")
+                .and_then(|fields| fields.index("light")),
             weights: fields.numbers("weights").unwrap_or_default(),
             visible: fields
                 .extension("KHR_node_visibility")
                 .is_none_or(|fields| !fields.has("visible") || fields.truth("visible")),
-            instances: instancing.map(|fields| ["TRANSLATION", "ROTATION", "SCALE"].map(|name| fields.index(name))),
+            instances: instancing
+                .map(|fields| ["TRANSLATION", "ROTATION", "SCALE"].map(|name| fields.index(name))),
         }
     }
 }
@@ -75,7 +86,11 @@ pub(super) struct Forest {
 
 /// Checks each node, and that they form trees.
 pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
-    let joints: BTreeSet<usize> = doc.skins.iter().flat_map(|skin| skin.joints.iter().copied()).collect();
+    let joints: BTreeSet<usize> = doc
+        .skins
+        .iter()
+        .flat_map(|skin| skin.joints.iter().copied())
+        .collect();
     for (index, node) in doc.nodes.iter().enumerate() {
         check_transform(node, report);
         check_mesh(doc, node, report);
@@ -87,7 +102,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
     let index_at = |at: NodeId, json: &Tree<'_>| usize::try_from(json.whole(at)?).ok();
     for (index, node) in doc.nodes.iter().enumerate() {
         for at in report.json.list(node.at, "children") {
-            let Some(child) = index_at(at, report.json) else { continue };
+            let Some(child) = index_at(at, report.json) else {
+                continue;
+            };
             match parents.get_mut(child) {
                 Some(parent @ None) => *parent = Some(index),
                 Some(Some(parent)) if *parent != index => {
@@ -102,7 +119,9 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
     let roots = roots(doc, &parents, report);
     for scene in &doc.scenes {
         for at in report.json.list(scene.at, "nodes") {
-            let Some(node) = index_at(at, report.json) else { continue };
+            let Some(node) = index_at(at, report.json) else {
+                continue;
+            };
             if parents.get(node).is_some_and(Option::is_some) {
                 let message = format!("node {node} is a child, and a scene lists roots");
                 report.say(&codes::GLTF_NODES, "SCENE_NON_ROOT_NODE", at, message);
@@ -113,7 +132,11 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
 }
 
 /// Walks up from each node until one whose root is known; a walk that meets itself is a loop.
-fn roots(doc: &Document<'_>, parents: &[Option<usize>], report: &mut Report<'_, '_>) -> Vec<Option<usize>> {
+fn roots(
+    doc: &Document<'_>,
+    parents: &[Option<usize>],
+    report: &mut Report<'_, '_>,
+) -> Vec<Option<usize>> {
     #[derive(Clone, Copy)]
     enum State {
         New,
@@ -130,7 +153,12 @@ fn roots(doc: &Document<'_>, parents: &[Option<usize>], report: &mut Report<'_, 
                     let first = way.iter().position(|node| *node == at).unwrap_or(0);
                     for node in &way[first..] {
                         let message = format!("node {node} lies below itself");
-                        report.say(&codes::GLTF_NODES, "NODE_LOOP", doc.nodes[*node].at, message);
+                        report.say(
+                            &codes::GLTF_NODES,
+                            "NODE_LOOP",
+                            doc.nodes[*node].at,
+                            message,
+                        );
                     }
                     break None;
                 }
@@ -144,9 +172,16 @@ fn roots(doc: &Document<'_>, parents: &[Option<usize>], report: &mut Report<'_, 
                 }
             }
         };
-        way.into_iter().for_each(|node| states[node] = State::Done(root));
+        way.into_iter()
+            .for_each(|node| states[node] = State::Done(root));
     }
-    let root = |state: &State| if let State::Done(root) = state { *root } else { None };
+    let root = |state: &State| {
+        if let State::Done(root) = state {
+            *root
+        } else {
+            None
+        }
+    };
     states.iter().map(root).collect()
 }
 
@@ -155,7 +190,10 @@ fn check_transform(node: &Node, report: &mut Report<'_, '_>) {
         Transform::Matrix(matrix) => {
             let at = report.json.at_or(node.at, "matrix");
             let fields = Fields::new(report.json, node.at);
-            if ["translation", "rotation", "scale"].iter().any(|key| fields.numbers(key).is_some()) {
+            if ["translation", "rotation", "scale"]
+                .iter()
+                .any(|key| fields.numbers(key).is_some())
+            {
                 let message = "a node has a matrix or its parts, not both".to_owned();
                 report.say(&codes::GLTF_TOGETHER, "NODE_MATRIX_TRS", at, message);
             }
@@ -163,14 +201,19 @@ fn check_transform(node: &Node, report: &mut Report<'_, '_>) {
                 let message = "the matrix is the one that a node has anyway".to_owned();
                 report.say(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
             } else if !is_invertible(&matrix) {
-                let message = "the matrix is not made of translation, rotation and scale".to_owned();
+                let message =
+                    "the matrix is not made of translation, rotation and scale".to_owned();
                 report.say(&codes::GLTF_MATRIX, "NODE_MATRIX_NON_TRS", at, message);
             } else if is_sheared(&matrix) {
                 let message = "the matrix shears, which not all readers of glTF follow".to_owned();
                 report.say(&codes::GLTF_REMARK, "", at, message);
             }
         }
-        Transform::Parts { translation: _, rotation, scale: _ } => {
+        Transform::Parts {
+            translation: _,
+            rotation,
+            scale: _,
+        } => {
             let length = rotation.iter().map(|part| part * part).sum::<f64>().sqrt();
             if (length - 1.0).abs() > UNIT {
                 let at = report.json.at_or(node.at, "rotation");
@@ -192,11 +235,14 @@ fn is_invertible(matrix: &[f64; 16]) -> bool {
     last_row.iter().all(|part| *part == 0.0) && x.cross(y).dot(z) != 0.0
 }
 
-/// True if the axes are not at right angles, to within what 32-bit floats and careless exporters leave.
+/// True if the axes are not at right angles, to within what 32-bit floats and careless exporters
+/// leave.
 fn is_sheared(matrix: &[f64; 16]) -> bool {
     const RIGHT_ANGLE: f64 = 1e-3;
     let [x, y, z] = columns(matrix).map(|column| unit(column).unwrap_or_default());
-    [x.dot(y), y.dot(z), z.dot(x)].iter().any(|cosine| cosine.abs() > RIGHT_ANGLE)
+    [x.dot(y), y.dot(z), z.dot(x)]
+        .iter()
+        .any(|cosine| cosine.abs() > RIGHT_ANGLE)
 }
 
 fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
@@ -209,22 +255,39 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
         } else if let Some(mesh) =
             mesh.filter(|mesh| !mesh.primitives.is_empty() && mesh.targets() != node.weights.len())
         {
-            let message = format!("{} weights for {} morph targets", node.weights.len(), mesh.targets());
+            let message = format!(
+                "{} weights for {} morph targets",
+                node.weights.len(),
+                mesh.targets()
+            );
             report.say(&codes::GLTF_COUNT, "NODE_WEIGHTS_INVALID", at, message);
         }
     }
-    if let Some(at) = fields.node("skin").filter(|_| node.skin.is_some() && node.mesh.is_none()) {
+    if let Some(at) = fields
+        .node("skin")
+        .filter(|_| node.skin.is_some() && node.mesh.is_none())
+    {
         let message = "there is a skin, and no mesh that it could move".to_owned();
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     match (mesh, node.skin.and_then(|skin| doc.skins.get(skin))) {
         (Some(mesh), Some(_)) if mesh.is_skinned() == Some(false) => {
             let message = "the node has a skin, and its mesh no joints".to_owned();
-            report.say(&codes::GLTF_SKIN, "NODE_SKIN_WITH_NON_SKINNED_MESH", node.at, message);
+            report.say(
+                &codes::GLTF_SKIN,
+                "NODE_SKIN_WITH_NON_SKINNED_MESH",
+                node.at,
+                message,
+            );
         }
         (Some(mesh), None) if mesh.is_skinned() == Some(true) => {
             let message = "the mesh has joints, and the node no skin".to_owned();
-            report.say(&codes::GLTF_SKIN_ODD, "NODE_SKINNED_MESH_WITHOUT_SKIN", node.at, message);
+            report.say(
+                &codes::GLTF_SKIN_ODD,
+                "NODE_SKINNED_MESH_WITHOUT_SKIN",
+                node.at,
+                message,
+            );
         }
         (_, _) => {}
     }
@@ -234,6 +297,11 @@ fn check_empty(node: &Node, report: &mut Report<'_, '_>) {
     let fields = Fields::new(report.json, node.at);
     let says = ["children", "mesh", "camera", "extensions", "extras"];
     if !says.iter().any(|key| fields.has(key)) {
-        report.say(&codes::GLTF_REMARK, "NODE_EMPTY", node.at, "the node holds nothing");
+        report.say(
+            &codes::GLTF_REMARK,
+            "NODE_EMPTY",
+            node.at,
+            "the node holds nothing",
+        );
     }
 }

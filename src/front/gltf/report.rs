@@ -1,4 +1,5 @@
-//! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator of Khronos has for it.
+//! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator
+//! of Khronos has for it.
 
 use super::json::{Kind, NodeId, Tree};
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
@@ -18,31 +19,65 @@ pub(super) struct Report<'r, 's> {
 }
 
 impl<'r, 's> Report<'r, 's> {
-    pub(super) fn new(json: &'r Tree<'s>, sink: &'r mut Sink, options: &'r Options, budget: &'r Budget) -> Self {
-        Self { json, sink, options, budget, is_over: false }
-    }
-
-    /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
-    pub(super) fn say(&mut self, code: &'static Code, alias: &'static str, at: NodeId, message: impl Into<String>) {
-        let (severity, json) = (self.severity(code), self.json);
-        self.sink.push_with(severity, || finding(json, (code, severity), alias, at, message.into()));
-    }
-
-    /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the image`.
-    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
-        if !std::mem::replace(&mut self.is_over, true) {
-            self.advise(&codes::OVER_LIMIT, "", at, format!("{what} asks for too much: {fault}"), fault.hint());
+    pub(super) fn new(
+        json: &'r Tree<'s>,
+        sink: &'r mut Sink,
+        options: &'r Options,
+        budget: &'r Budget,
+    ) -> Self {
+        Self {
+            json,
+            sink,
+            options,
+            budget,
+            is_over: false,
         }
     }
 
-    /// Charges what stands at a node with so much of a resource. False if that is too much, here or before: then the
-    /// asset is refused, and what is missing is not worth a finding.
-    pub(super) fn charge(&mut self, resource: Resource, amount: u64, at: NodeId, what: &str) -> bool {
+    /// Reports what is wrong at a node; `alias` is the validator's name, empty if it has none.
+    pub(super) fn say(
+        &mut self,
+        code: &'static Code,
+        alias: &'static str,
+        at: NodeId,
+        message: impl Into<String>,
+    ) {
+        let (severity, json) = (self.severity(code), self.json);
+        self.sink.push_with(severity, || {
+            finding(json, (code, severity), alias, at, message.into())
+        });
+    }
+
+    /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the
+    /// image`.
+    pub(super) fn exceeded(&mut self, at: NodeId, what: &str, fault: &Exceeded) {
+        if !std::mem::replace(&mut self.is_over, true) {
+            self.advise(
+                &codes::OVER_LIMIT,
+                "",
+                at,
+                format!("{what} asks for too much: {fault}"),
+                fault.hint(),
+            );
+        }
+    }
+
+    /// Charges what stands at a node with so much of a resource. False if that is too much, here or
+    /// before: then the asset is refused, and what is missing is not worth a finding.
+    pub(super) fn charge(
+        &mut self,
+        resource: Resource,
+        amount: u64,
+        at: NodeId,
+        what: &str,
+    ) -> bool {
         if self.is_over {
             return false;
         }
         let charged = self.budget.charge(resource, amount);
-        charged.map_err(|fault| self.exceeded(at, what, &fault)).is_ok()
+        charged
+            .map_err(|fault| self.exceeded(at, what, &fault))
+            .is_ok()
     }
 
     /// The same, with what to do.
@@ -55,11 +90,17 @@ impl<'r, 's> Report<'r, 's> {
         hint: String,
     ) {
         let (severity, json) = (self.severity(code), self.json);
-        self.sink.push_with(severity, || finding(json, (code, severity), alias, at, message).hint(hint));
+        self.sink.push_with(severity, || {
+            finding(json, (code, severity), alias, at, message).hint(hint)
+        });
     }
 
     fn severity(&self, code: &'static Code) -> Severity {
-        let repaired = [&codes::GLTF_BOUNDS, &codes::GLTF_VECTOR, &codes::GLTF_MATRIX];
+        let repaired = [
+            &codes::GLTF_BOUNDS,
+            &codes::GLTF_VECTOR,
+            &codes::GLTF_MATRIX,
+        ];
         if self.options.lenient && repaired.contains(&code) {
             Severity::Warning
         } else if self.options.strict && *code == codes::GLTF_UNKNOWN {
@@ -69,7 +110,8 @@ impl<'r, 's> Report<'r, 's> {
         }
     }
 
-    /// True if the part at a node is an object; what refers to another one refers to nothing, which the walk has told.
+    /// True if the part at a node is an object; what refers to another one refers to nothing, which
+    /// the walk has told.
     pub(super) fn is_part(&self, at: NodeId) -> bool {
         self.json.kind(at) == Kind::Map
     }
@@ -92,9 +134,16 @@ fn finding(
     at: NodeId,
     message: String,
 ) -> Diagnostic {
-    debug_assert!(alias.is_empty() || code.aliases.contains(&alias), "{code} has no alias {alias}");
+    debug_assert!(
+        alias.is_empty() || code.aliases.contains(&alias),
+        "{code} has no alias {alias}"
+    );
     let pointer = json.pointer(at);
-    let label = if pointer.is_empty() { "the asset".to_owned() } else { pointer.clone() };
+    let label = if pointer.is_empty() {
+        "the asset".to_owned()
+    } else {
+        pointer.clone()
+    };
     Diagnostic::new(code, message)
         .severity(severity)
         .at(json.span(at), label)
@@ -105,7 +154,11 @@ fn finding(
 /// A stretch of the text, short and without control characters.
 pub(super) fn shown(written: &str) -> String {
     const LONG: usize = 40;
-    let mut text: String = written.chars().take(LONG).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let mut text: String = written
+        .chars()
+        .take(LONG)
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
     if text.len() < written.len() {
         text.push('…');
     }

@@ -1,4 +1,5 @@
-//! The bytes that an asset names: its chunk, data URIs, and files below its folder, each file read once.
+//! The bytes that an asset names: its chunk, data URIs, and files below its folder, each file read
+//! once.
 
 use super::buffer::Bytes;
 use super::document::Document;
@@ -29,7 +30,12 @@ type Found = (Bytes<'static>, Option<String>);
 
 impl<'m> Resources<'m> {
     pub(super) fn new(search: Search, map: &'m SourceMap) -> Self {
-        Self { search, map, files: BTreeMap::new(), data: BTreeSet::new() }
+        Self {
+            search,
+            map,
+            files: BTreeMap::new(),
+            data: BTreeSet::new(),
+        }
     }
 
     /// Brings the bytes of all buffers; `chunk` is what a `.glb` holds beside its text.
@@ -44,27 +50,48 @@ impl<'m> Resources<'m> {
             let fields = Fields::new(report.json, buffer.at);
             let bytes: Option<Bytes<'s>> = if let Some(at) = fields.node("uri") {
                 remark_uri(is_glb, at, report);
-                self.fetch(at, is_glb, report)
-                    .and_then(|(bytes, media)| is_buffer(media.as_deref(), at, report).then_some(bytes))
+                self.fetch(at, is_glb, report).and_then(|(bytes, media)| {
+                    is_buffer(media.as_deref(), at, report).then_some(bytes)
+                })
             } else if is_glb && index == 0 && !buffer.is_fallback && buffer.length.is_some() {
                 if chunk.is_none() {
                     let message = "the buffer is the binary chunk, and there is none".to_owned();
-                    report.say(&codes::GLTF_BUFFER, "BUFFER_MISSING_GLB_DATA", buffer.at, message);
+                    report.say(
+                        &codes::GLTF_BUFFER,
+                        "BUFFER_MISSING_GLB_DATA",
+                        buffer.at,
+                        message,
+                    );
                 }
                 chunk.map(|chunk| Rc::new(Cow::Borrowed(chunk)))
             } else {
                 None
             };
-            let (Some(bytes), Some(length)) = (bytes, buffer.length) else { continue };
+            let (Some(bytes), Some(length)) = (bytes, buffer.length) else {
+                continue;
+            };
             if bytes.len() < length {
-                let message = format!("the buffer has {} bytes, and `byteLength` says {length}", bytes.len());
-                report.say(&codes::GLTF_BUFFER, "BUFFER_BYTE_LENGTH_MISMATCH", buffer.at, message);
+                let message = format!(
+                    "the buffer has {} bytes, and `byteLength` says {length}",
+                    bytes.len()
+                );
+                report.say(
+                    &codes::GLTF_BUFFER,
+                    "BUFFER_BYTE_LENGTH_MISMATCH",
+                    buffer.at,
+                    message,
+                );
                 continue;
             }
             let extra = bytes.len() - length;
             if !fields.has("uri") && extra >= 4 {
                 let message = format!("the binary chunk has {extra} bytes more than the buffer");
-                report.say(&codes::GLB_EXTRA, "BUFFER_GLB_CHUNK_TOO_BIG", buffer.at, message);
+                report.say(
+                    &codes::GLB_EXTRA,
+                    "BUFFER_GLB_CHUNK_TOO_BIG",
+                    buffer.at,
+                    message,
+                );
             }
             buffer.bytes = Some(bytes);
         }
@@ -74,10 +101,17 @@ impl<'m> Resources<'m> {
     pub(super) fn bring_images(&mut self, doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
         let is_glb = doc.is_glb;
         for image in &mut doc.images {
-            let Some(at) = report.json.get(image.at, "uri") else { continue };
+            let Some(at) = report.json.get(image.at, "uri") else {
+                continue;
+            };
             remark_uri(is_glb, at, report);
-            let Some((bytes, media)) = self.fetch(at, is_glb, report) else { continue };
-            image.media = image.media.take().or(media.filter(|media| !media.is_empty()));
+            let Some((bytes, media)) = self.fetch(at, is_glb, report) else {
+                continue;
+            };
+            image.media = image
+                .media
+                .take()
+                .or(media.filter(|media| !media.is_empty()));
             image.bytes = Some(bytes);
         }
     }
@@ -112,7 +146,12 @@ impl<'m> Resources<'m> {
         }
     }
 
-    fn file(&mut self, path: &str, at: NodeId, report: &mut Report<'_, '_>) -> Option<Bytes<'static>> {
+    fn file(
+        &mut self,
+        path: &str,
+        at: NodeId,
+        report: &mut Report<'_, '_>,
+    ) -> Option<Bytes<'static>> {
         let found = match self.search.below(path) {
             Ok(found) => found,
             Err(Missing::Outside(_)) => {
@@ -120,21 +159,30 @@ impl<'m> Resources<'m> {
                 return None;
             }
             Err(Missing::NoFolder) => {
-                let message = format!("`{}` can't be looked for: an asset from a stream has no folder", shown(path));
+                let message = format!(
+                    "`{}` can't be looked for: an asset from a stream has no folder",
+                    shown(path)
+                );
                 let hint = "name the folder of its files by `--asset-root`".to_owned();
                 report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
             Err(Missing::Absent(places)) => {
                 let message = format!("there is no file `{}`", shown(path));
-                let places: Vec<String> = places.iter().map(|place| format!("`{}`", place.display())).collect();
+                let places: Vec<String> = places
+                    .iter()
+                    .map(|place| format!("`{}`", place.display()))
+                    .collect();
                 let hint = format!("looked for it at {}", places.join(", "));
                 report.advise(&codes::GLTF_NO_FILE, "IO_ERROR", at, message, hint);
                 return None;
             }
         };
         let identity = found.identity();
-        if let Some(bytes) = identity.as_ref().and_then(|identity| self.files.get(identity)) {
+        if let Some(bytes) = identity
+            .as_ref()
+            .and_then(|identity| self.files.get(identity))
+        {
             return Some(Rc::clone(bytes));
         }
         match Loader.found(&found, MAX_BYTES, self.map) {
@@ -157,12 +205,20 @@ impl<'m> Resources<'m> {
 
 fn remark_uri(is_glb: bool, at: NodeId, report: &mut Report<'_, '_>) {
     if is_glb {
-        report.say(&codes::GLTF_REMARK, "URI_GLB", at, "a .glb could hold this itself");
+        report.say(
+            &codes::GLTF_REMARK,
+            "URI_GLB",
+            at,
+            "a .glb could hold this itself",
+        );
     }
 }
 
 fn outside(text: &str, how: &str, at: NodeId, report: &mut Report<'_, '_>) {
-    let message = format!("`{}` leads out of the folder of the asset: {how}", shown(text));
+    let message = format!(
+        "`{}` leads out of the folder of the asset: {how}",
+        shown(text)
+    );
     let hint = "put the file beside the asset and name it by a relative path".to_owned();
     report.advise(&codes::GLTF_OUTSIDE, "IO_ERROR", at, message, hint);
 }
@@ -172,8 +228,16 @@ fn is_buffer(media: Option<&str>, at: NodeId, report: &mut Report<'_, '_>) -> bo
     let Some(media) = media else { return true };
     let is_buffer = ["application/octet-stream", "application/gltf-buffer"].contains(&media);
     if !is_buffer {
-        let message = format!("the media type of a buffer is application/octet-stream, not `{}`", shown(media));
-        report.say(&codes::GLTF_URI, "BUFFER_DATA_URI_MIME_TYPE_INVALID", at, message);
+        let message = format!(
+            "the media type of a buffer is application/octet-stream, not `{}`",
+            shown(media)
+        );
+        report.say(
+            &codes::GLTF_URI,
+            "BUFFER_DATA_URI_MIME_TYPE_INVALID",
+            at,
+            message,
+        );
     }
     is_buffer
 }

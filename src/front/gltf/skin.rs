@@ -50,9 +50,18 @@ pub(super) fn check(
     let mut shows = Shows::new(doc, forest);
     let mut done = Done::default();
     for (index, node) in doc.nodes.iter().enumerate() {
-        let skin = node.skin.and_then(|skin| Some((skin, doc.skins.get(skin)?)));
-        let Some((of, skin)) = skin.filter(|(_, skin)| !skin.joints.is_empty()) else { continue };
-        let Some((at, mesh)) = node.mesh.and_then(|mesh| Some((mesh, doc.meshes.get(mesh)?))) else { continue };
+        let skin = node
+            .skin
+            .and_then(|skin| Some((skin, doc.skins.get(skin)?)));
+        let Some((of, skin)) = skin.filter(|(_, skin)| !skin.joints.is_empty()) else {
+            continue;
+        };
+        let Some((at, mesh)) = node
+            .mesh
+            .and_then(|mesh| Some((mesh, doc.meshes.get(mesh)?)))
+        else {
+            continue;
+        };
         check_node((index, node), forest, report);
         if shows.apart(forest.roots[index], of) {
             let message = "a scene shows the mesh and not the joints that move it".to_owned();
@@ -85,15 +94,29 @@ impl Shows {
             }
         }
         let root = |node: &usize| forest.roots.get(*node).copied().flatten();
-        let joints = doc.skins.iter().map(|skin| skin.joints.iter().find_map(root)).collect();
-        Self { scenes, joints, known: BTreeMap::new() }
+        let joints = doc
+            .skins
+            .iter()
+            .map(|skin| skin.joints.iter().find_map(root))
+            .collect();
+        Self {
+            scenes,
+            joints,
+            known: BTreeMap::new(),
+        }
     }
 
     fn apart(&mut self, root: Option<usize>, skin: usize) -> bool {
         let Some(root) = root else { return false };
-        let Self { scenes, joints, known } = self;
+        let Self {
+            scenes,
+            joints,
+            known,
+        } = self;
         let apart = || {
-            let Some(own) = scenes.get(&root) else { return false };
+            let Some(own) = scenes.get(&root) else {
+                return false;
+            };
             let of_joints = joints[skin].and_then(|root| scenes.get(&root));
             of_joints.is_none_or(|of_joints| !own.is_subset(of_joints))
         };
@@ -119,7 +142,10 @@ struct Order {
 impl Order {
     fn new(doc: &Document<'_>, forest: &Forest) -> Self {
         let count = doc.nodes.len();
-        let mut order = Self { first: vec![usize::MAX; count], after: vec![0; count] };
+        let mut order = Self {
+            first: vec![usize::MAX; count],
+            after: vec![0; count],
+        };
         let mut at = 0;
         for root in (0..count).filter(|node| forest.roots[*node] == Some(*node)) {
             let mut open = vec![(root, false)];
@@ -147,11 +173,25 @@ impl Order {
     }
 }
 
-fn check_tree(doc: &Document<'_>, skin: &Skin, forest: &Forest, order: &Order, report: &mut Report<'_, '_>) {
-    let Some(at) = report.json.get(skin.at, "joints").filter(|at| report.json.items(*at).next().is_some()) else {
+fn check_tree(
+    doc: &Document<'_>,
+    skin: &Skin,
+    forest: &Forest,
+    order: &Order,
+    report: &mut Report<'_, '_>,
+) {
+    let Some(at) = report
+        .json
+        .get(skin.at, "joints")
+        .filter(|at| report.json.items(*at).next().is_some())
+    else {
         return;
     };
-    let is_node = |joint: &usize| doc.nodes.get(*joint).is_some_and(|node| report.is_part(node.at));
+    let is_node = |joint: &usize| {
+        doc.nodes
+            .get(*joint)
+            .is_some_and(|node| report.is_part(node.at))
+    };
     let known: Vec<usize> = skin.joints.iter().copied().filter(is_node).collect();
     let root = known.first().and_then(|joint| forest.roots[*joint]);
     if root.is_none() || known.iter().any(|joint| forest.roots[*joint] != root) {
@@ -172,33 +212,60 @@ fn check_matrices(
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
     report: &mut Report<'_, '_>,
 ) {
-    let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else { return };
+    let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else {
+        return;
+    };
     let at = report.json.at_or(skin.at, "inverseBindMatrices");
     usages.set(index, Usage::InverseBindMatrices, at, report);
     purposes.set(accessor.view, Purpose::InverseBindMatrices, at, report);
-    if accessor.view.and_then(|view| doc.views.get(view)).is_some_and(|view| view.stride.is_some()) {
+    if accessor
+        .view
+        .and_then(|view| doc.views.get(view))
+        .is_some_and(|view| view.stride.is_some())
+    {
         let message = "the view of inverse bind matrices has a stride".to_owned();
-        report.say(&codes::GLTF_VIEW, "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE", at, message);
+        report.say(
+            &codes::GLTF_VIEW,
+            "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
+            at,
+            message,
+        );
     }
-    let is_matrix = |layout: Layout| layout.columns == 4 && layout.component == Component::F32 && !layout.normalized;
+    let is_matrix = |layout: Layout| {
+        layout.columns == 4 && layout.component == Component::F32 && !layout.normalized
+    };
     if accessor.layout.is_some_and(is_matrix) {
         demands.add(index, Demand::Affine, at);
     } else {
-        let found = accessor.layout.map_or("of no known type".to_owned(), Layout::name);
+        let found = accessor
+            .layout
+            .map_or("of no known type".to_owned(), Layout::name);
         let message = format!("inverse bind matrices are {found}, not mat4 of f32");
         report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
-    if let Some(count) = Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len()) {
+    if let Some(count) =
+        Some(accessor.count.unwrap_or(0)).filter(|count| *count < skin.joints.len())
+    {
         let message = format!("{count} matrices for {} joints", skin.joints.len());
-        report.say(&codes::GLTF_COUNT, "INVALID_IBM_ACCESSOR_COUNT", at, message);
+        report.say(
+            &codes::GLTF_COUNT,
+            "INVALID_IBM_ACCESSOR_COUNT",
+            at,
+            message,
+        );
     }
 }
 
 fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut Report<'_, '_>) {
     let code = &codes::GLTF_SKIN_ODD;
-    let unmoved = Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+    let unmoved = Transform::Parts {
+        translation: [0.0; 3],
+        rotation: [0.0, 0.0, 0.0, 1.0],
+        scale: [1.0; 3],
+    };
     if forest.parents[index].is_some() {
-        let message = "the node is no root, and transformations above it don't move a skinned mesh".to_owned();
+        let message = "the node is no root, and transformations above it don't move a skinned mesh"
+            .to_owned();
         report.say(code, "NODE_SKINNED_MESH_NON_ROOT", node.at, message);
     }
     if node.transform != unmoved {
@@ -233,10 +300,16 @@ fn check_influences(
         let accessor = doc.accessors.get(accessor)?;
         Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
     };
-    let sets = accessors.into_iter().map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
+    let sets = accessors
+        .into_iter()
+        .map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
     let sets: Vec<[Elements<'_>; 2]> = sets.collect();
     let count = sets.first().map_or(0, |[own, _]| own.count);
-    if sets.iter().flatten().any(|elements| elements.count != count) {
+    if sets
+        .iter()
+        .flatten()
+        .any(|elements| elements.count != count)
+    {
         return;
     }
     let work = (count as u64).saturating_mul(sets.len() as u64);
@@ -254,17 +327,56 @@ fn check_influences(
         }
         found.look(at, &vertex, joints);
     }
-    let Influences { out, twice, negative, sum, idle } = found;
+    let Influences {
+        out,
+        twice,
+        negative,
+        sum,
+        idle,
+    } = found;
     let skin = &codes::GLTF_SKIN;
     for (code, place, alias, set, what) in [
-        (skin, out, "ACCESSOR_JOINTS_INDEX_OOB", "JOINTS_0", "follows a joint that the skin has not"),
-        (skin, twice, "ACCESSOR_JOINTS_INDEX_DUPLICATE", "JOINTS_0", "follows a joint twice"),
-        (skin, negative, "ACCESSOR_WEIGHTS_NEGATIVE", "WEIGHTS_0", "has a negative weight"),
-        (skin, sum, "ACCESSOR_WEIGHTS_NON_NORMALIZED", "WEIGHTS_0", "has weights that don't sum to 1"),
-        (&codes::GLTF_SKIN_ODD, idle, "ACCESSOR_JOINTS_USED_ZERO_WEIGHT", "JOINTS_0", "names a joint of weight 0"),
+        (
+            skin,
+            out,
+            "ACCESSOR_JOINTS_INDEX_OOB",
+            "JOINTS_0",
+            "follows a joint that the skin has not",
+        ),
+        (
+            skin,
+            twice,
+            "ACCESSOR_JOINTS_INDEX_DUPLICATE",
+            "JOINTS_0",
+            "follows a joint twice",
+        ),
+        (
+            skin,
+            negative,
+            "ACCESSOR_WEIGHTS_NEGATIVE",
+            "WEIGHTS_0",
+            "has a negative weight",
+        ),
+        (
+            skin,
+            sum,
+            "ACCESSOR_WEIGHTS_NON_NORMALIZED",
+            "WEIGHTS_0",
+            "has weights that don't sum to 1",
+        ),
+        (
+            &codes::GLTF_SKIN_ODD,
+            idle,
+            "ACCESSOR_JOINTS_USED_ZERO_WEIGHT",
+            "JOINTS_0",
+            "names a joint of weight 0",
+        ),
     ] {
         let Some(vertex) = place else { continue };
-        let at = report.json.at(primitive.at, &["attributes", set]).unwrap_or(primitive.at);
+        let at = report
+            .json
+            .at(primitive.at, &["attributes", set])
+            .unwrap_or(primitive.at);
         report.say(code, alias, at, format!("vertex {vertex} {what}"));
     }
 }

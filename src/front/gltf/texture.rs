@@ -33,7 +33,9 @@ impl Texture {
         Self {
             at: fields.at,
             source: fields.index("source"),
-            webp: fields.extension("EXT_texture_webp").and_then(|fields| fields.index("source")),
+            webp: fields
+                .extension("EXT_texture_webp")
+                .and_then(|fields| fields.index("source")),
             sampler: fields.index("sampler"),
         }
     }
@@ -42,7 +44,10 @@ impl Texture {
 impl Sampler {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         let wrap = |key| fields.whole(key).unwrap_or(REPEAT);
-        Self { mag_filter: fields.whole("magFilter"), wrap: [wrap("wrapS"), wrap("wrapT")] }
+        Self {
+            mag_filter: fields.whole("magFilter"),
+            wrap: [wrap("wrapS"), wrap("wrapT")],
+        }
     }
 }
 
@@ -51,14 +56,20 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     for texture in &doc.textures {
         let faulty = |report: &mut Report<'_, '_>, at, found: &str, wanted: &str| {
             let message = format!("the image is of the type {}, not {wanted}", shown(found));
-            report.say(&codes::GLTF_IMAGE, "TEXTURE_INVALID_IMAGE_MIME_TYPE", at, message);
+            report.say(
+                &codes::GLTF_IMAGE,
+                "TEXTURE_INVALID_IMAGE_MIME_TYPE",
+                at,
+                message,
+            );
         };
         let core = [Format::Png.media(), Format::Jpeg.media()];
         if let Some(found) = media(doc, texture.source).filter(|found| !core.contains(found)) {
             let at = report.json.at_or(texture.at, "source");
             faulty(report, at, found, "image/png or image/jpeg");
         }
-        if let Some(found) = media(doc, texture.webp).filter(|found| *found != Format::WebP.media()) {
+        if let Some(found) = media(doc, texture.webp).filter(|found| *found != Format::WebP.media())
+        {
             let way = ["extensions", "EXT_texture_webp", "source"];
             let at = report.json.at(texture.at, &way).unwrap_or(texture.at);
             faulty(report, at, found, "image/webp");

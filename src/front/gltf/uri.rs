@@ -1,4 +1,5 @@
-//! URIs: data that is written in place, or a path below the folder of the asset; nothing else is followed.
+//! URIs: data that is written in place, or a path below the folder of the asset; nothing else is
+//! followed.
 
 use base64::Engine as _;
 use base64::alphabet::STANDARD;
@@ -43,9 +44,14 @@ pub(super) fn parse(uri: &str) -> Result<Uri, Fault> {
     if let Some(rest) = strip_scheme(uri, "data") {
         return data(rest);
     }
-    if let Some((scheme, _)) = uri.split_once(':').filter(|(scheme, _)| !scheme.contains(['/', '?', '#'])) {
+    if let Some((scheme, _)) = uri
+        .split_once(':')
+        .filter(|(scheme, _)| !scheme.contains(['/', '?', '#']))
+    {
         return Err(match scheme.as_bytes() {
-            [first, rest @ ..] if first.is_ascii_alphabetic() && rest.iter().all(|byte| in_scheme(*byte)) => {
+            [first, rest @ ..]
+                if first.is_ascii_alphabetic() && rest.iter().all(|byte| in_scheme(*byte)) =>
+            {
                 Fault::Outside("it names a scheme or a drive")
             }
             _ => Fault::Malformed("what stands before the colon is no scheme"),
@@ -61,7 +67,11 @@ pub(super) fn parse(uri: &str) -> Result<Uri, Fault> {
     if path.contains(['\\', ':', '\0']) {
         return Err(Fault::Outside("it holds a backslash, a colon or a NUL"));
     }
-    if path.is_empty() { Err(Fault::Malformed("it is empty")) } else { Ok(Uri::Path(path)) }
+    if path.is_empty() {
+        Err(Fault::Malformed("it is empty"))
+    } else {
+        Ok(Uri::Path(path))
+    }
 }
 
 fn in_scheme(byte: u8) -> bool {
@@ -70,29 +80,48 @@ fn in_scheme(byte: u8) -> bool {
 
 fn strip_scheme<'a>(uri: &'a str, scheme: &str) -> Option<&'a str> {
     let (head, rest) = uri.split_at_checked(scheme.len())?;
-    rest.strip_prefix(':').filter(|_| head.eq_ignore_ascii_case(scheme))
+    rest.strip_prefix(':')
+        .filter(|_| head.eq_ignore_ascii_case(scheme))
 }
 
 /// A data URI without its scheme (RFC 2397).
 fn data(rest: &str) -> Result<Uri, Fault> {
-    let (head, body) = rest.split_once(',').ok_or(Fault::Malformed("a data URI has a comma before its data"))?;
+    let (head, body) = rest
+        .split_once(',')
+        .ok_or(Fault::Malformed("a data URI has a comma before its data"))?;
     let mut parameters = head.split(';');
-    let media = parameters.next().unwrap_or_default().trim().to_ascii_lowercase();
-    let is_media = media.split_once('/').is_some_and(|(kind, name)| !kind.is_empty() && !name.is_empty());
+    let media = parameters
+        .next()
+        .unwrap_or_default()
+        .trim()
+        .to_ascii_lowercase();
+    let is_media = media
+        .split_once('/')
+        .is_some_and(|(kind, name)| !kind.is_empty() && !name.is_empty());
     if !media.is_empty() && !is_media {
         return Err(Fault::Malformed("its media type has no slash"));
     }
     let mut parameters: Vec<&str> = parameters.collect();
-    let is_base64 = parameters.last().is_some_and(|last| last.eq_ignore_ascii_case("base64"));
+    let is_base64 = parameters
+        .last()
+        .is_some_and(|last| last.eq_ignore_ascii_case("base64"));
     parameters.truncate(parameters.len() - usize::from(is_base64));
     if !parameters.iter().all(|parameter| parameter.contains('=')) {
-        return Err(Fault::Malformed("a parameter of its media type has no value"));
+        return Err(Fault::Malformed(
+            "a parameter of its media type has no value",
+        ));
     }
     let bytes = if is_base64 {
         let escaped = body.contains('%');
-        let text = if escaped { unescape(body)? } else { String::new() };
+        let text = if escaped {
+            unescape(body)?
+        } else {
+            String::new()
+        };
         let text = if escaped { text.as_str() } else { body };
-        BASE64.decode(text).map_err(|_| Fault::Malformed("its data is not Base64"))?
+        BASE64
+            .decode(text)
+            .map_err(|_| Fault::Malformed("its data is not Base64"))?
     } else {
         unescape_bytes(body)?
     };
@@ -100,7 +129,8 @@ fn data(rest: &str) -> Result<Uri, Fault> {
 }
 
 fn unescape(text: &str) -> Result<String, Fault> {
-    String::from_utf8(unescape_bytes(text)?).map_err(|_| Fault::Malformed("its escapes are not UTF-8"))
+    String::from_utf8(unescape_bytes(text)?)
+        .map_err(|_| Fault::Malformed("its escapes are not UTF-8"))
 }
 
 /// Resolves `%41` and its like (RFC 3986, section 2.1).
@@ -113,10 +143,15 @@ fn unescape_bytes(text: &str) -> Result<Vec<u8>, Fault> {
             bytes.push(*first);
             continue;
         }
-        let hex = after.split_at_checked(2).and_then(|(hex, rest)| Some((std::str::from_utf8(hex).ok()?, rest)));
+        let hex = after
+            .split_at_checked(2)
+            .and_then(|(hex, rest)| Some((std::str::from_utf8(hex).ok()?, rest)));
         let digits = hex.filter(|(hex, _)| hex.bytes().all(|byte| byte.is_ascii_hexdigit()));
         let (hex, after) = digits.ok_or(Fault::Malformed("two hexadecimal digits follow a `%`"))?;
-        bytes.push(u8::from_str_radix(hex, 16).map_err(|_| Fault::Malformed("two hexadecimal digits follow a `%`"))?);
+        bytes.push(
+            u8::from_str_radix(hex, 16)
+                .map_err(|_| Fault::Malformed("two hexadecimal digits follow a `%`"))?,
+        );
         rest = after;
     }
     Ok(bytes)
@@ -148,18 +183,47 @@ mod tests {
             "a%00b",
             "a/b:c",
         ] {
-            assert!(matches!(parse(uri), Err(Fault::Outside(_))), "{uri}: {:?}", parse(uri));
+            assert!(
+                matches!(parse(uri), Err(Fault::Outside(_))),
+                "{uri}: {:?}",
+                parse(uri)
+            );
         }
     }
 
     #[test]
     fn data_is_read_in_place() {
-        let data = |media: &str, bytes: &[u8]| Ok(Uri::Data { media: media.to_owned(), bytes: bytes.to_vec() });
-        assert_eq!(parse("data:application/octet-stream;base64,AAEC"), data("application/octet-stream", &[0, 1, 2]));
-        assert_eq!(parse("data:image/png;x=y;base64,AA=="), data("image/png", &[0]));
+        let data = |media: &str, bytes: &[u8]| {
+            Ok(Uri::Data {
+                media: media.to_owned(),
+                bytes: bytes.to_vec(),
+            })
+        };
+        assert_eq!(
+            parse("data:application/octet-stream;base64,AAEC"),
+            data("application/octet-stream", &[0, 1, 2])
+        );
+        assert_eq!(
+            parse("data:image/png;x=y;base64,AA=="),
+            data("image/png", &[0])
+        );
         assert_eq!(parse("data:,a%20b"), data("", b"a b"));
-        for uri in ["data:", "data:x,", "data:a/b;;base64,AA==", "data:a/b;base64,`", ":", "1:x", "", "%zz", "%4"] {
-            assert!(matches!(parse(uri), Err(Fault::Malformed(_))), "{uri}: {:?}", parse(uri));
+        for uri in [
+            "data:",
+            "data:x,",
+            "data:a/b;;base64,AA==",
+            "data:a/b;base64,`",
+            ":",
+            "1:x",
+            "",
+            "%zz",
+            "%4",
+        ] {
+            assert!(
+                matches!(parse(uri), Err(Fault::Malformed(_))),
+                "{uri}: {:?}",
+                parse(uri)
+            );
         }
     }
 }

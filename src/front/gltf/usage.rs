@@ -35,13 +35,30 @@ impl Usages {
     }
 
     /// Takes down that the node `at` uses an accessor so; two usages don't go together.
-    pub(super) fn set(&mut self, accessor: usize, usage: Usage, at: NodeId, report: &mut Report<'_, '_>) {
-        let Some(slot) = self.0.get_mut(accessor) else { return };
+    pub(super) fn set(
+        &mut self,
+        accessor: usize,
+        usage: Usage,
+        at: NodeId,
+        report: &mut Report<'_, '_>,
+    ) {
+        let Some(slot) = self.0.get_mut(accessor) else {
+            return;
+        };
         match slot {
             None => *slot = Some(usage),
             Some(first) if *first != usage => {
-                let message = format!("the accessor is used for {} here, and for {}", usage.name(), first.name());
-                report.say(&codes::GLTF_ACCESSOR, "ACCESSOR_USAGE_OVERRIDE", at, message);
+                let message = format!(
+                    "the accessor is used for {} here, and for {}",
+                    usage.name(),
+                    first.name()
+                );
+                report.say(
+                    &codes::GLTF_ACCESSOR,
+                    "ACCESSOR_USAGE_OVERRIDE",
+                    at,
+                    message,
+                );
             }
             Some(_) => {}
         }

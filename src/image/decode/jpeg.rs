@@ -16,22 +16,32 @@ pub(super) struct Jpeg<'a> {
 
 /// Reads all that stands before the pixels.
 pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), DecodeError> {
-    let options = DecoderOptions::default().set_strict_mode(false).set_max_width(usize::MAX).set_max_height(usize::MAX);
+    let options = DecoderOptions::default()
+        .set_strict_mode(false)
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     decoder.decode_headers().map_err(DecodeError::damaged)?;
-    let (Some((width, height)), Some(coded)) = (decoder.dimensions(), decoder.input_colorspace()) else {
+    let (Some((width, height)), Some(coded)) = (decoder.dimensions(), decoder.input_colorspace())
+    else {
         return Err(DecodeError::Damaged("it has no header".to_owned()));
     };
     let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
     let size = Size::within(most_pixels, side(width), side(height))?;
-    let is_kept = matches!(coded, ColorSpace::Luma | ColorSpace::LumaA | ColorSpace::RGBA);
+    let is_kept = matches!(
+        coded,
+        ColorSpace::Luma | ColorSpace::LumaA | ColorSpace::RGBA
+    );
     let color = if is_kept { coded } else { ColorSpace::RGB };
     // Odd headers are forgiven, pixels that are missing are not.
     decoder.set_options(options.jpeg_set_out_colorspace(color).set_strict_mode(true));
     let frame = Frame::of(bytes);
     let jpeg = Jpeg {
         decoder,
-        layout: Layout { channels: color.num_components(), is_wide: false },
+        layout: Layout {
+            channels: color.num_components(),
+            is_wide: false,
+        },
         passing: frame.passing(size),
         is_whole: frame.is_whole,
     };
@@ -45,7 +55,9 @@ impl Jpeg<'_> {
 
     pub(super) fn decode(mut self, into: &mut [u8]) -> Result<(), DecodeError> {
         if !self.is_whole {
-            return Err(DecodeError::Damaged("it ends before its last pixel".to_owned()));
+            return Err(DecodeError::Damaged(
+                "it ends before its last pixel".to_owned(),
+            ));
         }
         self.decoder.decode_into(into).map_err(DecodeError::damaged)
     }
@@ -69,7 +81,12 @@ impl Frame {
         while let Some(marker) = next_marker(bytes, &mut at) {
             let segment = bytes.get(at..).unwrap_or_default();
             match marker {
-                0xd9 => return Self { is_whole: true, ..frame },
+                0xd9 => {
+                    return Self {
+                        is_whole: true,
+                        ..frame
+                    };
+                }
                 // Alone: they have no length.
                 0x01 | 0xd0..=0xd8 => continue,
                 0xc0..=0xc3 => {
@@ -82,7 +99,9 @@ impl Frame {
                 }
                 _ => {}
             }
-            let length = segment.first_chunk().map_or(2, |length| u16::from_be_bytes(*length));
+            let length = segment
+                .first_chunk()
+                .map_or(2, |length| u16::from_be_bytes(*length));
             at += usize::from(length).max(2);
         }
         frame
@@ -92,12 +111,15 @@ impl Frame {
     fn passing(&self, size: Size) -> u64 {
         let rows = u64::from(size.width) * 256 * self.components.max(1);
         let blocks = |side: u32| u64::from(side.div_ceil(32)) * 32;
-        let coefficients = blocks(size.width).saturating_mul(blocks(size.height)).saturating_mul(2 * self.components);
+        let coefficients = blocks(size.width)
+            .saturating_mul(blocks(size.height))
+            .saturating_mul(2 * self.components);
         rows + if self.comes_in_scans { coefficients } else { 0 }
     }
 }
 
-/// The next marker, and behind it `at`; what stands before it, as the coded pixels do, is passed over.
+/// The next marker, and behind it `at`; what stands before it, as the coded pixels do, is passed
+/// over.
 fn next_marker(bytes: &[u8], at: &mut usize) -> Option<u8> {
     loop {
         let rest = bytes.get(*at..)?;

@@ -1,4 +1,5 @@
-//! How decoders lay out pixels, and the way from there to bytes of red, green, blue and, it may be, opacity: in place.
+//! How decoders lay out pixels, and the way from there to bytes of red, green, blue and, it may be,
+//! opacity: in place.
 
 /// A pixel as a decoder writes it: grey, or red, green and blue, with opacity or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +20,8 @@ impl Layout {
         self.channels.is_multiple_of(2)
     }
 
-    /// Where the decoder writes, in a buffer that has room for every pixel before and after: at its end, so that pixels
-    /// that grow never run over those not yet converted.
+    /// Where the decoder writes, in a buffer that has room for every pixel before and after: at its
+    /// end, so that pixels that grow never run over those not yet converted.
     pub(super) fn place(self, buffer: &mut [u8], channels: usize) -> &mut [u8] {
         let pixels = buffer.len() / self.bytes().max(channels);
         let start = buffer.len() - pixels * self.bytes();
@@ -45,8 +46,20 @@ impl Layout {
 
     #[inline]
     fn pixel(self, coded: &[u8]) -> [u8; 4] {
-        let channel = |k: usize| if self.is_wide { narrow([coded[2 * k], coded[2 * k + 1]]) } else { coded[k] };
-        let opacity = |k: usize| if self.has_alpha() { channel(k) } else { u8::MAX };
+        let channel = |k: usize| {
+            if self.is_wide {
+                narrow([coded[2 * k], coded[2 * k + 1]])
+            } else {
+                coded[k]
+            }
+        };
+        let opacity = |k: usize| {
+            if self.has_alpha() {
+                channel(k)
+            } else {
+                u8::MAX
+            }
+        };
         match self.channels {
             1 | 2 => [channel(0), channel(0), channel(0), opacity(1)],
             _ => [channel(0), channel(1), channel(2), opacity(3)],
@@ -68,9 +81,13 @@ mod tests {
         let layout = Layout { channels, is_wide };
         let mut buffer = vec![0; 2 * layout.bytes().max(to)];
         let coded = layout.place(&mut buffer, to);
-        // Byte k of both pixels together is 10·k, those of wide channels doubled: then the value is the same.
+        // Byte k of both pixels together is 10·k, those of wide channels doubled: then the value is
+        // the same.
         let each = if is_wide { 2 } else { 1 };
-        coded.iter_mut().enumerate().for_each(|(k, byte)| *byte = u8::try_from(k / each * 10).unwrap());
+        coded
+            .iter_mut()
+            .enumerate()
+            .for_each(|(k, byte)| *byte = u8::try_from(k / each * 10).unwrap());
         layout.convert(&mut buffer, to);
         buffer
     }
@@ -89,6 +106,9 @@ mod tests {
 
     #[test]
     fn sixteen_bits_are_rounded() {
-        assert_eq!([[0, 128], [0, 129], [255, 126], [255, 127]].map(narrow), [0, 1, 254, 255]);
+        assert_eq!(
+            [[0, 128], [0, 129], [255, 126], [255, 127]].map(narrow),
+            [0, 1, 254, 255]
+        );
     }
 }

@@ -1,8 +1,8 @@
 //! Pixel files read: PNG, JPEG and WebP, told apart by content, to 8 bits a channel.
 //!
-//! A file is opened first, which reads its header alone and tells what decoding will take; who opened it decides whether
-//! it is decoded. Its pixels are decoded into the buffer that is handed on, and there turned into bytes: nothing is
-//! copied.
+//! A file is opened first, which reads its header alone and tells what decoding will take; who
+//! opened it decides whether it is decoded. Its pixels are decoded into the buffer that is handed
+//! on, and there turned into bytes: nothing is copied.
 
 mod jpeg;
 mod layout;
@@ -106,7 +106,11 @@ impl Size {
             return Err(DecodeError::Damaged("it has no pixels".to_owned()));
         }
         let size = Self { width, height };
-        if size.pixels() > most_pixels { Err(size.too_large()) } else { Ok(size) }
+        if size.pixels() > most_pixels {
+            Err(size.too_large())
+        } else {
+            Ok(size)
+        }
     }
 
     pub(super) fn pixels(self) -> u64 {
@@ -114,15 +118,22 @@ impl Size {
     }
 
     pub(super) fn too_large(self) -> DecodeError {
-        DecodeError::TooLarge { width: self.width, height: self.height }
+        DecodeError::TooLarge {
+            width: self.width,
+            height: self.height,
+        }
     }
 
     /// A buffer of so many bytes for each pixel, if there is memory for it.
     pub(super) fn buffer(self, pixel: usize) -> Result<Vec<u8>, DecodeError> {
-        let bytes = usize::try_from(self.pixels()).ok().and_then(|pixels| pixels.checked_mul(pixel));
+        let bytes = usize::try_from(self.pixels())
+            .ok()
+            .and_then(|pixels| pixels.checked_mul(pixel));
         let bytes = bytes.ok_or(self.too_large())?;
         let mut buffer = Vec::new();
-        buffer.try_reserve_exact(bytes).map_err(|_| self.too_large())?;
+        buffer
+            .try_reserve_exact(bytes)
+            .map_err(|_| self.too_large())?;
         buffer.resize(bytes, 0);
         Ok(buffer)
     }
@@ -131,27 +142,40 @@ impl Size {
 /// Whether a file that begins so is one that [`PixelFile`] reads.
 #[must_use]
 pub fn is_picture(head: &[u8]) -> bool {
-    ::image::guess_format(head)
-        .is_ok_and(|format| matches!(format, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP))
+    ::image::guess_format(head).is_ok_and(|format| {
+        matches!(
+            format,
+            ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::WebP
+        )
+    })
 }
 
 impl<'a> PixelFile<'a> {
     /// Reads the header of a pixel file.
     ///
     /// # Errors
-    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are allowed.
+    /// If the bytes are no such file, the header is damaged, or it tells of more pixels than are
+    /// allowed.
     pub fn open(bytes: &'a [u8], opacity: Opacity, most_pixels: u64) -> Result<Self, DecodeError> {
         let format = ::image::guess_format(bytes).map_err(|_| DecodeError::Format(None))?;
         let (size, decoder) = if format == ImageFormat::Png {
             png::open(bytes, most_pixels).map(|(size, png)| (size, Decoder::Png(Box::new(png))))?
         } else if format == ImageFormat::Jpeg {
-            jpeg::open(bytes, most_pixels).map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?
+            jpeg::open(bytes, most_pixels)
+                .map(|(size, jpeg)| (size, Decoder::Jpeg(Box::new(jpeg))))?
         } else if format == ImageFormat::WebP {
-            webp::open(bytes, most_pixels).map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?
+            webp::open(bytes, most_pixels)
+                .map(|(size, webp)| (size, Decoder::WebP(Box::new(webp))))?
         } else {
-            return Err(DecodeError::Format(Some(format.to_mime_type().trim_start_matches("image/"))));
+            return Err(DecodeError::Format(Some(
+                format.to_mime_type().trim_start_matches("image/"),
+            )));
         };
-        Ok(Self { size, opacity, decoder })
+        Ok(Self {
+            size,
+            opacity,
+            decoder,
+        })
     }
 
     /// What decoding it will take.
@@ -166,10 +190,15 @@ impl<'a> PixelFile<'a> {
             },
         );
         let pixel = self.layout().bytes().max(self.channels()) as u64;
-        Cost { pixels, memory: pixels.saturating_mul(pixel), passing }
+        Cost {
+            pixels,
+            memory: pixels.saturating_mul(pixel),
+            passing,
+        }
     }
 
-    /// Decodes it. Colours stay as stored: profiles and gamma are not applied, 16 bits are rounded to 8.
+    /// Decodes it. Colours stay as stored: profiles and gamma are not applied, 16 bits are rounded
+    /// to 8.
     ///
     /// # Errors
     /// If the file is damaged or ends early, or there is no memory for it.
@@ -183,7 +212,12 @@ impl<'a> PixelFile<'a> {
             Decoder::WebP(webp) => webp.decode(coded)?,
         }
         layout.convert(&mut bytes, channels);
-        Ok(Pixels { width: size.width, height: size.height, has_alpha: channels == 4, bytes })
+        Ok(Pixels {
+            width: size.width,
+            height: size.height,
+            has_alpha: channels == 4,
+            bytes,
+        })
     }
 
     /// How the decoder lays out pixels.
@@ -197,6 +231,10 @@ impl<'a> PixelFile<'a> {
 
     /// How many channels of a byte the pixels will have.
     fn channels(&self) -> usize {
-        if self.opacity == Opacity::Kept && self.layout().has_alpha() { 4 } else { 3 }
+        if self.opacity == Opacity::Kept && self.layout().has_alpha() {
+            4
+        } else {
+            3
+        }
     }
 }

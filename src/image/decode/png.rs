@@ -1,4 +1,5 @@
-//! PNG. What a file holds beside its pixels is passed over: profiles and texts are compressed, and may be bombs.
+//! PNG. What a file holds beside its pixels is passed over: profiles and texts are compressed, and
+//! may be bombs.
 
 use super::layout::Layout;
 use super::{DecodeError, Size};
@@ -27,7 +28,16 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Png<'_>), De
         ColorType::Rgb | ColorType::Indexed => 3,
         ColorType::Rgba => 4,
     };
-    Ok((size, Png { reader, layout: Layout { channels, is_wide: depth == BitDepth::Sixteen } }))
+    Ok((
+        size,
+        Png {
+            reader,
+            layout: Layout {
+                channels,
+                is_wide: depth == BitDepth::Sixteen,
+            },
+        },
+    ))
 }
 
 fn fault(error: &DecodingError, size: Size) -> DecodeError {
@@ -47,6 +57,9 @@ impl Png<'_> {
     }
 
     pub(super) fn decode(mut self, into: &mut [u8]) -> Result<(), DecodeError> {
-        self.reader.next_frame(into).map(|_| ()).map_err(DecodeError::damaged)
+        self.reader
+            .next_frame(into)
+            .map(|_| ())
+            .map_err(DecodeError::damaged)
     }
 }

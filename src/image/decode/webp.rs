@@ -18,16 +18,27 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, WebP<'_>), D
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
     let size = Size::within(most_pixels, width, height)?;
-    let layout = Layout { channels: usize::from(decoder.color_type().channel_count()), is_wide: false };
-    // Planes of a lossy picture take 1.5 bytes a pixel, a lossless one 4 and as much as 1 for its transforms; a plane of
-    // opacity is lossless, and an animation has a canvas beside its picture.
+    let layout = Layout {
+        channels: usize::from(decoder.color_type().channel_count()),
+        is_wide: false,
+    };
+    // Planes of a lossy picture take 1.5 bytes a pixel, a lossless one 4 and as much as 1 for its
+    // transforms; a plane of opacity is lossless, and an animation has a canvas beside its
+    // picture.
     let passing = match bytes.get(12..16) {
         Some(b"VP8 ") => 2,
         Some(b"VP8L") => 5,
         _ if decoder.has_animation() => 16,
         _ => 8,
     };
-    Ok((size, WebP { decoder, layout, passing }))
+    Ok((
+        size,
+        WebP {
+            decoder,
+            layout,
+            passing,
+        },
+    ))
 }
 
 impl WebP<'_> {

@@ -24,14 +24,21 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
         return ("its colour is 0", vec![light(index, Field::Color)]);
     }
     if rule == Rule::Mode {
-        return ("the mode shows the first hit alone", vec![settings(Field::Mode)]);
+        return (
+            "the mode shows the first hit alone",
+            vec![settings(Field::Mode)],
+        );
     }
     if rule == Rule::LightBehind {
         let mut facts = vec![light(index, Field::Position)];
-        facts.extend(few(findings.reached().map(|surface| findings.surface(surface, Field::Whole))));
+        facts.extend(few(findings
+            .reached()
+            .map(|surface| findings.surface(surface, Field::Whole))));
         return ("it stands behind all surfaces that can be seen", facts);
     }
-    let facts = few(findings.reached().map(|surface| findings.material(surface, Field::Kd)));
+    let facts = few(findings
+        .reached()
+        .map(|surface| findings.material(surface, Field::Kd)));
     ("kd·C and ks are 0 on all that can be seen", facts)
 }
 
@@ -42,20 +49,48 @@ fn direct(findings: &Findings<'_>) -> Verdict {
         return Verdict::absent(effect, "the scene has no light", vec![]);
     }
     if !findings.is_shaded() {
-        return findings.by_mode(effect, true).unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
+        return findings
+            .by_mode(effect, true)
+            .unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
     }
     if let Mode::Gooch(_) = findings.mode() {
-        return Verdict::needed(effect, "Gooch's tones follow the lights", vec![light(0, Field::Position)]);
+        return Verdict::needed(
+            effect,
+            "Gooch's tones follow the lights",
+            vec![light(0, Field::Position)],
+        );
     }
     let needed = findings.lights.plans.iter().position(|light| light.direct);
     match needed.zip(findings.first(Look::is_lit)) {
         Some((index, surface)) => {
-            let count = findings.lights.plans.iter().filter(|light| light.direct).count();
-            let facts = vec![light(index, Field::Position), findings.surface(surface, Field::Whole)];
-            Verdict::needed(effect, format!("{count} of {} lights shine on what can be seen", lights.len()), facts)
+            let count = findings
+                .lights
+                .plans
+                .iter()
+                .filter(|light| light.direct)
+                .count();
+            let facts = vec![
+                light(index, Field::Position),
+                findings.surface(surface, Field::Whole),
+            ];
+            Verdict::needed(
+                effect,
+                format!(
+                    "{count} of {} lights shine on what can be seen",
+                    lights.len()
+                ),
+                facts,
+            )
         }
         None => {
-            let rule = findings.lights.rules.iter().flatten().next().copied().unwrap_or(Rule::LightUnreached);
+            let rule = findings
+                .lights
+                .rules
+                .iter()
+                .flatten()
+                .next()
+                .copied()
+                .unwrap_or(Rule::LightUnreached);
             let (words, facts) = reason(findings, 0, rule);
             Verdict::pruned(effect, rule, format!("each light: {words}"), facts)
         }
@@ -67,7 +102,10 @@ fn single_lights(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let shaded = findings.is_shaded();
     rules.filter(move |_| shaded).filter_map(|(index, rule)| {
         let (words, facts) = reason(findings, index, (*rule)?);
-        Some(Verdict::pruned(Effect::DirectLight, (*rule)?, words, facts).of(light(index, Field::Whole)))
+        Some(
+            Verdict::pruned(Effect::DirectLight, (*rule)?, words, facts)
+                .of(light(index, Field::Whole)),
+        )
     })
 }
 
@@ -81,7 +119,12 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
         let words = "the scene does not ask for shadows";
         return Verdict::absent(effect, words, vec![]).by(Rule::ShadowOff);
     }
-    if let Some(Shadow { light: index, caster, receiver }) = findings.lights.shadow {
+    if let Some(Shadow {
+        light: index,
+        caster,
+        receiver,
+    }) = findings.lights.shadow
+    {
         let facts = vec![
             light(index, Field::Position),
             findings.surface(caster, Field::Whole),
@@ -96,19 +139,41 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
     }
     let lit = findings.first(|look| findings.is_lit(look));
     let Some(surface) = lit else {
-        return Verdict::pruned(effect, Rule::ShadowUnlit, "no light adds more than its ambient term", vec![]);
+        return Verdict::pruned(
+            effect,
+            Rule::ShadowUnlit,
+            "no light adds more than its ambient term",
+            vec![],
+        );
     };
-    let facts = vec![findings.surface(surface, Field::Whole), light(0, Field::Position)];
+    let facts = vec![
+        findings.surface(surface, Field::Whole),
+        light(0, Field::Position),
+    ];
     if findings.lights.alone {
-        return Verdict::pruned(effect, Rule::ShadowConvex, "one convex surface, lights outside", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::ShadowConvex,
+            "one convex surface, lights outside",
+            facts,
+        );
     }
-    Verdict::pruned(effect, Rule::ShadowPair, "nothing stands between a light and what it shines on", facts)
+    Verdict::pruned(
+        effect,
+        Rule::ShadowPair,
+        "nothing stands between a light and what it shines on",
+        facts,
+    )
 }
 
 fn soft(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::SoftLight;
     let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
-    let Some(first) = scene.lights().iter().position(|light| light.radius.get() > 0.0) else {
+    let Some(first) = scene
+        .lights()
+        .iter()
+        .position(|light| light.radius.get() > 0.0)
+    else {
         return Verdict::absent(effect, "no light has a radius", vec![]).by(Rule::SoftPoint);
     };
     if let Some(verdict) = findings.by_mode(effect, true) {
@@ -117,10 +182,19 @@ fn soft(findings: &Findings<'_>) -> Verdict {
     let facts = vec![samples, light(first, Field::LightRadius)];
     let count = scene.settings().light_samples.get();
     if count == 1 {
-        return Verdict::pruned(effect, Rule::SoftPoint, "one sample of a light asks its centre", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::SoftPoint,
+            "one sample of a light asks its centre",
+            facts,
+        );
     }
     if findings.is_soft() {
-        return Verdict::needed(effect, format!("{count} points of a light with a radius"), facts);
+        return Verdict::needed(
+            effect,
+            format!("{count} points of a light with a radius"),
+            facts,
+        );
     }
     let rule = findings.lights.rules[first].unwrap_or(Rule::LightUnreached);
     let (words, facts) = reason(findings, first, rule);
@@ -129,31 +203,62 @@ fn soft(findings: &Findings<'_>) -> Verdict {
 
 fn highlight(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Highlight;
-    let any_ks = findings.facts.scene.materials().iter().any(|material| material.ks.get() > 0.0);
+    let any_ks = findings
+        .facts
+        .scene
+        .materials()
+        .iter()
+        .any(|material| material.ks.get() > 0.0);
     if !findings.is_shaded() {
-        return findings.by_mode(effect, any_ks).unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
+        return findings
+            .by_mode(effect, any_ks)
+            .unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
     }
     if let Some(surface) = findings.first(|look| look.shines && findings.is_lit(look)) {
-        let facts = vec![findings.material(surface, Field::Ks), findings.surface(surface, Field::Whole)];
+        let facts = vec![
+            findings.material(surface, Field::Ks),
+            findings.surface(surface, Field::Whole),
+        ];
         return Verdict::needed(effect, "ks > 0 on a surface that can be seen", facts);
     }
     if findings.any(|look| look.shines) {
-        let rule = findings.lights.rules.iter().flatten().next().copied().unwrap_or(Rule::LightUnreached);
-        return Verdict::pruned(effect, rule, "no light adds more than its ambient term", vec![]);
+        let rule = findings
+            .lights
+            .rules
+            .iter()
+            .flatten()
+            .next()
+            .copied()
+            .unwrap_or(Rule::LightUnreached);
+        return Verdict::pruned(
+            effect,
+            rule,
+            "no light adds more than its ambient term",
+            vec![],
+        );
     }
     let unseen = findings.first_unseen(|look| look.shines);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
         return Verdict::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
     }
-    let facts = few(findings.reached().map(|surface| findings.material(surface, Field::Ks)));
-    Verdict::pruned(effect, Rule::HighlightKs, "ks is 0 on all that can be seen", facts)
+    let facts = few(findings
+        .reached()
+        .map(|surface| findings.material(surface, Field::Ks)));
+    Verdict::pruned(
+        effect,
+        Rule::HighlightKs,
+        "ks is 0 on all that can be seen",
+        facts,
+    )
 }
 
 /// Materials that show somewhere, but never a highlight, beside others that do.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.is_shaded() && findings.any(|look| look.shines);
-    let surfaces = findings.materials_without(|look| look.shines).filter(move |_| is_needed);
+    let surfaces = findings
+        .materials_without(|look| look.shines)
+        .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
         let verdict = Verdict::pruned(Effect::Highlight, Rule::HighlightKs, "its ks is 0", facts);

@@ -16,7 +16,11 @@ pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
 }
 
 /// Why no bounce adds anything, if none does; `asks` says whether a material asks for the effect.
-fn no_bounce(findings: &Findings<'_>, effect: Effect, asks: impl Fn(&Phong) -> bool) -> Option<Verdict> {
+fn no_bounce(
+    findings: &Findings<'_>,
+    effect: Effect,
+    asks: impl Fn(&Phong) -> bool,
+) -> Option<Verdict> {
     let settings_of_scene = findings.facts.scene.settings();
     let asked = findings.facts.scene.materials().iter().any(&asks);
     if let Some(verdict) = findings.by_mode(effect, asked) {
@@ -35,34 +39,66 @@ fn no_bounce(findings: &Findings<'_>, effect: Effect, asks: impl Fn(&Phong) -> b
         });
     }
     if findings.any(Look::mirrors) && findings.reach.depth > 0 {
-        return Some(Verdict::pruned(effect, Rule::Cut, "what bounces add is too small to see", facts));
+        return Some(Verdict::pruned(
+            effect,
+            Rule::Cut,
+            "what bounces add is too small to see",
+            facts,
+        ));
     }
     if let Some(mirror) = findings.first(Look::mirrors) {
-        let facts = vec![findings.surface(mirror, Field::Whole), findings.material(mirror, Field::Ks)];
+        let facts = vec![
+            findings.surface(mirror, Field::Whole),
+            findings.material(mirror, Field::Ks),
+        ];
         let is_alone = findings.facts.bodies.len() == 1;
         let (rule, words) = if is_alone {
-            (Rule::MirrorConvex, "the mirrors that can be seen show nothing: one convex surface")
+            (
+                Rule::MirrorConvex,
+                "the mirrors that can be seen show nothing: one convex surface",
+            )
         } else {
-            (Rule::MirrorUnreached, "the mirrors that can be seen show nothing")
+            (
+                Rule::MirrorUnreached,
+                "the mirrors that can be seen show nothing",
+            )
         };
         return Some(Verdict::pruned(effect, rule, words, facts));
     }
     if let Some(mirror) = findings.first_unseen(Look::mirrors).filter(|_| asked) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
-        return Some(Verdict::pruned(effect, Rule::Cull, "no mirror can be seen", facts));
+        return Some(Verdict::pruned(
+            effect,
+            Rule::Cull,
+            "no mirror can be seen",
+            facts,
+        ));
     }
-    let facts = few(findings.reached().map(|surface| findings.material(surface, Field::Ks)));
-    Some(Verdict::pruned(effect, Rule::MirrorKs, "ks is 0 on all that can be seen", facts))
+    let facts = few(findings
+        .reached()
+        .map(|surface| findings.material(surface, Field::Ks)));
+    Some(Verdict::pruned(
+        effect,
+        Rule::MirrorKs,
+        "ks is 0 on all that can be seen",
+        facts,
+    ))
 }
 
 /// How many bounces follow the first hit.
 fn depth(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Depth;
-    if let Some(verdict) = no_bounce(findings, effect, |material| material.ks.get() + material.kt.get() > 0.0) {
+    if let Some(verdict) = no_bounce(findings, effect, |material| {
+        material.ks.get() + material.kt.get() > 0.0
+    }) {
         return verdict;
     }
     let mut facts = vec![settings(Field::MaxDepth)];
-    facts.extend(findings.first(Look::mirrors).map(|mirror| findings.surface(mirror, Field::Whole)));
+    facts.extend(
+        findings
+            .first(Look::mirrors)
+            .map(|mirror| findings.surface(mirror, Field::Whole)),
+    );
     let (planned, asked) = (findings.max_depth, findings.asked);
     let rest = asked - planned.min(asked);
     let bounces = if planned == 1 { "bounce" } else { "bounces" };
@@ -86,19 +122,33 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
     }
     match findings.first(Look::mirrors) {
         Some(surface) => {
-            let facts = vec![findings.material(surface, Field::Ks), findings.surface(surface, Field::Whole)];
+            let facts = vec![
+                findings.material(surface, Field::Ks),
+                findings.surface(surface, Field::Whole),
+            ];
             let shines = findings.facts.looks[surface].shines;
-            let words = if shines { "ks > 0 on a surface that can be seen" } else { "light may be reflected totally" };
+            let words = if shines {
+                "ks > 0 on a surface that can be seen"
+            } else {
+                "light may be reflected totally"
+            };
             Verdict::needed(effect, words, facts)
         }
-        None => Verdict::pruned(effect, Rule::MirrorKs, "ks is 0 on all that can be seen", vec![]),
+        None => Verdict::pruned(
+            effect,
+            Rule::MirrorKs,
+            "ks is 0 on all that can be seen",
+            vec![],
+        ),
     }
 }
 
 /// Materials that show somewhere, but mirror nothing, beside others that do.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.max_depth > 0 && findings.any(Look::mirrors);
-    let surfaces = findings.materials_without(Look::mirrors).filter(move |_| is_needed);
+    let surfaces = findings
+        .materials_without(Look::mirrors)
+        .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
         let verdict = Verdict::pruned(Effect::Mirror, Rule::MirrorKs, "its ks is 0", facts);
@@ -109,8 +159,12 @@ fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Ver
 fn glossy(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::GlossyReflection;
     let materials = findings.facts.scene.materials();
-    if materials.iter().all(|material| material.glossy_samples.get() == 1) {
-        return Verdict::absent(effect, "each mirror is sharp: one sample", vec![]).by(Rule::GlossyMirror);
+    if materials
+        .iter()
+        .all(|material| material.glossy_samples.get() == 1)
+    {
+        return Verdict::absent(effect, "each mirror is sharp: one sample", vec![])
+            .by(Rule::GlossyMirror);
     }
     if let Some(verdict) = no_bounce(findings, effect, |_| true) {
         return verdict;
@@ -118,7 +172,10 @@ fn glossy(findings: &Findings<'_>) -> Verdict {
     match findings.first(|look| look.glossy && look.mirrors()) {
         Some(surface) => {
             let count = materials[findings.facts.scene.surfaces()[surface].material].glossy_samples;
-            let facts = vec![findings.material(surface, Field::GlossySamples), findings.surface(surface, Field::Whole)];
+            let facts = vec![
+                findings.material(surface, Field::GlossySamples),
+                findings.surface(surface, Field::Whole),
+            ];
             Verdict::needed(effect, format!("{count} rays of a lobe"), facts)
         }
         None => {
@@ -139,13 +196,23 @@ fn refraction(findings: &Findings<'_>) -> Verdict {
     }
     match findings.first(|look| look.refracts) {
         Some(surface) => {
-            let facts = vec![findings.material(surface, Field::Kt), findings.surface(surface, Field::Whole)];
+            let facts = vec![
+                findings.material(surface, Field::Kt),
+                findings.surface(surface, Field::Whole),
+            ];
             Verdict::needed(effect, "kt > 0 on a surface that can be seen", facts)
         }
         None => {
             let unseen = findings.first_unseen(|look| look.refracts);
-            let facts = few(unseen.iter().map(|surface| findings.surface(*surface, Field::Whole)));
-            Verdict::pruned(effect, Rule::Opaque, "nothing with kt > 0 can be seen", facts)
+            let facts = few(unseen
+                .iter()
+                .map(|surface| findings.surface(*surface, Field::Whole)));
+            Verdict::pruned(
+                effect,
+                Rule::Opaque,
+                "nothing with kt > 0 can be seen",
+                facts,
+            )
         }
     }
 }

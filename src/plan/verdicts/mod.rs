@@ -1,4 +1,5 @@
-//! The verdicts: for each effect whether the picture needs it, by which values, or which rule left it out and why.
+//! The verdicts: for each effect whether the picture needs it, by which values, or which rule left
+//! it out and why.
 
 mod light;
 mod mirror;
@@ -39,41 +40,77 @@ fn light(index: usize, field: Field) -> Place {
 
 impl Verdict {
     fn needed(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
-        Self { effect, of: None, state: State::Needed, rule: None, because: because.into(), facts }
+        Self {
+            effect,
+            of: None,
+            state: State::Needed,
+            rule: None,
+            because: because.into(),
+            facts,
+        }
     }
 
     fn absent(effect: Effect, because: impl Into<String>, facts: Vec<Place>) -> Self {
-        Self { effect, of: None, state: State::Absent, rule: None, because: because.into(), facts }
+        Self {
+            effect,
+            of: None,
+            state: State::Absent,
+            rule: None,
+            because: because.into(),
+            facts,
+        }
     }
 
     fn pruned(effect: Effect, rule: Rule, because: impl Into<String>, facts: Vec<Place>) -> Self {
-        Self { effect, of: None, state: State::Pruned, rule: Some(rule), because: because.into(), facts }
+        Self {
+            effect,
+            of: None,
+            state: State::Pruned,
+            rule: Some(rule),
+            because: because.into(),
+            facts,
+        }
     }
 
     fn of(self, place: Place) -> Self {
-        Self { of: Some(place), ..self }
+        Self {
+            of: Some(place),
+            ..self
+        }
     }
 
     /// Notes the rule by whose definition a scene does without the effect.
     fn by(self, rule: Rule) -> Self {
-        Self { rule: Some(rule), ..self }
+        Self {
+            rule: Some(rule),
+            ..self
+        }
     }
 }
 
 impl Findings<'_> {
     /// The place of a surface in the IR.
     fn surface(&self, surface: usize, field: Field) -> Place {
-        Place::new(Noun::Surface, self.facts.scene.surfaces()[surface].index, field)
+        Place::new(
+            Noun::Surface,
+            self.facts.scene.surfaces()[surface].index,
+            field,
+        )
     }
 
     /// The place of a value of the material of a surface.
     fn material(&self, surface: usize, field: Field) -> Place {
-        Place::new(Noun::Material, self.facts.scene.surfaces()[surface].material, field)
+        Place::new(
+            Noun::Material,
+            self.facts.scene.surfaces()[surface].material,
+            field,
+        )
     }
 
     /// The first surface that is looked at and shows something.
     fn first(&self, shows: impl Fn(&Look) -> bool) -> Option<usize> {
-        self.reached().find(|surface| shows(&self.facts.looks[*surface]))
+        self.reached()
+            .find(|surface| shows(&self.facts.looks[*surface]))
     }
 
     /// The first surface that shows something but is not looked at.
@@ -82,11 +119,13 @@ impl Findings<'_> {
         surfaces.find(|surface| !self.reach.reached[*surface] && shows(&self.facts.looks[*surface]))
     }
 
-    /// The materials of which no surface that is looked at shows something, each with such a surface.
+    /// The materials of which no surface that is looked at shows something, each with such a
+    /// surface.
     fn materials_without(&self, shows: impl Fn(&Look) -> bool) -> impl Iterator<Item = usize> {
         let mut without = vec![None; self.facts.scene.materials().len()];
         for surface in self.reached() {
-            let first = without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
+            let first =
+                without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
             *first = first.filter(|_| !shows(&self.facts.looks[surface]));
         }
         without.into_iter().flatten().flatten()

@@ -12,7 +12,11 @@ use crate::valid::{Mode, Pattern};
 pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> {
     let buffer = |effect, is_shown: bool, words: &str| {
         let facts = vec![settings(Field::Mode)];
-        if is_shown { Verdict::needed(effect, words, facts) } else { Verdict::absent(effect, "another mode", facts) }
+        if is_shown {
+            Verdict::needed(effect, words, facts)
+        } else {
+            Verdict::absent(effect, "another mode", facts)
+        }
     };
     let mode = findings.mode();
     let depth = "the picture is one of depths";
@@ -26,61 +30,109 @@ pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> 
 
 fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
     let count = findings.facts.bodies.len();
-    let is_left_out = |surface: usize| !findings.reach.reached[surface] && !findings.lights.casts[surface];
-    let out = (0..count).filter(|surface| is_left_out(*surface)).collect::<Vec<_>>();
-    let places = few(out.iter().map(|surface| findings.surface(*surface, Field::Whole)));
+    let is_left_out =
+        |surface: usize| !findings.reach.reached[surface] && !findings.lights.casts[surface];
+    let out = (0..count)
+        .filter(|surface| is_left_out(*surface))
+        .collect::<Vec<_>>();
+    let places = few(out
+        .iter()
+        .map(|surface| findings.surface(*surface, Field::Whole)));
     let empty = region.empty_share();
     if count == 0 {
         return Verdict::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
     if out.len() == count && findings.facts.rules.contains(Rule::Cull) {
-        return Verdict::pruned(Effect::Surfaces, Rule::Cull, "no ray can meet any of them", places);
+        return Verdict::pruned(
+            Effect::Surfaces,
+            Rule::Cull,
+            "no ray can meet any of them",
+            places,
+        );
     }
-    let seen = few(findings.reached().map(|surface| findings.surface(surface, Field::Whole)));
+    let seen = few(findings
+        .reached()
+        .map(|surface| findings.surface(surface, Field::Whole)));
     let mut words = format!("{} of {count} may be met by a ray", count - out.len());
     if empty > 0.0 {
-        words += &format!("; {:.0} % of the pixels show none (E-SS-MISS)", 100.0 * empty);
+        words += &format!(
+            "; {:.0} % of the pixels show none (E-SS-MISS)",
+            100.0 * empty
+        );
     }
     if !findings.facts.rules.contains(Rule::Cull) {
         return Verdict::needed(Effect::Surfaces, "all are kept", seen);
     }
     let verdict = Verdict::needed(Effect::Surfaces, words, seen);
-    if out.is_empty() { verdict } else { Verdict { facts: places, ..verdict }.by(Rule::Cull) }
+    if out.is_empty() {
+        verdict
+    } else {
+        Verdict {
+            facts: places,
+            ..verdict
+        }
+        .by(Rule::Cull)
+    }
 }
 
 /// Textures, normals of meshes, normal maps.
 pub(super) fn maps(findings: &Findings<'_>) -> Vec<Verdict> {
-    vec![textures(findings), interpolation(findings), mapping(findings)]
+    vec![
+        textures(findings),
+        interpolation(findings),
+        mapping(findings),
+    ]
 }
 
 fn textures(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Textures;
     if let Some(surface) = findings.first(|look| findings.shows_color_map(look)) {
-        let facts = vec![findings.material(surface, Field::ColorMap), findings.surface(surface, Field::Whole)];
+        let facts = vec![
+            findings.material(surface, Field::ColorMap),
+            findings.surface(surface, Field::Whole),
+        ];
         return Verdict::needed(effect, "a texture gives the colour of a surface", facts);
     }
     if let Some(surface) = findings.first(|look| findings.shows_specular_map(look)) {
-        let facts = vec![findings.material(surface, Field::SpecularMap), findings.surface(surface, Field::Whole)];
+        let facts = vec![
+            findings.material(surface, Field::SpecularMap),
+            findings.surface(surface, Field::Whole),
+        ];
         return Verdict::needed(effect, "a texture scales the ks of a surface", facts);
     }
     let has_map = |material: &&crate::valid::Phong| {
-        material.maps.as_deref().is_some_and(|maps| maps.color.is_some() || maps.specular.is_some())
+        material
+            .maps
+            .as_deref()
+            .is_some_and(|maps| maps.color.is_some() || maps.specular.is_some())
     };
     let materials = findings.facts.scene.materials();
     if !materials.iter().any(|material| has_map(&material)) {
         return Verdict::absent(effect, "no material has a texture", vec![]);
     }
-    if let Some(verdict) = findings.by_mode(effect, true).filter(|_| !findings.is_shaded()) {
+    if let Some(verdict) = findings
+        .by_mode(effect, true)
+        .filter(|_| !findings.is_shaded())
+    {
         return verdict;
     }
-    let is_constant = |map: Option<usize>| map.is_some_and(|map| findings.facts.constants[map].is_some());
+    let is_constant =
+        |map: Option<usize>| map.is_some_and(|map| findings.facts.constants[map].is_some());
     let constant = |look: &Look| is_constant(look.color_map) || is_constant(look.specular_map);
     if let Some(surface) = findings.first(constant) {
         let facts = vec![findings.material(surface, Field::ColorMap)];
-        return Verdict::pruned(effect, Rule::TextureConstant, "all texels of each texture are equal", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::TextureConstant,
+            "all texels of each texture are equal",
+            facts,
+        );
     }
-    let unseen = findings.first_unseen(|look| look.color_map.is_some() || look.specular_map.is_some());
-    let facts = few(unseen.iter().map(|surface| findings.surface(*surface, Field::Whole)));
+    let unseen =
+        findings.first_unseen(|look| look.color_map.is_some() || look.specular_map.is_some());
+    let facts = few(unseen
+        .iter()
+        .map(|surface| findings.surface(*surface, Field::Whole)));
     let words = "textures are on surfaces without uv, out of sight, or of weight 0";
     Verdict::pruned(effect, Rule::TextureUnseen, words, facts)
 }
@@ -103,7 +155,12 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
     };
     let facts = vec![findings.surface(surface, Field::Whole)];
     if matches!(findings.mode(), Mode::Zbuffer) {
-        return Verdict::pruned(effect, Rule::Mode, "a depth buffer has no normals", vec![settings(Field::Mode)]);
+        return Verdict::pruned(
+            effect,
+            Rule::Mode,
+            "a depth buffer has no normals",
+            vec![settings(Field::Mode)],
+        );
     }
     let words = if findings.reached().any(|surface| shows(&surface)) {
         "all corners of each triangle have the same normal"
@@ -116,17 +173,32 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
 fn mapping(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::NormalMapping;
     if let Some(surface) = findings.first(|look| look.mapped && findings.shows_normal(look)) {
-        let facts = vec![findings.material(surface, Field::NormalMap), findings.surface(surface, Field::Whole)];
+        let facts = vec![
+            findings.material(surface, Field::NormalMap),
+            findings.surface(surface, Field::Whole),
+        ];
         return Verdict::needed(effect, "a map bends the normals of a surface", facts);
     }
     let maps = |material: &crate::valid::Phong| {
-        material.maps.as_deref().is_some_and(|maps| maps.normal.is_some() || maps.bump.is_some())
+        material
+            .maps
+            .as_deref()
+            .is_some_and(|maps| maps.normal.is_some() || maps.bump.is_some())
     };
     if !findings.facts.scene.materials().iter().any(maps) {
-        return Verdict::absent(effect, "no material has a normal map or a height field", vec![]);
+        return Verdict::absent(
+            effect,
+            "no material has a normal map or a height field",
+            vec![],
+        );
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
-        return Verdict::pruned(effect, Rule::Mode, "a depth buffer has no normals", vec![settings(Field::Mode)]);
+        return Verdict::pruned(
+            effect,
+            Rule::Mode,
+            "a depth buffer has no normals",
+            vec![settings(Field::Mode)],
+        );
     }
     let words = "such maps are on surfaces without uv, out of sight, or neither lit nor mirrors";
     Verdict::pruned(effect, Rule::TextureUnseen, words, vec![])
@@ -139,23 +211,46 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
     let (radius, samples) = (lens.radius.get(), lens.samples.get());
     let facts = vec![camera(Field::LensRadius), camera(Field::LensSamples)];
     if radius == 0.0 && samples == 1 {
-        return Verdict::absent(effect, "a pinhole: no lens is given", vec![camera(Field::LensRadius)])
-            .by(Rule::Pinhole);
+        return Verdict::absent(
+            effect,
+            "a pinhole: no lens is given",
+            vec![camera(Field::LensRadius)],
+        )
+        .by(Rule::Pinhole);
     }
     if radius == 0.0 {
-        return Verdict::pruned(effect, Rule::Pinhole, "the radius of the lens is 0: a pinhole", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::Pinhole,
+            "the radius of the lens is 0: a pinhole",
+            facts,
+        );
     }
     if samples == 1 {
-        return Verdict::pruned(effect, Rule::Pinhole, "one sample of the lens is its centre", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::Pinhole,
+            "one sample of the lens is its centre",
+            facts,
+        );
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode)];
-        return Verdict::pruned(effect, Rule::Mode, "a depth buffer is seen from the eye alone", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::Mode,
+            "a depth buffer is seen from the eye alone",
+            facts,
+        );
     }
     if findings.reached().next().is_none() {
         return Verdict::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
-    Verdict::needed(effect, format!("{samples} points of a lens of radius {radius}"), facts)
+    Verdict::needed(
+        effect,
+        format!("{samples} points of a lens of radius {radius}"),
+        facts,
+    )
 }
 
 /// Samples of a pixel.
@@ -165,18 +260,29 @@ pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict
     let factor = settings_of_scene.supersampling.get();
     let facts = vec![settings(Field::Supersampling)];
     if factor == 1 {
-        let words =
-            if settings_of_scene.pattern == Pattern::Grid { "a factor of 1" } else { "a factor of 1, at random" };
+        let words = if settings_of_scene.pattern == Pattern::Grid {
+            "a factor of 1"
+        } else {
+            "a factor of 1, at random"
+        };
         return Verdict::absent(effect, words, facts).by(Rule::OneSample);
     }
     if matches!(findings.mode(), Mode::Zbuffer) {
         let facts = vec![settings(Field::Mode), settings(Field::Supersampling)];
-        return Verdict::pruned(effect, Rule::Mode, "a depth buffer looks through the middle of each pixel", facts);
+        return Verdict::pruned(
+            effect,
+            Rule::Mode,
+            "a depth buffer looks through the middle of each pixel",
+            facts,
+        );
     }
     if findings.reached().next().is_none() && findings.facts.rules.contains(Rule::PixelMiss) {
         return Verdict::pruned(effect, Rule::PixelMiss, "nothing is in view", facts);
     }
-    let mut words = format!("a factor of {factor}: {} rays a pixel", u64::from(factor) * u64::from(factor));
+    let mut words = format!(
+        "a factor of {factor}: {} rays a pixel",
+        u64::from(factor) * u64::from(factor)
+    );
     if region.has_flat_pixels() {
         words += ", but one where one flat surface fills it (E-SS-FLAT)";
     }

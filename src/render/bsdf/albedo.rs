@@ -1,4 +1,5 @@
-//! Directional albedos: how much of a uniform sky a lobe sends to the viewer, as tables over cosine and roughness.
+//! Directional albedos: how much of a uniform sky a lobe sends to the viewer, as tables over cosine
+//! and roughness.
 //!
 //! They are integrated when first needed, by the very formulas that shade; no number is stored.
 
@@ -64,7 +65,11 @@ impl Tables {
             sum
         };
         let means = specular.chunks(COSINES).map(mean).collect();
-        Self { specular, sheen: LazyLock::new(|| table(|r, cosine| [integrated_albedo(r, cosine), 0.0])), means }
+        Self {
+            specular,
+            sheen: LazyLock::new(|| table(|r, cosine| [integrated_albedo(r, cosine), 0.0])),
+            means,
+        }
     }
 
     /// The albedo of a microfacet lobe.
@@ -76,7 +81,8 @@ impl Tables {
     /// Its mean over the hemisphere, weighted by the cosine.
     pub(super) fn specular_mean(&self, roughness: f64) -> Split {
         let (row, rest) = place(roughness, ROUGHNESSES);
-        let [e0, e90] = [0, 1].map(|part| self.means[row][part] * (1.0 - rest) + self.means[row + 1][part] * rest);
+        let [e0, e90] = [0, 1]
+            .map(|part| self.means[row][part] * (1.0 - rest) + self.means[row + 1][part] * rest);
         Split { e0, e90 }
     }
 
@@ -90,7 +96,10 @@ fn table(entry: impl Fn(f64, f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
     let cosine = |k: usize| (share(k, COSINES) * share(k, COSINES)).max(1e-6);
     let row = |r: usize| (0..COSINES).map(move |k| (share(r, ROUGHNESSES), cosine(k)));
-    (0..ROUGHNESSES).flat_map(row).map(|(roughness, cosine)| entry(roughness, cosine)).collect()
+    (0..ROUGHNESSES)
+        .flat_map(row)
+        .map(|(roughness, cosine)| entry(roughness, cosine))
+        .collect()
 }
 
 /// Both parts of the albedo, over visible normals of a rank-1 lattice.
@@ -134,7 +143,11 @@ fn between(row: &[[f64; 2]], cosine: f64) -> [f64; 2] {
 }
 
 /// The entry at or before a number in [0, 1], with one after it, and how far the number is beyond.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the table")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to the table"
+)]
 fn place(share: f64, count: usize) -> (usize, f64) {
     let scaled = share.clamp(0.0, 1.0) * (count - 1) as f64;
     let entry = (scaled as usize).min(count - 2);

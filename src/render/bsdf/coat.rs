@@ -11,7 +11,8 @@ pub(super) struct Coat {
     basis: Basis,
     ggx: Ggx,
     wo: Vec3,
-    /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the viewer.
+    /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
+    /// viewer.
     pub(super) share: f64,
 }
 
@@ -21,7 +22,12 @@ impl Coat {
         let basis = Basis::around(normal);
         let wo = basis.to_local(wo);
         let share = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
-        (wo.z > 0.0 && share > 0.0).then(|| Self { basis, ggx: Ggx::isotropic(clearcoat.roughness), wo, share })
+        (wo.z > 0.0 && share > 0.0).then(|| Self {
+            basis,
+            ggx: Ggx::isotropic(clearcoat.roughness),
+            wo,
+            share,
+        })
     }
 
     /// Whether it is a mirror.
@@ -42,7 +48,11 @@ impl Coat {
 
     /// A direction that it reflects to the viewer.
     pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
-        let h = if self.is_smooth() { Vec3::Z } else { self.ggx.visible_normal(self.wo, u) };
+        let h = if self.is_smooth() {
+            Vec3::Z
+        } else {
+            self.ggx.visible_normal(self.wo, u)
+        };
         self.basis.to_world(h * (2.0 * self.wo.dot(h)) - self.wo)
     }
 }

@@ -1,8 +1,8 @@
 //! The light that leaves a rough surface after more than one bounce between microfacets.
 //!
-//! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that returns exactly what
-//! the single bounce loses, and a diffuse base under the reflection that gets exactly what both leave. Both are
-//! reciprocal; a white surface in a white sky is white.
+//! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that
+//! returns exactly what the single bounce loses, and a diffuse base under the reflection that gets
+//! exactly what both leave. Both are reciprocal; a white surface in a white sky is white.
 
 use super::albedo::{Split, tables};
 use super::fresnel::Fresnel;
@@ -38,7 +38,8 @@ impl Base {
     }
 }
 
-/// How much of the light that bounces on comes out: `F²·E/(1 − F·(1 − E))` with the means of F and E.
+/// How much of the light that bounces on comes out: `F²·E/(1 − F·(1 − E))` with the means of F and
+/// E.
 fn returned(mean: Vec3, missing: f64) -> Vec3 {
     let whole = mean * mean * (1.0 - missing) / (Vec3::ONE - mean * missing);
     whole.clamp(Vec3::ZERO, Vec3::ONE)
@@ -47,13 +48,35 @@ fn returned(mean: Vec3, missing: f64) -> Vec3 {
 impl Compensation {
     /// For a surface of which `metallic` is metal.
     #[must_use]
-    pub(super) fn new(roughness: f64, cosine: f64, dielectric: &Fresnel, metal: &Fresnel, metallic: f64) -> Self {
-        let (e, mean) = (tables().specular(roughness, cosine), tables().specular_mean(roughness));
+    pub(super) fn new(
+        roughness: f64,
+        cosine: f64,
+        dielectric: &Fresnel,
+        metal: &Fresnel,
+        metallic: f64,
+    ) -> Self {
+        let (e, mean) = (
+            tables().specular(roughness, cosine),
+            tables().specular_mean(roughness),
+        );
         let missing_mean = 1.0 - mean.whole();
         let from_dielectric = returned(dielectric.mean(), missing_mean);
-        let from_metal = if metallic > 0.0 { returned(metal.mean(), missing_mean) } else { Vec3::ZERO };
-        let (f0, f90) = (dielectric.at(1.0).max_element(), dielectric.f90.max_element());
-        let mut base = Base { f0, f90, returned: from_dielectric.max_element(), left: 0.0, left_mean: 0.0 };
+        let from_metal = if metallic > 0.0 {
+            returned(metal.mean(), missing_mean)
+        } else {
+            Vec3::ZERO
+        };
+        let (f0, f90) = (
+            dielectric.at(1.0).max_element(),
+            dielectric.f90.max_element(),
+        );
+        let mut base = Base {
+            f0,
+            f90,
+            returned: from_dielectric.max_element(),
+            left: 0.0,
+            left_mean: 0.0,
+        };
         base.left = 1.0 - base.covered(e);
         base.left_mean = 1.0 - base.covered(mean);
         Self {
@@ -81,8 +104,18 @@ impl Compensation {
     #[must_use]
     pub(super) fn f(&self, base: Vec3, cosine: f64) -> Vec3 {
         let e = tables().specular(self.roughness, cosine);
-        let share = |here: f64, there: f64, mean: f64| if mean > 0.0 { here * there / (mean * PI) } else { 0.0 };
-        let below = share(self.base.left, 1.0 - self.base.covered(e), self.base.left_mean);
+        let share = |here: f64, there: f64, mean: f64| {
+            if mean > 0.0 {
+                here * there / (mean * PI)
+            } else {
+                0.0
+            }
+        };
+        let below = share(
+            self.base.left,
+            1.0 - self.base.covered(e),
+            self.base.left_mean,
+        );
         let again = share(self.missing, 1.0 - e.whole(), self.missing_mean);
         base * below.max(0.0) + self.returned * again.max(0.0)
     }

@@ -1,4 +1,5 @@
-//! How much a smooth boundary reflects, by Schlick's formula and, under a thin film, by interference.
+//! How much a smooth boundary reflects, by Schlick's formula and, under a thin film, by
+//! interference.
 
 use super::thin_film::ThinFilm;
 use crate::math::Vec3;
@@ -52,8 +53,8 @@ impl Fresnel {
         }
     }
 
-    /// The mean over the hemisphere weighted by the cosine; with a film, as if its colour at normal incidence were that
-    /// of the bare surface.
+    /// The mean over the hemisphere weighted by the cosine; with a film, as if its colour at normal
+    /// incidence were that of the bare surface.
     #[must_use]
     pub(super) fn mean(&self) -> Vec3 {
         let f0 = self.at(1.0);
@@ -74,10 +75,17 @@ mod tests {
 
     #[test]
     fn the_mean_is_the_integral_over_the_hemisphere() {
-        let fresnel = Fresnel { f0: Vec3::splat(0.2), f90: Vec3::ONE, film: None };
+        let fresnel = Fresnel {
+            f0: Vec3::splat(0.2),
+            f90: Vec3::ONE,
+            film: None,
+        };
         let n = 10_000;
         let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
-        let sum = (0..n).map(|i| fresnel.at(at(i)).x * 2.0 * at(i)).sum::<f64>() / f64::from(n);
+        let sum = (0..n)
+            .map(|i| fresnel.at(at(i)).x * 2.0 * at(i))
+            .sum::<f64>()
+            / f64::from(n);
         assert!((sum - fresnel.mean().x).abs() < 1e-7);
     }
 

@@ -1,7 +1,9 @@
-//! The distribution of microfacets of Trowbridge and Reitz (GGX) with Smith's height-correlated shadowing.
+//! The distribution of microfacets of Trowbridge and Reitz (GGX) with Smith's height-correlated
+//! shadowing.
 //!
-//! Directions are unit vectors in a frame whose z is the normal of the surface; formulas as in glTF 2.0, appendix B, and
-//! for anisotropy in Heitz, "Understanding the masking-shadowing function" (JCGT 3, 2014).
+//! Directions are unit vectors in a frame whose z is the normal of the surface; formulas as in glTF
+//! 2.0, appendix B, and for anisotropy in Heitz, "Understanding the masking-shadowing function"
+//! (JCGT 3, 2014).
 
 use super::warp::direction_turned;
 use crate::math::Vec3;
@@ -29,7 +31,10 @@ impl Ggx {
     #[must_use]
     pub(super) fn anisotropic(roughness: f64, strength: f64) -> Self {
         let alpha = roughness * roughness;
-        Self { x: alpha + (1.0 - alpha) * (strength * strength), y: alpha }
+        Self {
+            x: alpha + (1.0 - alpha) * (strength * strength),
+            y: alpha,
+        }
     }
 
     /// Whether it is a mirror.
@@ -75,7 +80,8 @@ impl Ggx {
         2.0 * self.density(h) / (wo.z + self.stretched(wo))
     }
 
-    /// A normal out of those that `wo` sees (Dupuy, Benyoub, "Sampling visible GGX normals with spherical caps", 2023).
+    /// A normal out of those that `wo` sees (Dupuy, Benyoub, "Sampling visible GGX normals with
+    /// spherical caps", 2023).
     #[must_use]
     #[inline]
     pub(super) fn visible_normal(self, wo: Vec3, u: [f64; 2]) -> Vec3 {
@@ -106,7 +112,11 @@ mod tests {
 
     #[test]
     fn the_microfacets_cover_the_surface_once() {
-        for ggx in [Ggx::isotropic(0.5), Ggx::isotropic(1.0), Ggx::anisotropic(0.5, 0.8)] {
+        for ggx in [
+            Ggx::isotropic(0.5),
+            Ggx::isotropic(1.0),
+            Ggx::anisotropic(0.5, 0.8),
+        ] {
             // ∫ D(h)·cos θ dω = 1, by the midpoint rule over cos²θ and φ.
             let n = 400;
             let mut sum = 0.0;

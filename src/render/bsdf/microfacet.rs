@@ -1,4 +1,5 @@
-//! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let through.
+//! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let
+//! through.
 
 use super::Evaluation;
 use super::compensation::Compensation;
@@ -55,7 +56,11 @@ impl Shares {
     /// The probability of sampling the reflection.
     fn chance(&self) -> f64 {
         let (reflected, through) = (self.reflected.max_element(), self.through.max_element());
-        if through > 0.0 { reflected / (reflected + through) } else { 1.0 }
+        if through > 0.0 {
+            reflected / (reflected + through)
+        } else {
+            1.0
+        }
     }
 }
 
@@ -76,9 +81,22 @@ impl Microfacet {
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
         };
         let film = standard.iridescence.filter(|film| film.thickness > 0.0);
-        let film = film.map(|film| (ThinFilm { ior: film.ior, thickness: film.thickness }, film.factor));
-        let ior = if standard.ior > 0.0 { standard.ior } else { 1.0 };
-        let dark = standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
+        let film = film.map(|film| {
+            (
+                ThinFilm {
+                    ior: film.ior,
+                    thickness: film.thickness,
+                },
+                film.factor,
+            )
+        });
+        let ior = if standard.ior > 0.0 {
+            standard.ior
+        } else {
+            1.0
+        };
+        let dark =
+            standard.specular == 0.0 && standard.metallic == 0.0 && film.is_none() && !inside;
         let crossing = match standard.thin_walled {
             true => Crossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
@@ -101,17 +119,31 @@ impl Microfacet {
 
     #[inline]
     fn dielectric(&self) -> Fresnel {
-        Fresnel { f0: self.f0, f90: Vec3::splat(self.f90), film: self.film }
+        Fresnel {
+            f0: self.f0,
+            f90: Vec3::splat(self.f90),
+            film: self.film,
+        }
     }
 
     #[inline]
     fn metal(&self) -> Fresnel {
-        Fresnel { f0: self.metal, f90: Vec3::ONE, film: self.film }
+        Fresnel {
+            f0: self.metal,
+            f90: Vec3::ONE,
+            film: self.film,
+        }
     }
 
     /// What bounces on between its microfacets.
     pub(super) fn compensation(&self, cosine: f64) -> Compensation {
-        Compensation::new(self.ggx.mean_roughness(), cosine, &self.dielectric(), &self.metal(), self.metallic)
+        Compensation::new(
+            self.ggx.mean_roughness(),
+            cosine,
+            &self.dielectric(),
+            &self.metal(),
+            self.metallic,
+        )
     }
 
     /// Whether it scatters into single directions only.
@@ -127,7 +159,11 @@ impl Microfacet {
     /// What a microfacet that meets light at the cosine given does with it.
     pub(super) fn shares(&self, cosine: f64) -> Shares {
         if self.dark {
-            return Shares { reflected: Vec3::ZERO, entering: 1.0, through: self.tint };
+            return Shares {
+                reflected: Vec3::ZERO,
+                entering: 1.0,
+                through: self.tint,
+            };
         }
         let dielectric = self.dielectric_at(cosine);
         let entering = 1.0 - dielectric.max_element();
@@ -135,10 +171,15 @@ impl Microfacet {
             0.0 => dielectric,
             metallic => dielectric.lerp(self.metal().at(cosine), metallic),
         };
-        Shares { reflected, entering, through: self.tint * entering }
+        Shares {
+            reflected,
+            entering,
+            through: self.tint * entering,
+        }
     }
 
-    /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is reflected.
+    /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is
+    /// reflected.
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
         if self.eta >= 1.0 {
             return self.dielectric().at(cosine);
@@ -153,7 +194,10 @@ impl Microfacet {
         }
         let density = self.ggx.density(h);
         let f = shares.reflected * (density * self.ggx.visibility(wo, wi));
-        Evaluation { f, pdf: shares.chance() * 0.5 * density / (wo.z + self.ggx.stretched(wo)) }
+        Evaluation {
+            f,
+            pdf: shares.chance() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
+        }
     }
 
     /// `wi` below.
@@ -168,13 +212,17 @@ impl Microfacet {
                 let h = (wo + mirrored).normalize();
                 let shares = self.shares(wo.dot(h));
                 let f = shares.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
-                Evaluation { f, pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) / 4.0 }
+                Evaluation {
+                    f,
+                    pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) / 4.0,
+                }
             }
             Crossing::Bent => self.bent(wo, wi),
         }
     }
 
-    /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007), equation 21.
+    /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007),
+    /// equation 21.
     fn bent(&self, wo: Vec3, wi: Vec3) -> Evaluation {
         let half = wo + wi * self.eta;
         let h = (half * half.z.signum()).normalize_or_zero();
@@ -186,19 +234,32 @@ impl Microfacet {
         // How fast the direction turns with the normal: |ω_i·h|/(ω_i·h + ω_o·h/η)².
         let root = i + o / self.eta;
         let turn = -i / (root * root);
-        let f = shares.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
-        Evaluation { f, pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) * o * turn }
+        let f =
+            shares.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
+        Evaluation {
+            f,
+            pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) * o * turn,
+        }
     }
 
-    /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on the wrong side.
+    /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on
+    /// the wrong side.
     pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<Way> {
-        let h = if self.smooth { Vec3::Z } else { self.ggx.visible_normal(wo, u) };
+        let h = if self.smooth {
+            Vec3::Z
+        } else {
+            self.ggx.visible_normal(wo, u)
+        };
         let cosine = wo.dot(h);
         let shares = self.shares(cosine);
         let chance = shares.chance();
         if choice < chance {
             let wi = h * (2.0 * cosine) - wo;
-            let way = if self.smooth { Way::Single(wi, shares.reflected, chance) } else { Way::Lobe(wi) };
+            let way = if self.smooth {
+                Way::Single(wi, shares.reflected, chance)
+            } else {
+                Way::Lobe(wi)
+            };
             return (wi.z > 0.0).then_some(way);
         }
         let wi = match self.crossing {
@@ -207,10 +268,16 @@ impl Microfacet {
                 let mirrored = h * (2.0 * cosine) - wo;
                 Vec3::new(mirrored.x, mirrored.y, -mirrored.z)
             }
-            Crossing::Bent => h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta,
+            Crossing::Bent => {
+                h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
+            }
         };
         let single = self.smooth || self.crossing == Crossing::Straight;
-        let way = if single { Way::Single(wi, shares.through, 1.0 - chance) } else { Way::Lobe(wi) };
+        let way = if single {
+            Way::Single(wi, shares.through, 1.0 - chance)
+        } else {
+            Way::Lobe(wi)
+        };
         (wi.z < 0.0).then_some(way)
     }
 }

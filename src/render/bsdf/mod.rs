@@ -1,7 +1,9 @@
-//! The BSDF of the glTF material, in a frame whose z is the shading normal, for one direction `wo` to the viewer.
+//! The BSDF of the glTF material, in a frame whose z is the shading normal, for one direction `wo`
+//! to the viewer.
 //!
-//! `f` is without the cosine; directions are unit vectors that point away from the surface, those with z < 0 inside a
-//! body or behind a wall. What crosses a boundary is counted as basic radiance L/n²: no factor n² is in `f`.
+//! `f` is without the cosine; directions are unit vectors that point away from the surface, those
+//! with z < 0 inside a body or behind a wall. What crosses a boundary is counted as basic radiance
+//! L/n²: no factor n² is in `f`.
 
 mod albedo;
 mod coat;
@@ -36,7 +38,10 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    const NONE: Self = Self { f: Vec3::ZERO, pdf: 0.0 };
+    const NONE: Self = Self {
+        f: Vec3::ZERO,
+        pdf: 0.0,
+    };
 }
 
 /// A direction sampled: what comes from there counts `f·|cos θ|/pdf`.
@@ -75,7 +80,8 @@ struct Chances {
 }
 
 impl Chances {
-    /// Chances proportional to estimates of what each way brings, of a base and microfacets below the layers given.
+    /// Chances proportional to estimates of what each way brings, of a base and microfacets below
+    /// the layers given.
     #[inline]
     fn new(base: Vec3, shares: &Shares, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
         let mut cosine = base.max_element().max(0.0);
@@ -87,7 +93,11 @@ impl Chances {
         let whole = (cosine + microfacet) * (1.0 - coat) + coat;
         let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         let below = scale * (1.0 - coat);
-        Self { cosine: cosine * below, microfacet: microfacet * below, coat: coat * scale }
+        Self {
+            cosine: cosine * below,
+            microfacet: microfacet * below,
+            coat: coat * scale,
+        }
     }
 }
 
@@ -96,18 +106,32 @@ impl Bsdf {
     #[must_use]
     #[inline]
     pub fn new(standard: &Standard, wo: Vec3) -> Self {
-        let along = standard.anisotropy.map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
-        let side = Side { below: wo.z < 0.0, along };
+        let along = standard
+            .anisotropy
+            .map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
+        let side = Side {
+            below: wo.z < 0.0,
+            along,
+        };
         let wo = side.enter(wo);
         let inside = side.below && !standard.thin_walled && standard.transmission > 0.0;
         let microfacet = Microfacet::new(standard, inside);
         // What lies on a body is not seen from within.
-        let (sheen, clearcoat) = if inside { (None, None) } else { (standard.sheen, standard.clearcoat) };
+        let (sheen, clearcoat) = if inside {
+            (None, None)
+        } else {
+            (standard.sheen, standard.clearcoat)
+        };
         let coat = clearcoat.and_then(|coat| {
-            let normal = if side.below { -coat.normal } else { coat.normal };
+            let normal = if side.below {
+                -coat.normal
+            } else {
+                coat.normal
+            };
             Coat::new(&coat, side.enter(normal), wo)
         });
-        let diffuse = standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission));
+        let diffuse =
+            standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission));
         let compensates = standard.multiple_scattering && !inside && !microfacet.is_dark();
         let compensation = compensates.then(|| microfacet.compensation(wo.z));
         let base = match &compensation {
@@ -116,8 +140,22 @@ impl Bsdf {
             Some(compensation) => diffuse * compensation.base_albedo() + compensation.albedo(),
         };
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
-        let chances = Chances::new(base, &microfacet.shares(wo.z), sheen.as_ref(), coat.as_ref());
-        Self { side, wo, microfacet, diffuse, compensation, sheen, coat, chances }
+        let chances = Chances::new(
+            base,
+            &microfacet.shares(wo.z),
+            sheen.as_ref(),
+            coat.as_ref(),
+        );
+        Self {
+            side,
+            wo,
+            microfacet,
+            diffuse,
+            compensation,
+            sheen,
+            coat,
+            chances,
+        }
     }
 
     /// Whether all light is scattered into single directions, so that a light can't be aimed at.
@@ -138,7 +176,11 @@ impl Bsdf {
         if wi.z == 0.0 || self.wo.z == 0.0 {
             return Evaluation::NONE;
         }
-        let mut sum = if above { self.reflected(wi) } else { self.microfacet.through(self.wo, wi) };
+        let mut sum = if above {
+            self.reflected(wi)
+        } else {
+            self.microfacet.through(self.wo, wi)
+        };
         sum.pdf *= self.chances.microfacet;
         if above {
             sum.pdf += self.chances.cosine * cosine_density(wi);
@@ -158,7 +200,10 @@ impl Bsdf {
     fn reflected(&self, wi: Vec3) -> Evaluation {
         if self.microfacet.is_dark() {
             // All light reaches the base.
-            return Evaluation { f: self.diffuse * FRAC_1_PI, pdf: 0.0 };
+            return Evaluation {
+                f: self.diffuse * FRAC_1_PI,
+                pdf: 0.0,
+            };
         }
         let h = (self.wo + wi).normalize();
         let shares = self.microfacet.shares(self.wo.dot(h));
@@ -173,7 +218,11 @@ impl Bsdf {
     /// A direction for three numbers in [0, 1); `None` where nothing is scattered.
     #[must_use]
     pub fn sample(&self, u: [f64; 3]) -> Option<Sample> {
-        let Chances { cosine, microfacet, coat } = self.chances;
+        let Chances {
+            cosine,
+            microfacet,
+            coat,
+        } = self.chances;
         let rest = [u[1], u[2]];
         if u[0] < cosine {
             return self.in_lobe(cosine_direction(rest));
@@ -200,12 +249,22 @@ impl Bsdf {
 
     fn in_lobe(&self, wi: Vec3) -> Option<Sample> {
         let Evaluation { f, pdf } = self.evaluate_entered(wi);
-        (pdf > 0.0).then(|| Sample { wi: self.side.leave(wi), f, pdf, delta: false })
+        (pdf > 0.0).then(|| Sample {
+            wi: self.side.leave(wi),
+            f,
+            pdf,
+            delta: false,
+        })
     }
 
     fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<Sample> {
         let f = scattered / wi.z.abs();
-        (wi.z != 0.0 && pdf > 0.0).then(|| Sample { wi: self.side.leave(wi), f, pdf, delta: true })
+        (wi.z != 0.0 && pdf > 0.0).then(|| Sample {
+            wi: self.side.leave(wi),
+            f,
+            pdf,
+            delta: true,
+        })
     }
 }
 
@@ -220,12 +279,20 @@ impl Side {
     #[inline]
     fn enter(self, w: Vec3) -> Vec3 {
         let [c, s] = self.along;
-        Vec3::new(c * w.x + s * w.y, c * w.y - s * w.x, if self.below { -w.z } else { w.z })
+        Vec3::new(
+            c * w.x + s * w.y,
+            c * w.y - s * w.x,
+            if self.below { -w.z } else { w.z },
+        )
     }
 
     #[inline]
     fn leave(self, w: Vec3) -> Vec3 {
         let [c, s] = self.along;
-        Vec3::new(c * w.x - s * w.y, c * w.y + s * w.x, if self.below { -w.z } else { w.z })
+        Vec3::new(
+            c * w.x - s * w.y,
+            c * w.y + s * w.x,
+            if self.below { -w.z } else { w.z },
+        )
     }
 }

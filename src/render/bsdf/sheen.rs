@@ -1,7 +1,7 @@
 //! The sheen of cloth: KHR_materials_sheen.
 //!
-//! After Estevez, Kulla, "Production friendly microfacet sheen BRDF" (2017): fibres that stand up, with a fitted
-//! shadowing term.
+//! After Estevez, Kulla, "Production friendly microfacet sheen BRDF" (2017): fibres that stand up,
+//! with a fitted shadowing term.
 
 use super::albedo::tables;
 use super::standard::Sheen;
@@ -24,18 +24,29 @@ impl Fibres {
     pub(super) fn new(sheen: &Sheen, wo: Vec3) -> Option<Self> {
         let charlie = Charlie::new(sheen.roughness);
         let albedo = sheen.color.max_element() * charlie.albedo(wo.z);
-        (sheen.color != Vec3::ZERO).then_some(Self { charlie, color: sheen.color, albedo, left: 1.0 - albedo })
+        (sheen.color != Vec3::ZERO).then_some(Self {
+            charlie,
+            color: sheen.color,
+            albedo,
+            left: 1.0 - albedo,
+        })
     }
 
-    /// The BSDF with the fibres over what is below, which keeps what they leave on the way in or out, whichever is less.
+    /// The BSDF with the fibres over what is below, which keeps what they leave on the way in or
+    /// out, whichever is less.
     pub(super) fn over(&self, below: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
-        let own = if wi.z > 0.0 { self.color * self.charlie.f(wo, wi) } else { Vec3::ZERO };
+        let own = if wi.z > 0.0 {
+            self.color * self.charlie.f(wo, wi)
+        } else {
+            Vec3::ZERO
+        };
         below * self.left_for(wi) + own
     }
 
     /// What is left for light that leaves along `wi`.
     pub(super) fn left_for(&self, wi: Vec3) -> f64 {
-        self.left.min(1.0 - self.color.max_element() * self.charlie.albedo(wi.z.abs()))
+        self.left
+            .min(1.0 - self.color.max_element() * self.charlie.albedo(wi.z.abs()))
     }
 }
 
@@ -51,7 +62,10 @@ impl Charlie {
     #[must_use]
     pub(super) fn new(roughness: f64) -> Self {
         let roughness = roughness.clamp(0.02, 1.0);
-        Self { alpha: roughness * roughness, roughness }
+        Self {
+            alpha: roughness * roughness,
+            roughness,
+        }
     }
 
     /// The BRDF of white sheen.
@@ -82,7 +96,11 @@ impl Charlie {
         let smooth = (1.0 - self.alpha) * (1.0 - self.alpha);
         let between = |rough: f64, thin: f64| rough + (thin - rough) * smooth;
         let (a, b) = (between(21.5473, 25.3245), between(3.82987, 3.32435));
-        let (c, d, e) = (between(0.19823, 0.16801), between(-1.97760, -1.27393), between(-4.32054, -4.85967));
+        let (c, d, e) = (
+            between(0.19823, 0.16801),
+            between(-1.97760, -1.27393),
+            between(-4.32054, -4.85967),
+        );
         a / (1.0 + b * pow(x, c)) + d * x + e
     }
 }

@@ -3,7 +3,8 @@
 use super::fresnel::normal_reflectance;
 use crate::math::Vec3;
 
-/// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the volume inside.
+/// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
+/// volume inside.
 ///
 /// Colours are linear, shares and roughnesses in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +21,8 @@ pub struct Standard {
     pub specular: f64,
     /// The colour of the dielectric reflection at normal incidence, each channel at least 0.
     pub specular_color: Vec3,
-    /// The share of the dielectric base that lets light through instead of scattering it (`KHR_materials_transmission`).
+    /// The share of the dielectric base that lets light through instead of scattering it
+    /// (`KHR_materials_transmission`).
     pub transmission: f64,
     /// Whether what lies behind the surface is outside again: light goes straight through.
     pub thin_walled: bool,
@@ -32,7 +34,8 @@ pub struct Standard {
     pub sheen: Option<Sheen>,
     /// A thin film on top.
     pub iridescence: Option<Iridescence>,
-    /// Whether light that bounces between microfacets is accounted for; without, as glTF's appendix B has it.
+    /// Whether light that bounces between microfacets is accounted for; without, as glTF's
+    /// appendix B has it.
     pub multiple_scattering: bool,
 }
 

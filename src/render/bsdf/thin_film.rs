@@ -1,7 +1,8 @@
 //! Interference in a thin transparent film over a surface: KHR_materials_iridescence.
 //!
-//! After Belcour, Barla, "A practical extension to microfacet theory for the modeling of varying iridescence" (SIGGRAPH
-//! 2017): two orders of internal reflection, their spectra integrated in closed form with the eye's sensitivities.
+//! After Belcour, Barla, "A practical extension to microfacet theory for the modeling of varying
+//! iridescence" (SIGGRAPH 2017): two orders of internal reflection, their spectra integrated in
+//! closed form with the eye's sensitivities.
 
 use super::fresnel::{normal_reflectance, schlick};
 use crate::math::{Vec3, cos, exp};
@@ -17,7 +18,8 @@ pub(super) struct ThinFilm {
 }
 
 impl ThinFilm {
-    /// The reflectance of the film on a surface that bare would reflect `f0` at normal incidence, each channel in [0, 1].
+    /// The reflectance of the film on a surface that bare would reflect `f0` at normal incidence,
+    /// each channel in [0, 1].
     #[must_use]
     #[inline(never)]
     pub(super) fn reflectance(&self, f0: Vec3, cosine: f64) -> Vec3 {
@@ -28,7 +30,8 @@ impl ThinFilm {
             return Vec3::ONE;
         }
         let inside = square.sqrt();
-        // Reflectances of the upper and of the lower boundary, and the phase that reflection off a denser medium shifts.
+        // Reflectances of the upper and of the lower boundary, and the phase that reflection off a
+        // denser medium shifts.
         let upper = normal_reflectance(film);
         let r12 = upper + (1.0 - upper) * schlick(cosine);
         let t121 = 1.0 - r12;
@@ -63,9 +66,11 @@ fn index_of(f0: f64) -> f64 {
     (1.0 + root) / (1.0 - root)
 }
 
-/// The Fourier transform of the eye's sensitivities at an optical path difference in nanometres, in linear Rec. 709.
+/// The Fourier transform of the eye's sensitivities at an optical path difference in nanometres, in
+/// linear Rec. 709.
 fn sensitivity(difference: f64, shift: Vec3) -> Vec3 {
-    /// Height, place and variance of the Gaussians fitted to x̄, ȳ and z̄, and of the second one of x̄.
+    /// Height, place and variance of the Gaussians fitted to x̄, ȳ and z̄, and of the second one of
+    /// x̄.
     const LOBES: [(f64, f64, f64); 4] = [
         (5.4856e-13, 1.6810e6, 4.3278e9),
         (4.4201e-13, 1.7953e6, 9.3046e9),
@@ -75,7 +80,11 @@ fn sensitivity(difference: f64, shift: Vec3) -> Vec3 {
     const WHITE: f64 = 1.0685e-7;
     let phase = TAU * difference * 1e-9;
     let lobe = |(height, place, variance): (f64, f64, f64), shift: f64| {
-        height * (TAU * variance).sqrt() * cos(place * phase + shift) * exp(-phase * phase * variance) / WHITE
+        height
+            * (TAU * variance).sqrt()
+            * cos(place * phase + shift)
+            * exp(-phase * phase * variance)
+            / WHITE
     };
     let x = lobe(LOBES[0], shift.x) + lobe(LOBES[3], shift.x);
     let (y, z) = (lobe(LOBES[1], shift.y), lobe(LOBES[2], shift.z));
@@ -93,14 +102,25 @@ mod tests {
     #[test]
     fn a_film_of_no_thickness_changes_nothing_at_normal_incidence() {
         let f0 = Vec3::new(0.04, 0.3, 0.9);
-        let difference = ThinFilm { ior: 1.3, thickness: 0.0 }.reflectance(f0, 1.0) - f0;
+        let difference = ThinFilm {
+            ior: 1.3,
+            thickness: 0.0,
+        }
+        .reflectance(f0, 1.0)
+            - f0;
         // The fitted sensitivities make white to a few per cent.
         assert!(difference.abs().max_element() < 0.04, "{difference}");
     }
 
     #[test]
     fn colour_changes_with_thickness_and_angle() {
-        let at = |thickness, cosine| ThinFilm { ior: 1.3, thickness }.reflectance(Vec3::splat(0.04), cosine);
+        let at = |thickness, cosine| {
+            ThinFilm {
+                ior: 1.3,
+                thickness,
+            }
+            .reflectance(Vec3::splat(0.04), cosine)
+        };
         assert!((at(300.0, 1.0) - at(450.0, 1.0)).abs().max_element() > 0.01);
         assert!((at(400.0, 1.0) - at(400.0, 0.5)).abs().max_element() > 0.01);
         assert!((0..100).all(|k| at(f64::from(k) * 10.0, 0.3).is_finite()));

@@ -6,7 +6,11 @@ use std::f64::consts::PI;
 /// The unit vector with the z given and the azimuth in turns, in [0, 1).
 #[must_use]
 #[inline]
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a turn; the cast saturates")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share of a turn; the cast saturates"
+)]
 pub(in crate::render) fn direction_turned(z: f64, turns: f64) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;

@@ -27,11 +27,19 @@ impl<'world> Environment<'world> {
     pub(super) fn new(scene: &'world ValidScene) -> Self {
         let Some(environment) = scene.environment() else {
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            return Self { radiance: Vec3::ZERO, image: None, image_from_world: axes };
+            return Self {
+                radiance: Vec3::ZERO,
+                image: None,
+                image_from_world: axes,
+            };
         };
         let image = environment.image.map(|image| &scene.images()[image]);
         let image = image.map(|image| (image, table(image)));
-        Self { radiance: environment.radiance, image, image_from_world: environment.image_from_world }
+        Self {
+            radiance: environment.radiance,
+            image,
+            image_from_world: environment.image_from_world,
+        }
     }
 
     /// Whether all directions are the same.
@@ -42,13 +50,18 @@ impl<'world> Environment<'world> {
     /// The mean of the radiance over all directions, by the strongest channel.
     pub(super) fn mean(&self) -> f64 {
         // The table weighs rows by the sine of the colatitude, whose mean is 2/π.
-        let mean = self.image.as_ref().map_or(1.0, |(_, table)| table.mean() * PI / 2.0);
+        let mean = self
+            .image
+            .as_ref()
+            .map_or(1.0, |(_, table)| table.mean() * PI / 2.0);
         self.radiance.max_element() * mean
     }
 
     /// What there is in a direction, a unit vector.
     pub(super) fn seen(&self, direction: Vec3) -> Seen {
-        let Some((image, table)) = &self.image else { return self.uniform() };
+        let Some((image, table)) = &self.image else {
+            return self.uniform();
+        };
         let place = self.place(direction);
         self.seen_at(image, table, place, sin(place[1] * PI))
     }
@@ -61,24 +74,45 @@ impl<'world> Environment<'world> {
         let place = table.sample(u);
         let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
         let sine = sin(colatitude);
-        let local = Vec3::new(sine * sin(longitude), cos(colatitude), -sine * cos(longitude));
+        let local = Vec3::new(
+            sine * sin(longitude),
+            cos(colatitude),
+            -sine * cos(longitude),
+        );
         let [x, y, z] = self.image_from_world;
         let direction = (x * local.x + y * local.y + z * local.z).normalize();
         (direction, self.seen_at(image, table, place, sine))
     }
 
     fn uniform(&self) -> Seen {
-        Seen { radiance: self.radiance, pdf: 0.5 / TAU }
+        Seen {
+            radiance: self.radiance,
+            pdf: 0.5 / TAU,
+        }
     }
 
     /// What there is at a place in the image, at the sine of the colatitude given.
     fn seen_at(&self, image: &Image, table: &Table, place: [f64; 2], sine: f64) -> Seen {
-        let [r, g, b, _] = sample(image, place, [Wrap::Repeat, Wrap::Clamp], Filter::Linear, Content::Color);
-        let pdf = if sine > 0.0 { table.pdf(place) / (TAU * PI * sine) } else { 0.0 };
-        Seen { radiance: self.radiance * Vec3::new(r, g, b), pdf }
+        let [r, g, b, _] = sample(
+            image,
+            place,
+            [Wrap::Repeat, Wrap::Clamp],
+            Filter::Linear,
+            Content::Color,
+        );
+        let pdf = if sine > 0.0 {
+            table.pdf(place) / (TAU * PI * sine)
+        } else {
+            0.0
+        };
+        Seen {
+            radiance: self.radiance * Vec3::new(r, g, b),
+            pdf,
+        }
     }
 
-    /// The place in the image of a direction: its middle towards −z, +y up, longitude growing towards +x.
+    /// The place in the image of a direction: its middle towards −z, +y up, longitude growing
+    /// towards +x.
     fn place(&self, direction: Vec3) -> [f64; 2] {
         let [x, y, z] = &self.image_from_world;
         let (x, y, z) = (x.dot(direction), y.dot(direction), z.dot(direction));
@@ -92,7 +126,13 @@ fn table(image: &Image) -> Table {
     let weight = |x: u32, y: u32| {
         let v = (f64::from(y) + 0.5) / f64::from(height);
         let uv = [(f64::from(x) + 0.5) / f64::from(width), v];
-        let [r, g, b, _] = sample(image, uv, [Wrap::Repeat, Wrap::Clamp], Filter::Nearest, Content::Color);
+        let [r, g, b, _] = sample(
+            image,
+            uv,
+            [Wrap::Repeat, Wrap::Clamp],
+            Filter::Nearest,
+            Content::Color,
+        );
         r.max(g).max(b) * sin(v * PI)
     };
     Table::new([width, height], weight)

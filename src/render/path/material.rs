@@ -1,4 +1,5 @@
-//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of it emits or is absent.
+//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of
+//! it emits or is absent.
 
 use super::super::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, dispersed};
 use super::super::instance::{Asked, Details};
@@ -26,15 +27,25 @@ pub(super) struct Frame {
 
 /// What a material needs to know of a surface.
 pub(super) fn asked(material: &Material) -> Asked {
-    let turns = material.anisotropy > 0.0 || material.normal_map.is_some() || material.clearcoat_normal_map.is_some();
-    Asked { uv: material.maps().next().is_some(), tangent: turns }
+    let turns = material.anisotropy > 0.0
+        || material.normal_map.is_some()
+        || material.clearcoat_normal_map.is_some();
+    Asked {
+        uv: material.maps().next().is_some(),
+        tangent: turns,
+    }
 }
 
 impl<'world> Point<'world> {
     pub(super) fn new(scene: &'world ValidScene, material: usize, details: &Details) -> Self {
         let material = &scene.standards()[material];
         let places = [details.uv, details.second_uv];
-        let mut point = Self { scene, material, places, base: material.base_color };
+        let mut point = Self {
+            scene,
+            material,
+            places,
+            base: material.base_color,
+        };
         let texture = point.show(material.base_color_map.as_ref(), Content::Color);
         let corners = details.color.unwrap_or([1.0; 4]);
         let base = |k: usize| material.base_color[k] * texture[k] * corners[k];
@@ -50,7 +61,8 @@ impl<'world> Point<'world> {
     /// What a map shows; ones where there is none.
     #[inline]
     fn show(&self, map: Option<&Map>, content: Content) -> [f64; 4] {
-        map.and_then(|map| look_up(self.scene, map, &self.places, content)).unwrap_or([1.0; 4])
+        map.and_then(|map| look_up(self.scene, map, &self.places, content))
+            .unwrap_or([1.0; 4])
     }
 
     fn linear(&self, map: Option<&Map>) -> [f64; 4] {
@@ -80,11 +92,21 @@ impl<'world> Point<'world> {
     /// The radiance it sends out by itself.
     pub(super) fn emission(&self) -> Vec3 {
         let emissive = Vec3::from_array(self.material.emissive);
-        if emissive == Vec3::ZERO { emissive } else { emissive * self.color(self.material.emissive_map.as_ref()) }
+        if emissive == Vec3::ZERO {
+            emissive
+        } else {
+            emissive * self.color(self.material.emissive_map.as_ref())
+        }
     }
 
     /// What is scattered; `channel` is the colour that a dispersed path has been left with.
-    pub(super) fn standard(&self, frame: &Frame, clearcoat: Vec3, channel: Option<usize>, multiple: bool) -> Standard {
+    pub(super) fn standard(
+        &self,
+        frame: &Frame,
+        clearcoat: Vec3,
+        channel: Option<usize>,
+        multiple: bool,
+    ) -> Standard {
         let m = self.material;
         let ior = match channel {
             Some(channel) if m.dispersion > 0.0 => dispersed(m.ior, m.dispersion)[channel],
@@ -97,7 +119,8 @@ impl<'world> Point<'world> {
             roughness: m.roughness * g,
             ior,
             specular: m.specular * self.linear(m.specular_map.as_ref())[3],
-            specular_color: Vec3::from_array(m.specular_color) * self.color(m.specular_color_map.as_ref()),
+            specular_color: Vec3::from_array(m.specular_color)
+                * self.color(m.specular_color_map.as_ref()),
             transmission: m.transmission * self.linear(m.transmission_map.as_ref())[0],
             thin_walled: !self.bounds_a_volume(),
             anisotropy: None,
@@ -121,8 +144,13 @@ impl<'world> Point<'world> {
         let m = self.material;
         if m.clearcoat > 0.0 {
             let factor = m.clearcoat * self.linear(m.clearcoat_map.as_ref())[0];
-            let roughness = m.clearcoat_roughness * self.linear(m.clearcoat_roughness_map.as_ref())[1];
-            standard.clearcoat = Some(Clearcoat { factor, roughness, normal: frame.to_local(clearcoat) });
+            let roughness =
+                m.clearcoat_roughness * self.linear(m.clearcoat_roughness_map.as_ref())[1];
+            standard.clearcoat = Some(Clearcoat {
+                factor,
+                roughness,
+                normal: frame.to_local(clearcoat),
+            });
         }
         if m.sheen_color != [0.0; 3] {
             let color = Vec3::from_array(m.sheen_color) * self.color(m.sheen_color_map.as_ref());
@@ -135,19 +163,33 @@ impl<'world> Point<'world> {
         if m.iridescence > 0.0 {
             let factor = m.iridescence * self.linear(m.iridescence_map.as_ref())[0];
             let [least, greatest] = m.iridescence_thickness;
-            let thickness = least + (greatest - least) * self.linear(m.iridescence_thickness_map.as_ref())[1];
-            standard.iridescence = Some(Iridescence { factor, ior: m.iridescence_ior, thickness });
+            let thickness =
+                least + (greatest - least) * self.linear(m.iridescence_thickness_map.as_ref())[1];
+            standard.iridescence = Some(Iridescence {
+                factor,
+                ior: m.iridescence_ior,
+                thickness,
+            });
         }
     }
 
     fn anisotropy(&self, side: f64) -> Anisotropy {
         let m = self.material;
-        let map = m.anisotropy_map.as_ref().and_then(|map| look_up(self.scene, map, &self.places, Content::Linear));
+        let map = m
+            .anisotropy_map
+            .as_ref()
+            .and_then(|map| look_up(self.scene, map, &self.places, Content::Linear));
         let [r, g, share, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
         let along = Vec3::new(r * 2.0 - 1.0, g * 2.0 - 1.0, 0.0).normalize_or(Vec3::X);
         let (c, s) = (cos(m.anisotropy_rotation), sin(m.anisotropy_rotation));
-        let direction = [c * along.x - s * along.y, (s * along.x + c * along.y) * side];
-        Anisotropy { strength: m.anisotropy * share, direction }
+        let direction = [
+            c * along.x - s * along.y,
+            (s * along.x + c * along.y) * side,
+        ];
+        Anisotropy {
+            strength: m.anisotropy * share,
+            direction,
+        }
     }
 
     /// Whether there is a medium behind the surface.
@@ -157,32 +199,58 @@ impl<'world> Point<'world> {
 
     /// The coefficient of absorption of the medium inside, per unit of length.
     pub(super) fn absorption(&self) -> Vec3 {
-        let Some(distance) = self.material.attenuation_distance else { return Vec3::ZERO };
+        let Some(distance) = self.material.attenuation_distance else {
+            return Vec3::ZERO;
+        };
         // −ln of the least positive number stands for black.
-        Vec3::from_array(self.material.attenuation_color).map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance)
+        Vec3::from_array(self.material.attenuation_color)
+            .map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance)
     }
 
     /// The frame with the normal map applied, and the normal of the clearcoat.
     pub(super) fn frame(&self, at: &Interaction, details: &Details, wo: Vec3) -> (Frame, Vec3) {
-        // The winding says which side is outside, and the normals of some meshes were made against it.
-        let normal = details.normal.map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
+        // The winding says which side is outside, and the normals of some meshes were made against
+        // it.
+        let normal = details
+            .normal
+            .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
         let m = self.material;
         let mapped = |map: &Option<Map>, scale: f64| {
-            let normal = map.as_ref().map_or(normal, |map| self.mapped(map, scale, normal, details));
+            let normal = map
+                .as_ref()
+                .map_or(normal, |map| self.mapped(map, scale, normal, details));
             bent(normal, at.normal, wo)
         };
         let shading = mapped(&m.normal_map, m.normal_scale);
         let has_coat = m.clearcoat > 0.0;
-        let coat = if has_coat { mapped(&m.clearcoat_normal_map, m.clearcoat_normal_scale) } else { shading };
-        (Frame { basis: basis(shading, details.tangent, 1.0), side: details.side }, coat)
+        let coat = if has_coat {
+            mapped(&m.clearcoat_normal_map, m.clearcoat_normal_scale)
+        } else {
+            shading
+        };
+        (
+            Frame {
+                basis: basis(shading, details.tangent, 1.0),
+                side: details.side,
+            },
+            coat,
+        )
     }
 
     /// The normal that a map gives.
     fn mapped(&self, map: &Map, scale: f64, normal: Vec3, details: &Details) -> Vec3 {
         let shown = look_up(self.scene, map, &self.places, Content::Linear);
-        let Some([x, y, z, _]) = shown else { return normal };
-        let local = Vec3::new((x * 2.0 - 1.0) * scale, (y * 2.0 - 1.0) * scale, z * 2.0 - 1.0);
-        basis(normal, details.tangent, details.side).to_world(local).normalize_or(normal)
+        let Some([x, y, z, _]) = shown else {
+            return normal;
+        };
+        let local = Vec3::new(
+            (x * 2.0 - 1.0) * scale,
+            (y * 2.0 - 1.0) * scale,
+            z * 2.0 - 1.0,
+        );
+        basis(normal, details.tangent, details.side)
+            .to_world(local)
+            .normalize_or(normal)
     }
 }
 
@@ -198,16 +266,22 @@ impl Frame {
 
 /// The frame around a normal, its tangent that of a surface as far as there is one.
 fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
-    let tangent = tangent.map(|t| t - normal * normal.dot(t)).and_then(Vec3::try_normalize);
+    let tangent = tangent
+        .map(|t| t - normal * normal.dot(t))
+        .and_then(Vec3::try_normalize);
     tangent.map_or_else(
         || Basis::around(normal),
-        |tangent| Basis { tangent, bitangent: normal.cross(tangent) * side, normal },
+        |tangent| Basis {
+            tangent,
+            bitangent: normal.cross(tangent) * side,
+            normal,
+        },
     )
 }
 
-/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent until it does, so that
-/// what is shiny turns no blacker than its horizon (Keller et al., "The Iray light transport simulation and rendering
-/// system", 2017, has a like rule).
+/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
+/// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
+/// light transport simulation and rendering system", 2017, has a like rule).
 fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
     /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
     const LEAST: f64 = 0.01;

@@ -1,8 +1,9 @@
-//! The path integrator: the light that arrives along all paths, by next-event estimation and scattering together.
+//! The path integrator: the light that arrives along all paths, by next-event estimation and
+//! scattering together.
 //!
-//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads. No path goes on, and no
-//! light is taken, on another side of the surface itself than its kind demands: closed meshes let no light in, whatever the
-//! normals of their corners.
+//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads. No
+//! path goes on, and no light is taken, on another side of the surface itself than its kind
+//! demands: closed meshes let no light in, whatever the normals of their corners.
 
 mod aov;
 mod environment;
@@ -39,10 +40,21 @@ pub enum Strategy {
 impl<S: Geometry> World<S> {
     /// Renders by tracing paths; `None` if `proceed` said stop.
     #[must_use]
-    pub fn render_paths(&self, path: Path, strategy: Strategy, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    pub fn render_paths(
+        &self,
+        path: Path,
+        strategy: Strategy,
+        job: &Job,
+        proceed: &Proceed<'_>,
+    ) -> Option<Film> {
         let camera = self.scene.camera();
         let (width, height) = (camera.width.get(), camera.height.get());
-        let whole = Crop { x: 0, y: 0, width, height };
+        let whole = Crop {
+            x: 0,
+            y: 0,
+            width,
+            height,
+        };
         let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
         let lights = Lights::new(self, strategy);
         let count = crop.width as usize * crop.height as usize;
@@ -54,7 +66,11 @@ impl<S: Geometry> World<S> {
                 let (before, place) = (tracer.counts, (x - crop.x) as usize);
                 tracer.heartbeat.begin([x, y]);
                 let radiance = tracer.pixel([x, y], job.seeds).to_array();
-                row[place] = if job.values == Values::Display { tone.display(radiance) } else { radiance };
+                row[place] = if job.values == Values::Display {
+                    tone.display(radiance)
+                } else {
+                    radiance
+                };
                 shares[place] = tracer.counts.coverage_since(&before);
                 if !tracer.heartbeat.done(&tracer.counts) {
                     return None;
@@ -64,10 +80,22 @@ impl<S: Geometry> World<S> {
         };
         let rows = (crop.y..crop.y + crop.height).into_par_iter();
         let width = (crop.width as usize).max(1);
-        let rows = rows.zip(pixels.par_chunks_mut(width)).zip(coverage.par_chunks_mut(width));
+        let rows = rows
+            .zip(pixels.par_chunks_mut(width))
+            .zip(coverage.par_chunks_mut(width));
         let rows = rows.step_by(job.stride.get() as usize);
-        let counts = rows.map(row).try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
-        Some(Film { image: Image { width: crop.width, height: crop.height, pixels }, coverage, counts })
+        let counts = rows
+            .map(row)
+            .try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
+        Some(Film {
+            image: Image {
+                width: crop.width,
+                height: crop.height,
+                pixels,
+            },
+            coverage,
+            counts,
+        })
     }
 
     /// Grows a film by tracing paths; see [`super::AnyWorld::grow`].

@@ -1,4 +1,5 @@
-//! Distributions given by tables: an index by its weight, a place of the unit square by the weight of its cell.
+//! Distributions given by tables: an index by its weight, a place of the unit square by the weight
+//! of its cell.
 
 /// Indices with probabilities proportional to weights.
 #[derive(Clone, Debug)]
@@ -30,16 +31,29 @@ impl Choice {
     pub(super) fn probability(&self, index: usize) -> f64 {
         let whole = self.whole();
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
-        if whole > 0.0 { (self.sums[index] - before) / whole } else { 0.0 }
+        if whole > 0.0 {
+            (self.sums[index] - before) / whole
+        } else {
+            0.0
+        }
     }
 
-    /// The index for a number in [0, 1), and the number left for choosing within it; `None` if all weights are 0.
+    /// The index for a number in [0, 1), and the number left for choosing within it; `None` if all
+    /// weights are 0.
     pub(super) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.whole();
-        let index = self.sums.partition_point(|sum| *sum <= place).min(self.last);
+        let index = self
+            .sums
+            .partition_point(|sum| *sum <= place)
+            .min(self.last);
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
         let width = self.sums.get(index)? - before;
-        (width > 0.0).then(|| (index, ((place - before) / width).clamp(0.0, 1.0 - f64::EPSILON)))
+        (width > 0.0).then(|| {
+            (
+                index,
+                ((place - before) / width).clamp(0.0, 1.0 - f64::EPSILON),
+            )
+        })
     }
 }
 
@@ -56,7 +70,11 @@ impl Table {
     pub(super) fn new([width, height]: [u32; 2], weight: impl Fn(u32, u32) -> f64) -> Self {
         let row = |y: u32| Choice::new((0..width).map(|x| weight(x, y)));
         let cells = (0..height).map(row).collect::<Vec<_>>();
-        Self { rows: Choice::new(cells.iter().map(Choice::whole)), cells, width: width as usize }
+        Self {
+            rows: Choice::new(cells.iter().map(Choice::whole)),
+            cells,
+            width: width as usize,
+        }
     }
 
     /// The mean weight of a cell.
@@ -65,11 +83,17 @@ impl Table {
     }
 
     /// The density at a place.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the table")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the table"
+    )]
     pub(super) fn pdf(&self, [u, v]: [f64; 2]) -> f64 {
         let cell = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
         let (x, y) = (cell(u, self.width), cell(v, self.cells.len()));
-        self.rows.probability(y) * self.cells[y].probability(x) * (self.width * self.cells.len()) as f64
+        self.rows.probability(y)
+            * self.cells[y].probability(x)
+            * (self.width * self.cells.len()) as f64
     }
 
     /// The place for two numbers in [0, 1); anywhere if all weights are 0.
@@ -77,7 +101,10 @@ impl Table {
         let place = || {
             let (y, rest_y) = self.rows.choose(u[1])?;
             let (x, rest_x) = self.cells[y].choose(u[0])?;
-            Some([(x as f64 + rest_x) / self.width as f64, (y as f64 + rest_y) / self.cells.len() as f64])
+            Some([
+                (x as f64 + rest_x) / self.width as f64,
+                (y as f64 + rest_y) / self.cells.len() as f64,
+            ])
         };
         place().unwrap_or(u)
     }
@@ -114,7 +141,10 @@ mod tests {
         for y in 0..2_u8 {
             for x in 0..3_u8 {
                 let density = table.pdf([(f64::from(x) + 0.5) / 3.0, (f64::from(y) + 0.5) / 2.0]);
-                assert!((counts[usize::from(y)][usize::from(x)] - density / 6.0).abs() < 0.005, "{x} {y}: {counts:?}");
+                assert!(
+                    (counts[usize::from(y)][usize::from(x)] - density / 6.0).abs() < 0.005,
+                    "{x} {y}: {counts:?}"
+                );
             }
         }
     }

@@ -101,13 +101,20 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 
     /// The same, with all that surfaces know in the corners of its paths.
     pub(super) fn knowing_all(self) -> Self {
-        Self { asked: vec![Asked::ALL; self.asked.len()], ..self }
+        Self {
+            asked: vec![Asked::ALL; self.asked.len()],
+            ..self
+        }
     }
 
     /// The mean radiance of a pixel's paths, spread over all of its area.
     pub(super) fn pixel(&mut self, pixel: [u32; 2], seeds: Seeds) -> Vec3 {
         let count = self.path.samples.get();
-        let sample = |index| self.heartbeat.goes_on(&self.counts).then(|| self.sample_of(pixel, index, seeds));
+        let sample = |index| {
+            self.heartbeat
+                .goes_on(&self.counts)
+                .then(|| self.sample_of(pixel, index, seeds))
+        };
         (0..count).map_while(sample).sum::<Vec3>() / f64::from(count)
     }
 
@@ -118,7 +125,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         let radiance = self.radiance(ray, sobol);
         let counts = self.behind == Behind::Surroundings || self.counts.hits > hits;
         // A number that overflowed says nothing.
-        if counts && radiance.is_finite() { radiance } else { Vec3::ZERO }
+        if counts && radiance.is_finite() {
+            radiance
+        } else {
+            Vec3::ZERO
+        }
     }
 
     /// The ray from the camera that a path of a pixel begins with.
@@ -132,7 +143,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         let [u, turn] = sobol.pair(LENS);
         let (x, y) = cos_sin_turns(turns(turn));
         let r = radius * u.sqrt() / camera.up.length();
-        ray_through(camera, camera.eye + camera.right * (r * x) + camera.up * (r * y), target)
+        ray_through(
+            camera,
+            camera.eye + camera.right * (r * x) + camera.up * (r * y),
+            target,
+        )
     }
 
     /// The radiance along one path.
@@ -152,7 +167,8 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         }
     }
 
-    /// The next surface that is there; veils let the ray on by chance, and the backs of one-sided ones a ray of the camera.
+    /// The next surface that is there; veils let the ray on by chance, and the backs of one-sided
+    /// ones a ray of the camera.
     #[inline(always)]
     pub(super) fn meet(&self, walk: &mut Walk) -> Option<Corner<'world>> {
         walk.travelled = 0.0;
@@ -160,16 +176,29 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             let hit = self.world.nearest_from(&walk.ray, walk.from)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&walk.ray, hit.t, hit.part);
-            let details = surface.shape.details(&walk.ray, &at, hit.part, self.asked[surface.material]);
+            let details =
+                surface
+                    .shape
+                    .details(&walk.ray, &at, hit.part, self.asked[surface.material]);
             let point = Point::new(&self.world.scene, surface.material, &details);
             walk.travelled += hit.t;
-            let coverage = if walk.looks_through(&at, point.material) { 0.0 } else { point.coverage() };
+            let coverage = if walk.looks_through(&at, point.material) {
+                0.0
+            } else {
+                point.coverage()
+            };
             if coverage < 1.0 && walk.sobol.uniform(walk.corners, veil) >= coverage {
                 (walk.ray, walk.from) = (at.ray(walk.ray.direction), (hit.surface, hit.part));
                 continue;
             }
             let (frame, coat) = point.frame(&at, &details, -walk.ray.direction);
-            return Some(Corner { at, point, frame, coat, hit });
+            return Some(Corner {
+                at,
+                point,
+                frame,
+                coat,
+                hit,
+            });
         }
         None
     }
@@ -191,7 +220,13 @@ impl<'world, S: Geometry> Tracer<'world, S> {
 
     /// Finds light at a corner and turns the path; false if it ends here.
     fn scatter(&mut self, walk: &mut Walk, corner: &Corner<'world>) -> bool {
-        let Corner { at, point, frame, coat, hit } = corner;
+        let Corner {
+            at,
+            point,
+            frame,
+            coat,
+            hit,
+        } = corner;
         let wo = -walk.ray.direction;
         if walk.absorption != Vec3::ZERO {
             walk.beta *= (walk.absorption * -walk.travelled).map(exp);
@@ -203,7 +238,10 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         let emission = point.emission();
         if emission != Vec3::ZERO {
             let square = walk.travelled * walk.travelled;
-            let aimed = || self.lights.pdf_of_surface(hit.surface, hit.part, -wo, square);
+            let aimed = || {
+                self.lights
+                    .pdf_of_surface(hit.surface, hit.part, -wo, square)
+            };
             walk.found += walk.beta * emission * self.weight(walk.pdf, aimed);
         }
         if walk.corners >= self.world.plan.max_depth {
@@ -220,9 +258,12 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             walk.found += walk.beta * self.direct(walk, corner, &bsdf, light);
         }
         let [u, v] = walk.pair(1);
-        let Some(sample) = bsdf.sample([choice, u, v]) else { return false };
+        let Some(sample) = bsdf.sample([choice, u, v]) else {
+            return false;
+        };
         let wi = frame.to_world(sample.wi).normalize();
-        // Light that the shading normal lets through and the surface itself does not, or the reverse, would leak.
+        // Light that the shading normal lets through and the surface itself does not, or the
+        // reverse, would leak.
         let through = sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
@@ -230,17 +271,31 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         walk.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
         walk.pdf = (!sample.delta).then_some(sample.pdf);
         if through && point.bounds_a_volume() {
-            walk.absorption = if wi.dot(at.normal) < 0.0 { point.absorption() } else { Vec3::ZERO };
+            walk.absorption = if wi.dot(at.normal) < 0.0 {
+                point.absorption()
+            } else {
+                Vec3::ZERO
+            };
         }
         (walk.ray, walk.from) = (at.ray(wi), (hit.surface, hit.part));
-        *if through { &mut self.counts.refracted } else { &mut self.counts.mirror } += 1;
+        *if through {
+            &mut self.counts.refracted
+        } else {
+            &mut self.counts.mirror
+        } += 1;
         walk.survives()
     }
 
     /// The light that one light sends to a corner and on along the path.
     fn direct(&mut self, walk: &Walk, corner: &Corner<'world>, bsdf: &Bsdf, choice: f64) -> Vec3 {
         let Corner { at, frame, .. } = corner;
-        let Some(Incident { wi, radiance, pdf, place }) = self.lights.sample(at.point, choice, || walk.pair(2)) else {
+        let Some(Incident {
+            wi,
+            radiance,
+            pdf,
+            place,
+        }) = self.lights.sample(at.point, choice, || walk.pair(2))
+        else {
             return Vec3::ZERO;
         };
         let (local, wo) = (frame.to_local(wi), -walk.ray.direction);
@@ -254,7 +309,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             _ => 1.0,
         };
         let light = value.f * radiance * (local.z.abs() * weight);
-        if light == Vec3::ZERO { light } else { light * self.visibility(corner, wi, place) }
+        if light == Vec3::ZERO {
+            light
+        } else {
+            light * self.visibility(corner, wi, place)
+        }
     }
 
     /// The share of light that comes through from a place, or from infinitely far away.
@@ -264,11 +323,20 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         if self.veils == Veils::Solid {
             return self.passing_one_by_one(ray, wi, place);
         }
-        let Some((ray, t_max)) = place.map_or(Some((ray, f64::INFINITY)), |place| segment(ray.origin, place)) else {
+        let Some((ray, t_max)) = place.map_or(Some((ray, f64::INFINITY)), |place| {
+            segment(ray.origin, place)
+        }) else {
             return 1.0;
         };
-        let pass = |hit: Hit| if self.veils == Veils::None { 0.0 } else { self.passing(&ray, &hit).1 };
-        self.world.passing(&ray, t_max, (corner.hit.surface, corner.hit.part), pass)
+        let pass = |hit: Hit| {
+            if self.veils == Veils::None {
+                0.0
+            } else {
+                self.passing(&ray, &hit).1
+            }
+        };
+        self.world
+            .passing(&ray, t_max, (corner.hit.surface, corner.hit.part), pass)
     }
 
     /// Where a ray meets a surface, and the share of light that the surface lets through there.
@@ -278,8 +346,13 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.part);
-        let details = surface.shape.details(ray, &at, hit.part, self.asked[surface.material]);
-        (Some(at), 1.0 - Point::new(&self.world.scene, surface.material, &details).coverage())
+        let details = surface
+            .shape
+            .details(ray, &at, hit.part, self.asked[surface.material]);
+        (
+            Some(at),
+            1.0 - Point::new(&self.world.scene, surface.material, &details).coverage(),
+        )
     }
 
     /// As [`Self::visibility`], for surfaces that a ray may cross more than once.
@@ -289,10 +362,14 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             if place.is_some_and(|place| !self.world.occluded(ray.origin, place)) {
                 return share;
             }
-            let Some(hit) = self.world.nearest(&ray) else { return share };
+            let Some(hit) = self.world.nearest(&ray) else {
+                return share;
+            };
             let (at, passing) = self.passing(&ray, &hit);
             share *= passing;
-            let Some(at) = at.filter(|_| share > 0.0) else { return 0.0 };
+            let Some(at) = at.filter(|_| share > 0.0) else {
+                return 0.0;
+            };
             ray = at.ray(wi);
         }
         0.0
@@ -303,7 +380,15 @@ impl<'world, S: Geometry> Sampling<'world> for Tracer<'world, S> {
     const TONE: Option<Tone> = Some(Tone::Srgb);
 
     fn sample(&mut self, pixel: [u32; 2], number: u64, index: u32) -> Vec3 {
-        self.sample_of(pixel, index, Seeds { pixel: number, lens: number, path: number })
+        self.sample_of(
+            pixel,
+            index,
+            Seeds {
+                pixel: number,
+                lens: number,
+                path: number,
+            },
+        )
     }
 
     fn counts(&self) -> Counts {
@@ -328,7 +413,8 @@ enum Veils {
 impl Veils {
     fn of<S: Geometry>(world: &World<S>) -> Self {
         let is_veil = |material: usize| world.scene.standards()[material].alpha != Alpha::Opaque;
-        let veils = (0..world.surfaces.len()).filter(|surface| is_veil(world.surfaces[*surface].material));
+        let veils =
+            (0..world.surfaces.len()).filter(|surface| is_veil(world.surfaces[*surface].material));
         veils.fold(Self::None, |veils, surface| match veils {
             Self::None | Self::Flat if world.is_merged(surface) => Self::Flat,
             Self::None | Self::Flat | Self::Solid => Self::Solid,
@@ -355,7 +441,9 @@ impl Walk {
 
     /// Whether its ray is of the camera and meets the back of what is seen from one side.
     fn looks_through(&self, at: &Interaction, material: &Standard) -> bool {
-        self.corners == 0 && self.ray.direction.dot(at.normal) > 0.0 && material.is_seen_from_one_side()
+        self.corners == 0
+            && self.ray.direction.dot(at.normal) > 0.0
+            && material.is_seen_from_one_side()
     }
 
     /// A pair of numbers of this corner.
@@ -364,7 +452,11 @@ impl Walk {
     }
 
     /// Keeps one colour, which stands for all three.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "one of three")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "one of three"
+    )]
     fn disperse(&mut self) {
         let [u, _] = self.pair(3);
         let channel = ((u * 3.0) as usize).min(2);
@@ -393,7 +485,11 @@ fn power_heuristic(own: f64, other: f64) -> f64 {
 }
 
 /// A share of a turn in units of 2⁻⁶⁴ turns.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share; the cast saturates")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a share; the cast saturates"
+)]
 fn turns(share: f64) -> u64 {
     (share * 18_446_744_073_709_551_616.0) as u64
 }

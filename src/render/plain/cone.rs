@@ -45,10 +45,18 @@ impl<R: Real> Cone<R> {
         let none = R::of(f64::NAN);
         let within = |t: R| {
             let height = above + rise * t;
-            if height >= R::of(0.0) && height <= self.height { t } else { none }
+            if height >= R::of(0.0) && height <= self.height {
+                t
+            } else {
+                none
+            }
         };
         let [first, second] = quadratic(a, b, c)?.map(within);
-        line.first([(first, side), (second, side), (self.cap.parameter(line), base)])
+        line.first([
+            (first, side),
+            (second, side),
+            (self.cap.parameter(line), base),
+        ])
     }
 
     pub(super) fn normal(&self, point: Vector<R>, part: u32) -> Vector<R> {

@@ -1,4 +1,5 @@
-//! The capped cylinder: the quadratic of what is left of ray and point across the axis, and two discs.
+//! The capped cylinder: the quadratic of what is left of ray and point across the axis, and two
+//! discs.
 
 use super::line::Line;
 use super::plane::Disc;
@@ -26,7 +27,10 @@ impl<R: Real> Cylinder<R> {
             axis: Vector::of(unit_axis),
             height: R::of(height),
             radius: R::of(radius),
-            caps: [cap(base, -unit_axis), cap(base + unit_axis * height, unit_axis)],
+            caps: [
+                cap(base, -unit_axis),
+                cap(base + unit_axis * height, unit_axis),
+            ],
         }
     }
 
@@ -40,7 +44,11 @@ impl<R: Real> Cylinder<R> {
         let none = R::of(f64::NAN);
         let within = |t: R| {
             let height = above + rise * t;
-            if height >= R::of(0.0) && height <= self.height { t } else { none }
+            if height >= R::of(0.0) && height <= self.height {
+                t
+            } else {
+                none
+            }
         };
         let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
         let [low, high] = self.caps.map(|cap| cap.parameter(line));

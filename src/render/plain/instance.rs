@@ -11,15 +11,23 @@ use std::sync::Arc;
 /// A mesh ready to be hit by plain formulas, in object coordinates.
 #[derive(Debug)]
 pub struct Mesh<R> {
-    /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known of them.
+    /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
+    /// of them.
     pub(super) twin: Arc<PreparedMesh>,
     triangles: Vec<Triangle<R>>,
 }
 
 impl<R: Real> Mesh<R> {
     pub(super) fn new(twin: PreparedMesh) -> Self {
-        let triangles = twin.triangles().iter().map(|triangle| Triangle::new(triangle.vertices())).collect();
-        Self { twin: Arc::new(twin), triangles }
+        let triangles = twin
+            .triangles()
+            .iter()
+            .map(|triangle| Triangle::new(triangle.vertices()))
+            .collect();
+        Self {
+            twin: Arc::new(twin),
+            triangles,
+        }
     }
 }
 
@@ -33,7 +41,11 @@ pub(super) struct Instance<R> {
 
 impl<R: Real> Instance<R> {
     pub(super) fn new(mesh: &Arc<Mesh<R>>, twin: &instance::Instance, origin: Vec3) -> Self {
-        Self { mesh: Arc::clone(mesh), origin: Vector::of(origin), rows: twin.inverse().map(Vector::of) }
+        Self {
+            mesh: Arc::clone(mesh),
+            origin: Vector::of(origin),
+            rows: twin.inverse().map(Vector::of),
+        }
     }
 
     /// The line in object space; its `t` are those of the world.
@@ -42,21 +54,33 @@ impl<R: Real> Instance<R> {
             let [x, y, z] = self.rows.map(|row| row.dot(v));
             Vector { x, y, z }
         };
-        Line { origin: rows(line.origin - self.origin), direction: rows(line.direction), length2: line.length2 }
+        Line {
+            origin: rows(line.origin - self.origin),
+            direction: rows(line.direction),
+            length2: line.length2,
+        }
     }
 
     pub(super) fn intersect(&self, line: &Line<R>, t_max: f64) -> Option<(f64, u32)> {
         let line = self.to_object(line);
-        let ray = Ray { origin: line.origin.wide(), direction: line.direction.wide() };
+        let ray = Ray {
+            origin: line.origin.wide(),
+            direction: line.direction.wide(),
+        };
         let mut best = (t_max, u32::MAX);
-        self.mesh.twin.hierarchy()?.walk::<false>(&ray, t_max, |item| {
-            if let Some(t) = self.mesh.triangles[item as usize].intersect(&line).map(R::wide)
-                && (t < best.0 || (t == best.0 && item < best.1))
-            {
-                best = (t, item);
-            }
-            best.0
-        });
+        self.mesh
+            .twin
+            .hierarchy()?
+            .walk::<false>(&ray, t_max, |item| {
+                if let Some(t) = self.mesh.triangles[item as usize]
+                    .intersect(&line)
+                    .map(R::wide)
+                    && (t < best.0 || (t == best.0 && item < best.1))
+                {
+                    best = (t, item);
+                }
+                best.0
+            });
         (best.1 != u32::MAX).then_some(best)
     }
 

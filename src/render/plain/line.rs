@@ -17,7 +17,11 @@ impl<R: Real> Line<R> {
     #[inline]
     pub(super) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);
-        Self { origin: Vector::of(ray.origin), direction, length2: direction.dot(direction) }
+        Self {
+            origin: Vector::of(ray.origin),
+            direction,
+            length2: direction.dot(direction),
+        }
     }
 
     #[inline]
@@ -39,6 +43,9 @@ impl<R: Real> Line<R> {
             Some(best) if best.0 <= root.0 => Some(best),
             _ => Some(root),
         };
-        roots.into_iter().filter(|(t, _)| self.counts(*t)).fold(None, nearer)
+        roots
+            .into_iter()
+            .filter(|(t, _)| self.counts(*t))
+            .fold(None, nearer)
     }
 }

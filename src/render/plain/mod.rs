@@ -1,7 +1,9 @@
-//! The formulas of the textbooks, in f64 or f32, beside the robust ones: what accuracy costs, and what it saves.
+//! The formulas of the textbooks, in f64 or f32, beside the robust ones: what accuracy costs, and
+//! what it saves.
 //!
-//! Hits within 1e-5 are taken for the surface a ray starts on, and rays start at the point itself. What is not a
-//! question of arithmetic (texture coordinates, shading normals, boxes) is asked of the robust shape.
+//! Hits within 1e-5 are taken for the surface a ray starts on, and rays start at the point itself.
+//! What is not a question of arithmetic (texture coordinates, shading normals, boxes) is asked of
+//! the robust shape.
 
 mod cone;
 mod cylinder;
@@ -55,7 +57,10 @@ impl<R: Real> Form<R> {
     fn new(shape: &valid::Shape, twin: &Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
         Some(match (shape, twin) {
             (valid::Shape::Sphere(valid::Sphere { center, radius, .. }), _) => {
-                Self::Sphere(sphere::Sphere { center: Vector::of(*center), radius: R::of(radius.get()) })
+                Self::Sphere(sphere::Sphere {
+                    center: Vector::of(*center),
+                    radius: R::of(radius.get()),
+                })
             }
             (valid::Shape::Plane(valid::Plane { center, .. }), Shape::Plane(twin)) => {
                 Self::Plane(plane::Plane::new(*center, twin.normal()))
@@ -66,17 +71,39 @@ impl<R: Real> Form<R> {
             (valid::Shape::Quad(shape), Shape::Quad(twin)) => {
                 Self::Quad(Box::new(quad::Quad::new(twin, shape.vertices)))
             }
-            (valid::Shape::Disc(valid::Disc { center, normal, radius }), _) => {
-                Self::Disc(plane::Disc::new(*center, unit(*normal)?, radius.get()))
-            }
-            (valid::Shape::Cylinder(valid::Cylinder { base, axis, height, radius }), _) => {
-                let cylinder = cylinder::Cylinder::new(*base, unit(*axis)?, height.get(), radius.get());
+            (
+                valid::Shape::Disc(valid::Disc {
+                    center,
+                    normal,
+                    radius,
+                }),
+                _,
+            ) => Self::Disc(plane::Disc::new(*center, unit(*normal)?, radius.get())),
+            (
+                valid::Shape::Cylinder(valid::Cylinder {
+                    base,
+                    axis,
+                    height,
+                    radius,
+                }),
+                _,
+            ) => {
+                let cylinder =
+                    cylinder::Cylinder::new(*base, unit(*axis)?, height.get(), radius.get());
                 Self::Cylinder(Box::new(cylinder))
             }
             (valid::Shape::Cone(valid::Cone { base, up, radius }), _) => {
                 Self::Cone(Box::new(cone::Cone::new(*base, *up, radius.get())))
             }
-            (valid::Shape::Torus(valid::Torus { center, axis, major, minor }), _) => Self::Torus(torus::Torus {
+            (
+                valid::Shape::Torus(valid::Torus {
+                    center,
+                    axis,
+                    major,
+                    minor,
+                }),
+                _,
+            ) => Self::Torus(torus::Torus {
                 center: Vector::of(*center),
                 axis: Vector::of(unit(*axis)?),
                 major: R::of(major.get()),
@@ -84,9 +111,15 @@ impl<R: Real> Form<R> {
             }),
             (valid::Shape::Instance(shape), Shape::Instance(twin)) => {
                 let origin = shape.world_from_object[3];
-                Self::Instance(Box::new(instance::Instance::new(&meshes[shape.mesh], twin, origin)))
+                Self::Instance(Box::new(instance::Instance::new(
+                    &meshes[shape.mesh],
+                    twin,
+                    origin,
+                )))
             }
-            (valid::Shape::Plane(_) | valid::Shape::Quad(_) | valid::Shape::Instance(_), _) => return None,
+            (valid::Shape::Plane(_) | valid::Shape::Quad(_) | valid::Shape::Instance(_), _) => {
+                return None;
+            }
         })
     }
 
@@ -115,7 +148,10 @@ impl<R: Real> Geometry for PlainShape<R> {
     fn prepare(shape: &valid::Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
         let twin_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.twin);
         let twin = Shape::prepare(shape, &meshes.iter().map(twin_mesh).collect::<Vec<_>>())?;
-        Some(Self { form: Form::new(shape, &twin, meshes)?, twin: Box::new(twin) })
+        Some(Self {
+            form: Form::new(shape, &twin, meshes)?,
+            twin: Box::new(twin),
+        })
     }
 
     #[inline]
@@ -140,7 +176,12 @@ impl<R: Real> Geometry for PlainShape<R> {
         let line = Line::<R>::of(ray);
         let point = line.at(R::of(t));
         let normal = self.form.normal(&line, point, part).wide();
-        Interaction { point: point.wide(), normal, offset: 0.0, back: Vec3::ZERO }
+        Interaction {
+            point: point.wide(),
+            normal,
+            offset: 0.0,
+            back: Vec3::ZERO,
+        }
     }
 
     fn has_uv(&self) -> bool {

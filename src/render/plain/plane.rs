@@ -14,7 +14,10 @@ pub(super) struct Plane<R> {
 impl<R: Real> Plane<R> {
     pub(super) fn new(center: Vec3, unit_normal: Vec3) -> Self {
         let normal = Vector::of(unit_normal);
-        Self { normal, level: normal.dot(Vector::of(center)) }
+        Self {
+            normal,
+            level: normal.dot(Vector::of(center)),
+        }
     }
 
     #[inline]
@@ -38,7 +41,11 @@ pub(super) struct Disc<R> {
 
 impl<R: Real> Disc<R> {
     pub(super) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
-        Self { plane: Plane::new(center, unit_normal), center: Vector::of(center), radius: R::of(radius) }
+        Self {
+            plane: Plane::new(center, unit_normal),
+            center: Vector::of(center),
+            radius: R::of(radius),
+        }
     }
 
     /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
@@ -46,7 +53,11 @@ impl<R: Real> Disc<R> {
     pub(super) fn parameter(&self, line: &Line<R>) -> R {
         let t = self.plane.parameter(line);
         let local = line.at(t) - self.center;
-        if local.dot(local) <= self.radius * self.radius { t } else { R::of(f64::NAN) }
+        if local.dot(local) <= self.radius * self.radius {
+            t
+        } else {
+            R::of(f64::NAN)
+        }
     }
 
     #[inline]

@@ -1,4 +1,5 @@
-//! The quadrilateral: two triangles if it is flat, else the bilinear patch of Reshetov (Ray Tracing Gems, 2019, ch. 8).
+//! The quadrilateral: two triangles if it is flat, else the bilinear patch of Reshetov (Ray Tracing
+//! Gems, 2019, ch. 8).
 
 use super::line::Line;
 use super::real::{Real, Vector};
@@ -17,9 +18,9 @@ impl<R: Real> Quad<R> {
     /// The quadrilateral split, or not, as the robust one is.
     pub(super) fn new(twin: &quad::Quad, vertices: [Vec3; 4]) -> Self {
         match twin {
-            quad::Quad::Flat { halves, .. } => {
-                Self::Flat(halves.map(|half| half.map(|(triangle, _)| Triangle::new(triangle.vertices()))))
-            }
+            quad::Quad::Flat { halves, .. } => Self::Flat(
+                halves.map(|half| half.map(|(triangle, _)| Triangle::new(triangle.vertices()))),
+            ),
             quad::Quad::Patch(_) => Self::Patch(vertices.map(Vector::of)),
         }
     }
@@ -27,7 +28,9 @@ impl<R: Real> Quad<R> {
     pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
         match self {
             Self::Flat(halves) => {
-                let hits = (0..).zip(halves).filter_map(|(part, half)| Some((half.as_ref()?.intersect(line)?, part)));
+                let hits = (0..)
+                    .zip(halves)
+                    .filter_map(|(part, half)| Some((half.as_ref()?.intersect(line)?, part)));
                 line.first(hits)
             }
             Self::Patch(vertices) => crossing(*vertices, line).map(|(t, _)| (t, 0)),
@@ -43,7 +46,9 @@ impl<R: Real> Quad<R> {
             Self::Patch(vertices) => {
                 let [q00, q10, q11, q01] = *vertices;
                 let [u, v] = crossing(*vertices, line).map_or([R::of(0.5); 2], |(_, uv)| uv);
-                lerp(q10 - q00, q11 - q01, v).cross(lerp(q01 - q00, q11 - q10, u)).normalized()
+                lerp(q10 - q00, q11 - q01, v)
+                    .cross(lerp(q01 - q00, q11 - q10, u))
+                    .normalized()
             }
         }
     }

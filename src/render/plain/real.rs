@@ -90,10 +90,19 @@ macro_rules! real {
 }
 
 real!(f32, narrow, libm::cbrtf, libm::cosf, libm::acosf);
-real!(f64, std::convert::identity, libm::cbrt, libm::cos, libm::acos);
+real!(
+    f64,
+    std::convert::identity,
+    libm::cbrt,
+    libm::cos,
+    libm::acos
+);
 
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "rounding is what the choice of f32 asks for")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding is what the choice of f32 asks for"
+)]
 fn narrow(x: f64) -> f32 {
     x as f32
 }
@@ -110,7 +119,11 @@ impl<R: Real> Vector<R> {
     /// Each component rounded to the nearest number.
     #[inline]
     pub(super) fn of(v: Vec3) -> Self {
-        Self { x: R::of(v.x), y: R::of(v.y), z: R::of(v.z) }
+        Self {
+            x: R::of(v.x),
+            y: R::of(v.y),
+            z: R::of(v.z),
+        }
     }
 
     #[inline]
@@ -144,7 +157,11 @@ impl<R: Real> Add for Vector<R> {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+        Self {
+            x: self.x + other.x,
+            y: self.y + other.y,
+            z: self.z + other.z,
+        }
     }
 }
 
@@ -153,7 +170,11 @@ impl<R: Real> Sub for Vector<R> {
 
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+        Self {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+        }
     }
 }
 
@@ -162,7 +183,11 @@ impl<R: Real> Mul<R> for Vector<R> {
 
     #[inline]
     fn mul(self, factor: R) -> Self {
-        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+        Self {
+            x: self.x * factor,
+            y: self.y * factor,
+            z: self.z * factor,
+        }
     }
 }
 
@@ -171,6 +196,10 @@ impl<R: Real> Neg for Vector<R> {
 
     #[inline]
     fn neg(self) -> Self {
-        Self { x: -self.x, y: -self.y, z: -self.z }
+        Self {
+            x: -self.x,
+            y: -self.y,
+            z: -self.z,
+        }
     }
 }

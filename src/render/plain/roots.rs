@@ -1,8 +1,10 @@
-//! Real roots of polynomials by the closed forms of the books, with the cancellation that belongs to them.
+//! Real roots of polynomials by the closed forms of the books, with the cancellation that belongs
+//! to them.
 
 use super::real::Real;
 
-/// The roots of `a·t² + b·t + c`, in order for `a > 0`: `(−b ∓ √(b² − 4ac))/2a`; the one root twice if `a` is 0.
+/// The roots of `a·t² + b·t + c`, in order for `a > 0`: `(−b ∓ √(b² − 4ac))/2a`; the one root twice
+/// if `a` is 0.
 #[inline]
 pub(super) fn quadratic<R: Real>(a: R, b: R, c: R) -> Option<[R; 2]> {
     let discriminant = b * b - R::of(4.0) * a * c;
@@ -16,7 +18,8 @@ pub(super) fn quadratic<R: Real>(a: R, b: R, c: R) -> Option<[R; 2]> {
     Some([(-b - root) / double, (-b + root) / double])
 }
 
-/// The largest real root of `z³ + b·z² + c·z + d`, by Cardano's formula or, of three real roots, by Viète's.
+/// The largest real root of `z³ + b·z² + c·z + d`, by Cardano's formula or, of three real roots, by
+/// Viète's.
 fn largest_of_cubic<R: Real>(b: R, c: R, d: R) -> R {
     let (two, three) = (R::of(2.0), R::of(3.0));
     // Substitute z = s − b/3 to get s³ + 3p·s + 2q.
@@ -26,19 +29,32 @@ fn largest_of_cubic<R: Real>(b: R, c: R, d: R) -> R {
     let discriminant = q * q + p * p * p;
     if discriminant > R::of(0.0) {
         let root = discriminant.sqrt();
-        let u = if q > R::of(0.0) { -(q + root).cbrt() } else { (root - q).cbrt() };
+        let u = if q > R::of(0.0) {
+            -(q + root).cbrt()
+        } else {
+            (root - q).cbrt()
+        };
         return u - p / u - third;
     }
     let size = (-p).sqrt();
     let cosine = -q / (size * size * size);
-    let limited = if cosine > R::of(1.0) { R::of(1.0) } else { cosine };
-    let angle = if size > R::of(0.0) { limited.acos() / three } else { R::of(0.0) };
+    let limited = if cosine > R::of(1.0) {
+        R::of(1.0)
+    } else {
+        cosine
+    };
+    let angle = if size > R::of(0.0) {
+        limited.acos() / three
+    } else {
+        R::of(0.0)
+    };
     two * size * angle.cos() - third
 }
 
 /// The real roots of `t⁴ + b·t³ + c·t² + d·t + e`, in no order; what is missing is not a number.
 ///
-/// Ferrari's method in Descartes' form: a root of the resolvent cubic splits the quartic into two quadratics.
+/// Ferrari's method in Descartes' form: a root of the resolvent cubic splits the quartic into two
+/// quadratics.
 pub(super) fn quartic<R: Real>(b: R, c: R, d: R, e: R) -> [R; 4] {
     let (half, zero) = (R::of(0.5), R::of(0.0));
     // Substitute t = y − b/4 to get y⁴ + p·y² + q·y + r.
@@ -55,7 +71,10 @@ pub(super) fn quartic<R: Real>(b: R, c: R, d: R, e: R) -> [R; 4] {
         // Factor into (y² + s·y + u)(y² − s·y + v).
         let s = z.sqrt();
         let (middle, slant) = (half * (p + z), half * q / s);
-        [pair(quadratic(R::of(1.0), s, middle - slant)), pair(quadratic(R::of(1.0), -s, middle + slant))]
+        [
+            pair(quadratic(R::of(1.0), s, middle - slant)),
+            pair(quadratic(R::of(1.0), -s, middle + slant)),
+        ]
     } else {
         // Solve the biquadratic y⁴ + p·y² + r.
         let root = |y2: R| if y2 >= zero { y2.sqrt() } else { none };
@@ -74,7 +93,10 @@ mod tests {
         // The sign of a NaN is anyone's guess.
         found.sort_by(|a, b| a.is_nan().cmp(&b.is_nan()).then(a.total_cmp(b)));
         for (found, wanted) in found.into_iter().zip(wanted) {
-            assert!((found - wanted).abs() < 1e-9 || found.is_nan() && wanted.is_nan(), "{found} {wanted}");
+            assert!(
+                (found - wanted).abs() < 1e-9 || found.is_nan() && wanted.is_nan(),
+                "{found} {wanted}"
+            );
         }
     }
 

@@ -1,4 +1,5 @@
-//! The triangle of Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
+//! The triangle of Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2,
+//! 1997).
 
 use super::line::Line;
 use super::real::{Real, Vector};
@@ -13,7 +14,10 @@ pub(super) struct Triangle<R> {
 impl<R: Real> Triangle<R> {
     pub(super) fn new(vertices: &[Vec3; 3]) -> Self {
         let [a, b, c] = vertices.map(Vector::of);
-        Self { corner: a, edges: [b - a, c - a] }
+        Self {
+            corner: a,
+            edges: [b - a, c - a],
+        }
     }
 
     #[inline]

@@ -1,4 +1,5 @@
-//! Plots as SVG, both axes logarithmic. Text stays text, and black follows the page: its style turns that for the dark.
+//! Plots as SVG, both axes logarithmic. Text stays text, and black follows the page: its style
+//! turns that for the dark.
 
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
@@ -19,18 +20,31 @@ type Outcome = Result<(), Box<dyn Error>>;
 /// A span of values that fits on a logarithmic axis.
 type Span = std::ops::Range<f64>;
 
-/// Error against time: all rows with their intervals, the front as steps, the floor of the reference.
+/// Error against time: all rows with their intervals, the front as steps, the floor of the
+/// reference.
 pub(super) fn front(study: &Study) -> String {
-    let rows: Vec<_> = study.rows.iter().filter(|row| row.errors.rmse > 0.0).collect();
+    let rows: Vec<_> = study
+        .rows
+        .iter()
+        .filter(|row| row.errors.rmse > 0.0)
+        .collect();
     let xs = span(rows.iter().map(|row| row.seconds.value));
     let floor = Some(study.reference.floor).filter(|floor| *floor > 0.0);
     let ys = span(rows.iter().map(|row| row.errors.rmse).chain(floor));
     plot((460, 360), |root| {
-        let mut chart = axes(root, [xs.clone(), ys], ["time of one processor", "error in grey levels"], seconds)?;
+        let mut chart = axes(
+            root,
+            [xs.clone(), ys],
+            ["time of one processor", "error in grey levels"],
+            seconds,
+        )?;
         let steps = front_steps(&rows, xs.end);
         chart.draw_series([PathElement::new(steps, ACCENT.stroke_width(2))])?;
         if let Some(floor) = floor {
-            chart.draw_series([PathElement::new([(xs.start, floor), (xs.end, floor)], FLOOR.stroke_width(1))])?;
+            chart.draw_series([PathElement::new(
+                [(xs.start, floor), (xs.end, floor)],
+                FLOOR.stroke_width(1),
+            )])?;
             let label = Text::new("error of the reference", (6, -14), font(11));
             chart.draw_series([EmptyElement::at((xs.start, floor)) + label])?;
         }
@@ -46,7 +60,10 @@ fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
         // Where seconds can't tell, rows stand by their rays.
-        let x = steps.last().map_or(0.0, |last| last.0).max(row.seconds.value);
+        let x = steps
+            .last()
+            .map_or(0.0, |last| last.0)
+            .max(row.seconds.value);
         steps.extend(steps.last().map(|last| (x, last.1)));
         steps.push((x, row.errors.rmse));
     }
@@ -63,10 +80,17 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
     for bar in [across, along] {
         chart.draw_series([PathElement::new(bar, color.mix(0.5).stroke_width(1))])?;
     }
-    let fill = if row.judged { color.filled() } else { color.stroke_width(1) };
+    let fill = if row.judged {
+        color.filled()
+    } else {
+        color.stroke_width(1)
+    };
     chart.draw_series([Circle::new((x, y), 4, fill)])?;
     if row.front || row.own {
-        let values: Vec<_> = used.iter().map(|knob| knob.cell(row.setting.get(*knob))).collect();
+        let values: Vec<_> = used
+            .iter()
+            .map(|knob| knob.cell(row.setting.get(*knob)))
+            .collect();
         let own = if row.own { " (own)" } else { "" };
         let label = Text::new(format!("{}{own}", values.join("·")), (6, -15), font(11));
         chart.draw_series([EmptyElement::at((x, y)) + label])?;
@@ -78,27 +102,43 @@ fn draw_row(chart: &mut Chart<'_, '_>, row: &Row, used: &[Knob]) -> Outcome {
 pub(super) fn knob(report: &KnobReport) -> String {
     // A logarithmic axis has no 0; a depth of 0 stands beside 1.
     let x = |value: u32| report.knob.samples(value).max(0.5);
-    let points: Vec<_> =
-        report.rungs.iter().filter(|rung| rung.error > 0.0).map(|rung| (x(rung.value), rung)).collect();
+    let points: Vec<_> = report
+        .rungs
+        .iter()
+        .filter(|rung| rung.error > 0.0)
+        .map(|rung| (x(rung.value), rung))
+        .collect();
     let xs = span(points.iter().map(|point| point.0));
     let ys = span(points.iter().map(|point| point.1.error));
     let name = match report.knob {
         Knob::Supersampling => "samples of a pixel",
         Knob::Depth => "depth, 0 at ½",
-        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths | Knob::Precision) => knob.name(),
+        knob @ (Knob::Aperture | Knob::Lights | Knob::Glossy | Knob::Paths | Knob::Precision) => {
+            knob.name()
+        }
     };
     plot((400, 300), |root| {
-        let mut chart = axes(root, [xs.clone(), ys.clone()], [name, "error in grey levels"], digits)?;
+        let mut chart = axes(
+            root,
+            [xs.clone(), ys.clone()],
+            [name, "error in grey levels"],
+            digits,
+        )?;
         if let Some(law) = &report.law {
             const STEPS: u32 = 100;
-            let x = |step: u32| xs.start * pow(xs.end / xs.start, f64::from(step) / f64::from(STEPS));
+            let x =
+                |step: u32| xs.start * pow(xs.end / xs.start, f64::from(step) / f64::from(STEPS));
             let line = (0..=STEPS).map(|step| (x(step), law.at(x(step))));
             // What lies outside would be drawn on the edge.
             let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
         let mark = |(x, rung): &(f64, &super::super::reference::Rung)| {
-            let style = if rung.resolved { ACCENT.filled() } else { MUTED.stroke_width(1) };
+            let style = if rung.resolved {
+                ACCENT.filled()
+            } else {
+                MUTED.stroke_width(1)
+            };
             Circle::new((*x, rung.error), 4, style)
         };
         chart.draw_series(points.iter().map(mark))?;
@@ -109,7 +149,9 @@ pub(super) fn knob(report: &KnobReport) -> String {
 /// The decades that hold all values.
 fn span(values: impl Iterator<Item = f64>) -> Span {
     let decades = (-12..=12).map(|decade| exp(f64::from(decade) * std::f64::consts::LN_10));
-    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)));
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
     let below = decades.clone().rfind(|decade| *decade < 0.95 * low);
     let above = decades.clone().find(|decade| *decade > 1.05 * high);
     match (below, above) {
@@ -118,7 +160,10 @@ fn span(values: impl Iterator<Item = f64>) -> Span {
     }
 }
 
-fn plot(size: (u32, u32), draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome) -> String {
+fn plot(
+    size: (u32, u32),
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Outcome,
+) -> String {
     let mut svg = String::new();
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
     let drawn = draw(&root).and_then(|()| Ok(root.present()?));
@@ -134,7 +179,11 @@ fn axes<'a, 'b>(
     x_words: fn(f64) -> String,
 ) -> Result<Chart<'a, 'b>, Box<dyn Error>> {
     let mut builder = ChartBuilder::on(root);
-    builder.margin(8).margin_right(20).x_label_area_size(40).y_label_area_size(56);
+    builder
+        .margin(8)
+        .margin_right(20)
+        .x_label_area_size(40)
+        .y_label_area_size(56);
     let mut chart = builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?;
     chart
         .configure_mesh()

@@ -1,4 +1,5 @@
-//! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey levels, time in seconds.
+//! The rows of a study as CSV (RFC 4180): a line of names, then one line a row; errors in grey
+//! levels, time in seconds.
 
 use super::super::knob::Knob;
 use super::super::outcome::{Row, Study};
@@ -11,18 +12,48 @@ visible,flip,model";
 #[must_use]
 pub fn csv(study: &Study) -> String {
     let lines = study.rows.iter().map(line);
-    std::iter::once(NAMES.to_owned()).chain(lines).map(|line| line + "\r\n").collect()
+    std::iter::once(NAMES.to_owned())
+        .chain(lines)
+        .map(|line| line + "\r\n")
+        .collect()
 }
 
 fn line(row: &Row) -> String {
-    let Row { setting, own, front, rays, seconds, ratio, errors, judged, model, tiles: _ } = row;
+    let Row {
+        setting,
+        own,
+        front,
+        rays,
+        seconds,
+        ratio,
+        errors,
+        judged,
+        model,
+        tiles: _,
+    } = row;
     let knobs = Knob::ALL.map(|knob| knob.cell(setting.get(knob)));
     let flags = [own, front, judged].map(ToString::to_string);
-    let rays = [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
-    let times = [seconds, ratio].into_iter().flat_map(|estimate| [estimate.value, estimate.low, estimate.high]);
-    let errors =
-        [errors.rmse, errors.rmse_uncertainty, errors.relative_mse, errors.max, errors.visible, errors.flip, *model];
+    let rays =
+        [rays.camera, rays.shadow, rays.mirror, rays.refracted].map(|count| count.to_string());
+    let times = [seconds, ratio]
+        .into_iter()
+        .flat_map(|estimate| [estimate.value, estimate.low, estimate.high]);
+    let errors = [
+        errors.rmse,
+        errors.rmse_uncertainty,
+        errors.relative_mse,
+        errors.max,
+        errors.visible,
+        errors.flip,
+        *model,
+    ];
     // The shortest digits that read back as the same number.
     let numbers = times.chain(errors).map(|number| number.to_string());
-    knobs.into_iter().chain(flags).chain(rays).chain(numbers).collect::<Vec<_>>().join(",")
+    knobs
+        .into_iter()
+        .chain(flags)
+        .chain(rays)
+        .chain(numbers)
+        .collect::<Vec<_>>()
+        .join(",")
 }

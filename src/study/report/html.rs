@@ -1,4 +1,5 @@
-//! The page: one file that needs no network and no script, for wide screens and narrow ones, light and dark.
+//! The page: one file that needs no network and no script, for wide screens and narrow ones, light
+//! and dark.
 
 use super::super::advice::{digits, seconds};
 use super::super::knob::Knob;
@@ -15,8 +16,19 @@ const PICTURES: usize = 8;
 #[must_use]
 pub fn html(study: &Study) -> String {
     let title = format!("What accuracy costs: {}", escaped(&study.about.scene));
-    let sections = [front(study), knobs(study), effects(study), precision(study), pictures(study), fine_print(study)];
-    let advice: String = study.advice.iter().map(|line| format!("<p>{}</p>\n", escaped(line))).collect();
+    let sections = [
+        front(study),
+        knobs(study),
+        effects(study),
+        precision(study),
+        pictures(study),
+        fine_print(study),
+    ];
+    let advice: String = study
+        .advice
+        .iter()
+        .map(|line| format!("<p>{}</p>\n", escaped(line)))
+        .collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
@@ -31,11 +43,25 @@ fn front(study: &Study) -> String {
     let mut rows = String::new();
     for row in &study.rows {
         let class = if row.front { "front" } else { "other" };
-        let cells: String = cells(row, &used, study.part.share).iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        let cells: String = cells(row, &used, study.part.share)
+            .iter()
+            .map(|cell| format!("<td>{cell}</td>"))
+            .collect();
         let _ = writeln!(rows, "<tr class=\"{class}\">{cells}</tr>");
     }
-    let names = ["rays", "time", "×&nbsp;own", "error", "expected", "largest", "pixels off", "FLIP"];
-    let names = std::iter::once("").chain(used.iter().map(|knob| knob.short())).chain(names);
+    let names = [
+        "rays",
+        "time",
+        "×&nbsp;own",
+        "error",
+        "expected",
+        "largest",
+        "pixels off",
+        "FLIP",
+    ];
+    let names = std::iter::once("")
+        .chain(used.iter().map(|knob| knob.short()))
+        .chain(names);
     let head: String = names.map(|name| format!("<th>{name}</th>")).collect();
     format!(
         "<h2>The front: what error there is for a time</h2>\n<div class=\"plot\">{}</div>\n<p>{}</p>\n\
@@ -53,15 +79,26 @@ fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
     let knobs = used.iter().map(|knob| knob.cell(row.setting.get(*knob)));
     let measured = [
         table::count(row.rays.all() as f64 / share),
-        format!("{} ± {:.1} %", seconds(row.seconds.value), 100.0 * row.seconds.relative()),
-        format!("{} ± {:.1} %", digits(row.ratio.value), 100.0 * row.ratio.relative()),
+        format!(
+            "{} ± {:.1} %",
+            seconds(row.seconds.value),
+            100.0 * row.seconds.relative()
+        ),
+        format!(
+            "{} ± {:.1} %",
+            digits(row.ratio.value),
+            100.0 * row.ratio.relative()
+        ),
         format!("{limit}{}", digits(row.errors.rmse)),
         digits(row.model),
         digits(row.errors.max),
         format!("{} %", digits(100.0 * row.errors.visible)),
         digits(row.errors.flip),
     ];
-    std::iter::once(format!("{star}{own}")).chain(knobs).chain(measured).collect()
+    std::iter::once(format!("{star}{own}"))
+        .chain(knobs)
+        .chain(measured)
+        .collect()
 }
 
 fn knobs(study: &Study) -> String {
@@ -73,12 +110,16 @@ fn knobs(study: &Study) -> String {
             let _ = writeln!(idle, "<li>{words}</li>");
         } else {
             let plot = chart::knob(report);
-            let _ = writeln!(figures, "<figure>{plot}<figcaption>{words}</figcaption></figure>");
+            let _ = writeln!(
+                figures,
+                "<figure>{plot}<figcaption>{words}</figcaption></figure>"
+            );
         }
     }
-    let note =
-        "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
-    format!("<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{idle}</ul>\n")
+    let note = "The error that each knob leaves if all others leave none; hollow points do not stand out from the noise.";
+    format!(
+        "<h2>Each knob alone</h2>\n<p>{note}</p>\n<div class=\"grid\">\n{figures}</div>\n<ul>\n{idle}</ul>\n"
+    )
 }
 
 fn effects(study: &Study) -> String {
@@ -105,7 +146,11 @@ fn effects(study: &Study) -> String {
 fn precision(study: &Study) -> String {
     let mut rows = String::new();
     for cost in &study.precision {
-        let (time, off, difference) = (cost.ratio.value, 100.0 * cost.ratio.relative(), &cost.difference);
+        let (time, off, difference) = (
+            cost.ratio.value,
+            100.0 * cost.ratio.relative(),
+            &cost.difference,
+        );
         let cells = [
             cost.words(),
             format!("{time:.2} ± {off:.1} %"),
@@ -113,7 +158,11 @@ fn precision(study: &Study) -> String {
             digits(difference.max),
             format!("{} %", digits(100.0 * difference.visible)),
         ];
-        let _ = writeln!(rows, "<tr>{}</tr>", cells.map(|cell| format!("<td>{cell}</td>")).concat());
+        let _ = writeln!(
+            rows,
+            "<tr>{}</tr>",
+            cells.map(|cell| format!("<td>{cell}</td>")).concat()
+        );
     }
     format!(
         "<h2>What each precision costs</h2>\n<p>The same samples by each arithmetic, against the robust one: time, and \
@@ -127,15 +176,33 @@ fn pictures(study: &Study) -> String {
     if study.truth.is_empty() {
         return String::new();
     }
-    let shown: Vec<_> = study.rows.iter().filter(|row| row.front || row.own).collect();
+    let shown: Vec<_> = study
+        .rows
+        .iter()
+        .filter(|row| row.front || row.own)
+        .collect();
     let step = shown.len().div_ceil(PICTURES).max(1);
     let mut figures = figure(&[picture::tiles(&study.truth)], "The reference");
     for row in shown.into_iter().step_by(step) {
         let own = if row.own { ", the scene's own" } else { "" };
-        let words = format!("{}{own}: error {}", row.setting.words(&study.used()), digits(row.errors.rmse));
-        figures += &figure(&[picture::tiles(&row.tiles), picture::heat(&row.tiles, &study.truth)], &words);
+        let words = format!(
+            "{}{own}: error {}",
+            row.setting.words(&study.used()),
+            digits(row.errors.rmse)
+        );
+        figures += &figure(
+            &[
+                picture::tiles(&row.tiles),
+                picture::heat(&row.tiles, &study.truth),
+            ],
+            &words,
+        );
     }
-    let what = if study.part.tiles == 0 { "The picture" } else { "The tiles looked at, side by side," };
+    let what = if study.part.tiles == 0 {
+        "The picture"
+    } else {
+        "The tiles looked at, side by side,"
+    };
     format!(
         "<h2>How it looks</h2>\n<p>{what} and how visible the error is at each place (FLIP; black is none, white the \
          most).</p>\n<div class=\"grid\">\n{figures}</div>\n"
@@ -143,13 +210,22 @@ fn pictures(study: &Study) -> String {
 }
 
 fn figure(images: &[String], words: &str) -> String {
-    let images: String = images.iter().map(|uri| format!("<img alt=\"\" src=\"{uri}\">")).collect();
-    format!("<figure><div class=\"pair\">{images}</div><figcaption>{}</figcaption></figure>\n", escaped(words))
+    let images: String = images
+        .iter()
+        .map(|uri| format!("<img alt=\"\" src=\"{uri}\">"))
+        .collect();
+    format!(
+        "<figure><div class=\"pair\">{images}</div><figcaption>{}</figcaption></figure>\n",
+        escaped(words)
+    )
 }
 
 fn fine_print(study: &Study) -> String {
     let about = &study.about;
-    let busy = format!("wall time was {:.2} times processor time", study.wall_over_cpu);
+    let busy = format!(
+        "wall time was {:.2} times processor time",
+        study.wall_over_cpu
+    );
     let facts = [
         table::part(study),
         table::reference(study),
@@ -160,11 +236,17 @@ fn fine_print(study: &Study) -> String {
         format!("{}, scene {}, seed {}.", about.software, about.hash, study.seed),
         format!("{}, {} cores; {busy}.", about.processor, about.cores),
     ];
-    let lines: String = facts.iter().map(|fact| format!("<p><small>{}</small></p>\n", escaped(fact))).collect();
+    let lines: String = facts
+        .iter()
+        .map(|fact| format!("<p><small>{}</small></p>\n", escaped(fact)))
+        .collect();
     format!("<h2>What this rests on</h2>\n{lines}")
 }
 
 /// Text that means itself in HTML.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }

@@ -1,4 +1,5 @@
-//! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a browser.
+//! A study in several forms: a table for a terminal, CSV and JSON for programs, a page for a
+//! browser.
 
 mod chart;
 mod csv;

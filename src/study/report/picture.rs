@@ -1,4 +1,5 @@
-//! Pictures for the page: the tiles looked at side by side, and how different each place looks, as data URIs.
+//! Pictures for the page: the tiles looked at side by side, and how different each place looks, as
+//! data URIs.
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
 use crate::image::{Form, Image, Picture};
@@ -16,7 +17,10 @@ pub(super) fn tiles(tiles: &[Image]) -> String {
 /// FLIP of each place, from black for no difference to white for the largest.
 pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
     let map = |(test, reference): (&Image, &Image)| {
-        let pixels = flip(reference, test, PIXELS_PER_DEGREE).into_iter().map(glow).collect();
+        let pixels = flip(reference, test, PIXELS_PER_DEGREE)
+            .into_iter()
+            .map(glow)
+            .collect();
         Image { pixels, ..*test }
     };
     tiles(&test.iter().zip(reference).map(map).collect::<Vec<_>>())
@@ -24,10 +28,18 @@ pub(super) fn heat(test: &[Image], reference: &[Image]) -> String {
 
 /// A colour that grows brighter from 0 to 1.
 fn glow(value: f64) -> [f64; 3] {
-    const STOPS: [[f64; 3]; 5] =
-        [[0.0, 0.0, 0.02], [0.32, 0.07, 0.48], [0.72, 0.21, 0.47], [0.99, 0.55, 0.38], [1.0, 1.0, 0.9]];
+    const STOPS: [[f64; 3]; 5] = [
+        [0.0, 0.0, 0.02],
+        [0.32, 0.07, 0.48],
+        [0.72, 0.21, 0.47],
+        [0.99, 0.55, 0.38],
+        [1.0, 1.0, 0.9],
+    ];
     let place = value.clamp(0.0, 1.0) * 4.0;
-    let below = (0..4).rev().find(|stop| f64::from(*stop) <= place).unwrap_or(0);
+    let below = (0..4)
+        .rev()
+        .find(|stop| f64::from(*stop) <= place)
+        .unwrap_or(0);
     let share = place - f64::from(below);
     let (from, to) = (STOPS[below as usize], STOPS[below as usize + 1]);
     [0, 1, 2].map(|c| from[c] * (1.0 - share) + to[c] * share)
@@ -37,18 +49,28 @@ fn glow(value: f64) -> [f64; 3] {
 fn mosaic(tiles: &[Image]) -> Image {
     let side = |of: fn(&Image) -> u32| tiles.iter().map(of).max().unwrap_or(1);
     let (width, height) = (side(|tile| tile.width), side(|tile| tile.height));
-    let columns = (1..=tiles.len()).find(|columns| columns * columns >= tiles.len()).unwrap_or(1);
+    let columns = (1..=tiles.len())
+        .find(|columns| columns * columns >= tiles.len())
+        .unwrap_or(1);
     let rows = tiles.len().div_ceil(columns);
     let pixel = |x: usize, y: usize| {
         let tile = tiles.get(y / height as usize * columns + x / width as usize)?;
         let (x, y) = (x % width as usize, y % height as usize);
-        tile.pixels.get(y * tile.width as usize + x).filter(|_| x < tile.width as usize)
+        tile.pixels
+            .get(y * tile.width as usize + x)
+            .filter(|_| x < tile.width as usize)
     };
     let size = [columns * width as usize, rows * height as usize];
     let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
-    let pixels = places.map(|(x, y)| pixel(x, y).copied().unwrap_or([0.0; 3])).collect();
+    let pixels = places
+        .map(|(x, y)| pixel(x, y).copied().unwrap_or([0.0; 3]))
+        .collect();
     let [width, height] = size.map(|pixels| u32::try_from(pixels).unwrap_or(u32::MAX));
-    Image { width, height, pixels }
+    Image {
+        width,
+        height,
+        pixels,
+    }
 }
 
 /// Every n-th pixel of a picture that is too wide.
@@ -59,13 +81,22 @@ fn shrunk(image: Image) -> Image {
     }
     let kept = |length: u32| length.div_ceil(step as u32);
     let rows = image.pixels.chunks(image.width as usize).step_by(step);
-    let pixels = rows.flat_map(|row| row.iter().step_by(step)).copied().collect();
-    Image { width: kept(image.width), height: kept(image.height), pixels }
+    let pixels = rows
+        .flat_map(|row| row.iter().step_by(step))
+        .copied()
+        .collect();
+    Image {
+        width: kept(image.width),
+        height: kept(image.height),
+        pixels,
+    }
 }
 
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
-    let bytes = Picture::opaque(image.clone()).encode(&Form::Png8).unwrap_or_default();
+    let bytes = Picture::opaque(image.clone())
+        .encode(&Form::Png8)
+        .unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }
 
@@ -75,17 +106,32 @@ mod tests {
 
     #[test]
     fn a_mosaic_holds_every_tile_once() {
-        let tile = |value: f64| Image { width: 2, height: 1, pixels: vec![[value; 3]; 2] };
+        let tile = |value: f64| Image {
+            width: 2,
+            height: 1,
+            pixels: vec![[value; 3]; 2],
+        };
         let mosaic = mosaic(&[tile(0.1), tile(0.2), tile(0.3)]);
         assert_eq!((mosaic.width, mosaic.height), (4, 2));
-        let row = mosaic.pixels.iter().map(|pixel| pixel[0]).collect::<Vec<_>>();
+        let row = mosaic
+            .pixels
+            .iter()
+            .map(|pixel| pixel[0])
+            .collect::<Vec<_>>();
         assert_eq!(row, [0.1, 0.1, 0.2, 0.2, 0.3, 0.3, 0.0, 0.0]);
     }
 
     #[test]
     fn a_wide_picture_is_shrunk_to_fit() {
-        let wide = Image { width: 1001, height: 7, pixels: vec![[0.5; 3]; 7007] };
+        let wide = Image {
+            width: 1001,
+            height: 7,
+            pixels: vec![[0.5; 3]; 7007],
+        };
         let small = shrunk(wide);
-        assert_eq!((small.width, small.height, small.pixels.len()), (334, 3, 334 * 3));
+        assert_eq!(
+            (small.width, small.height, small.pixels.len()),
+            (334, 3, 334 * 3)
+        );
     }
 }

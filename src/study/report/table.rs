@@ -14,20 +14,32 @@ pub fn table(study: &Study) -> String {
     let used = study.used();
     let mut text = format!("{}\n", head(study));
     let mut names = String::from(" ");
-    used.iter().for_each(|knob| write_cell(&mut names, knob.short(), width(*knob)));
+    used.iter()
+        .for_each(|knob| write_cell(&mut names, knob.short(), width(*knob)));
     for (name, width) in COLUMNS {
         write_cell(&mut names, name, width);
     }
     text += &format!("{names}\n");
-    study.rows.iter().for_each(|row| text += &format!("{}\n", line(row, &used, study.part.share)));
+    study
+        .rows
+        .iter()
+        .for_each(|row| text += &format!("{}\n", line(row, &used, study.part.share)));
     text += "\n";
-    study.knobs.iter().for_each(|knob| text += &wrapped(&knob_line(knob, study.reference.depth)));
+    study
+        .knobs
+        .iter()
+        .for_each(|knob| text += &wrapped(&knob_line(knob, study.reference.depth)));
     text += &effects(study);
     text += "\n";
-    study.advice.iter().for_each(|advice| text += &wrapped(advice));
+    study
+        .advice
+        .iter()
+        .for_each(|advice| text += &wrapped(advice));
     if study.wall_over_cpu > 1.2 {
         let times = study.wall_over_cpu;
-        let note = format!("The machine was busy (wall time {times:.1}× processor time); times are of the processor.");
+        let note = format!(
+            "The machine was busy (wall time {times:.1}× processor time); times are of the processor."
+        );
         text += &wrapped(&note);
     }
     text
@@ -41,20 +53,37 @@ fn effects(study: &Study) -> String {
     }
     for cost in &study.effects {
         let (name, time, rays) = (&cost.effect, cost.ratio.value, cost.ray_ratio);
-        text += &format!("{name:24}{time:5.2}×  {rays:5.2}×  {} grey levels\n", digits(cost.difference));
+        text += &format!(
+            "{name:24}{time:5.2}×  {rays:5.2}×  {} grey levels\n",
+            digits(cost.difference)
+        );
     }
     text += "\narithmetic                time  picture differs by\n";
     for cost in &study.precision {
-        let (name, time, visible) = (cost.words(), cost.ratio.value, digits(100.0 * cost.difference.visible));
+        let (name, time, visible) = (
+            cost.words(),
+            cost.ratio.value,
+            digits(100.0 * cost.difference.visible),
+        );
         let difference = digits(cost.difference.rmse);
-        text += &format!("{name:24}{time:5.2}×  {difference} grey levels, {visible} % of pixels by over 1\n");
+        text += &format!(
+            "{name:24}{time:5.2}×  {difference} grey levels, {visible} % of pixels by over 1\n"
+        );
     }
     text
 }
 
 /// The columns after those of the knobs, with their widths.
-const COLUMNS: [(&str, usize); 8] =
-    [("rays", 8), ("time", 8), ("±%", 5), ("×own", 6), ("error", 7), ("model", 6), (">1lv%", 6), ("FLIP", 6)];
+const COLUMNS: [(&str, usize); 8] = [
+    ("rays", 8),
+    ("time", 8),
+    ("±%", 5),
+    ("×own", 6),
+    ("error", 7),
+    ("model", 6),
+    (">1lv%", 6),
+    ("FLIP", 6),
+];
 
 /// The width of the column of a knob.
 fn width(knob: Knob) -> usize {
@@ -63,13 +92,18 @@ fn width(knob: Knob) -> usize {
 
 fn line(row: &Row, used: &[Knob], share: f64) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
-    used.iter().for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
+    used.iter()
+        .for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
     let limit = if row.judged { "" } else { "≤" };
     let cells = [
         count(row.rays.all() as f64 / share),
         seconds(row.seconds.value),
         format!("{:.1}", 100.0 * row.ratio.relative()),
-        if row.own { "own".to_owned() } else { digits(row.ratio.value) },
+        if row.own {
+            "own".to_owned()
+        } else {
+            digits(row.ratio.value)
+        },
         format!("{limit}{}", digits(row.errors.rmse)),
         digits(row.model),
         digits(100.0 * row.errors.visible),
@@ -89,7 +123,9 @@ fn write_cell(line: &mut String, text: &str, width: usize) {
 
 fn head(study: &Study) -> String {
     let about = format!("{}, {}.", study.about.scene, study.about.hash);
-    [about, part(study), reference(study)].map(|line| wrapped(&line)).concat()
+    [about, part(study), reference(study)]
+        .map(|line| wrapped(&line))
+        .concat()
 }
 
 /// What was looked at, and how well it stands for the whole.
@@ -98,7 +134,9 @@ pub(super) fn part(study: &Study) -> String {
     match study.part.tiles {
         0 => format!("All of the picture of {width}×{height} pixels was looked at."),
         tiles => {
-            let uncertainty = study.own().map_or(0.0, |row| 100.0 * row.errors.rmse_uncertainty);
+            let uncertainty = study
+                .own()
+                .map_or(0.0, |row| 100.0 * row.errors.rmse_uncertainty);
             let share = 100.0 * study.part.share;
             format!(
                 "{tiles} random tiles, {share:.1} % of the picture of {width}×{height} pixels, were looked at: all errors \
@@ -127,17 +165,33 @@ pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
     }
     match (&report.law, report.knob, end) {
         (Some(law), knob, _) => {
-            let samples = if knob == Knob::Supersampling { "samples" } else { "n" };
+            let samples = if knob == Knob::Supersampling {
+                "samples"
+            } else {
+                "n"
+            };
             let (p, half) = (law.p.value, 0.5 * (law.p.high - law.p.low));
             format!("{name}: error ∝ {samples}^−{p:.3} ± {half:.3}")
         }
-        (None, Knob::Depth, Some(DepthEnd::Exact)) => format!("{name}: no path goes deeper than {last}"),
-        (None, Knob::Depth, Some(DepthEnd::Still)) => format!("{name}: nothing shows from {last} on"),
-        (None, Knob::Depth, _) => format!("{name}: paths go deeper than {last}, which was as far as the study went"),
+        (None, Knob::Depth, Some(DepthEnd::Exact)) => {
+            format!("{name}: no path goes deeper than {last}")
+        }
+        (None, Knob::Depth, Some(DepthEnd::Still)) => {
+            format!("{name}: nothing shows from {last} on")
+        }
+        (None, Knob::Depth, _) => {
+            format!("{name}: paths go deeper than {last}, which was as far as the study went")
+        }
         (None, Knob::Precision, _) => {
             let robust = report.rungs.len().saturating_sub(1);
-            let words: Vec<_> = report.rungs[..robust].iter().map(|rung| report.knob.cell(rung.value)).collect();
-            format!("{name}: rows are by {} arithmetic too where that adds no error", words.join(" or "))
+            let words: Vec<_> = report.rungs[..robust]
+                .iter()
+                .map(|rung| report.knob.cell(rung.value))
+                .collect();
+            format!(
+                "{name}: rows are by {} arithmetic too where that adds no error",
+                words.join(" or ")
+            )
         }
         (None, _, _) => format!("{name}: no law: too few values stand out from the noise"),
     }

@@ -8,14 +8,22 @@ use super::Repro;
 
 /// All of them.
 pub(crate) fn all() -> Vec<Repro> {
-    [geometry::all(), packed::all(), parts::all()].into_iter().flatten().collect()
+    [geometry::all(), packed::all(), parts::all()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// An asset of this JSON, without its braces, that is checked.
 fn check(name: &'static str, expected: Option<&'static str>, json: &str, chunk: &[u8]) -> Repro {
     let file = "a.glb".to_owned();
     let arguments = ["check", &file].map(str::to_owned).to_vec();
-    Repro { name, files: vec![(file, glb(json, chunk))], arguments, expected }
+    Repro {
+        name,
+        files: vec![(file, glb(json, chunk))],
+        arguments,
+        expected,
+    }
 }
 
 /// A `.glb` of an asset of this JSON, without its braces and its version.
@@ -49,14 +57,21 @@ fn many(key: &str, count: usize, item: impl Fn(usize) -> String) -> String {
 
 /// A scene of the first so many nodes.
 fn scene(count: usize) -> String {
-    format!(r#""scene":0,"scenes":[{{"nodes":[{}]}}]"#, list(count, |node| node.to_string()))
+    format!(
+        r#""scene":0,"scenes":[{{"nodes":[{}]}}]"#,
+        list(count, |node| node.to_string())
+    )
 }
 
 /// Vertices that are all zero, and have no data.
 fn zeros(count: usize, kind: &str) -> String {
-    let components = kind.strip_prefix("VEC").map_or(1, |count| count.parse().unwrap());
+    let components = kind
+        .strip_prefix("VEC")
+        .map_or(1, |count| count.parse().unwrap());
     let bound = list(components, |_| "0".to_owned());
-    format!(r#"{{"componentType":5126,"type":"{kind}","count":{count},"min":[{bound}],"max":[{bound}]}}"#)
+    format!(
+        r#"{{"componentType":5126,"type":"{kind}","count":{count},"min":[{bound}],"max":[{bound}]}}"#
+    )
 }
 
 /// A primitive with positions alone.

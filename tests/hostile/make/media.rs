@@ -10,24 +10,59 @@ use std::io::{Cursor, Write as _};
 /// All of them.
 pub(crate) fn all() -> Vec<Repro> {
     let mut all = vec![
-        checked("an 8k PNG by twelve names", twelve_textures(), vec![("t.png", white_png(8192))], None),
-        checked("an OBJ of 50 000 faces by twelve names", twelve_meshes(), vec![("t.obj", obj(50_000))], None),
-        checked("an OBJ of a million faces", meshes(&["t.obj"]), vec![("t.obj", obj(1_000_000))], None),
-        checked("an OFF of a million faces", meshes(&["t.off"]), vec![("t.off", off(1_000_000))], None),
+        checked(
+            "an 8k PNG by twelve names",
+            twelve_textures(),
+            vec![("t.png", white_png(8192))],
+            None,
+        ),
+        checked(
+            "an OBJ of 50 000 faces by twelve names",
+            twelve_meshes(),
+            vec![("t.obj", obj(50_000))],
+            None,
+        ),
+        checked(
+            "an OBJ of a million faces",
+            meshes(&["t.obj"]),
+            vec![("t.obj", obj(1_000_000))],
+            None,
+        ),
+        checked(
+            "an OFF of a million faces",
+            meshes(&["t.off"]),
+            vec![("t.off", off(1_000_000))],
+            None,
+        ),
     ];
     for (what, bytes, expected) in [
         ("a WebP of 34 bytes and 16383² pixels", webp(16383), "IO003"),
         ("a JPEG of 16384² pixels", huge_jpeg(), "IO003"),
         ("a JPEG cut in the middle", cut_jpeg(), "RE004"),
         ("a PNG of 16384² pixels of a bit", white_png(16384), "IO003"),
-        ("a PNG that claims a side of 2³¹ − 1", claim_png((1 << 31) - 1), "RE005"),
+        (
+            "a PNG that claims a side of 2³¹ − 1",
+            claim_png((1 << 31) - 1),
+            "RE005",
+        ),
     ] {
-        all.push(checked(what, textures(&["t.png"]), vec![("t.png", bytes)], Some(expected)));
+        all.push(checked(
+            what,
+            textures(&["t.png"]),
+            vec![("t.png", bytes)],
+            Some(expected),
+        ));
     }
-    all.push(checked("a PNG with a profile of 475 MB", textures(&["t.png"]), vec![("t.png", profile_bomb())], None));
-    for (what, name, bytes) in
-        [("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)), ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096))]
-    {
+    all.push(checked(
+        "a PNG with a profile of 475 MB",
+        textures(&["t.png"]),
+        vec![("t.png", profile_bomb())],
+        None,
+    ));
+    for (what, name, bytes) in [
+        ("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)),
+        ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096)),
+    ] {
         let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
         all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
     }
@@ -40,7 +75,10 @@ fn endless() -> Vec<Repro> {
     let rays = ["--limit", "rays=100000"];
     // Rays go round for ever in a room of mirrors, and branch at the ball in it.
     let ball = sphere("ks: 1, kt: 1, eta: 1.5");
-    let glass = format!("MaxRecursionDepth: 1000000\n{CAMERA}Objects:\n{ball}{}", room());
+    let glass = format!(
+        "MaxRecursionDepth: 1000000\n{CAMERA}Objects:\n{ball}{}",
+        room()
+    );
     let lobes = format!(
         "MaxRecursionDepth: 8\n{CAMERA}Objects:\n{}- {{type: plane, position: [0, -1, 0], normal: [0, 1, 0], material: \
          {{color: [1, 1, 1], ka: 1, kd: 1, ks: 1, n: 4, glossySamples: 24}}}}\n",
@@ -53,10 +91,25 @@ fn endless() -> Vec<Repro> {
     );
     vec![
         rendered("glass of a million bounces", &glass, &rays, Some("RD006")),
-        rendered("lobes of 24 directions at each of 8 bounces", &lobes, &rays, Some("RD006")),
+        rendered(
+            "lobes of 24 directions at each of 8 bounces",
+            &lobes,
+            &rays,
+            Some("RD006"),
+        ),
         rendered("2³² − 1 points of a light", &points, &[], Some("VA010")),
-        rendered("lobes, by paths that do not branch", &lobes, &["--integrator", "path", "--spp", "1"], None),
-        rendered("a mirror of a million bounces", &glass.replace(&room(), "").replace("kt: 1", "kt: 0"), &[], None),
+        rendered(
+            "lobes, by paths that do not branch",
+            &lobes,
+            &["--integrator", "path", "--spp", "1"],
+            None,
+        ),
+        rendered(
+            "a mirror of a million bounces",
+            &glass.replace(&room(), "").replace("kt: 1", "kt: 0"),
+            &[],
+            None,
+        ),
     ]
 }
 
@@ -78,13 +131,27 @@ fn room() -> String {
 fn sphere(keys: &str) -> String {
     let material = ["color: [1, 1, 1], ka: 1, kd: 1", keys].join(", ");
     let exponent = if keys.contains("n: ") { "" } else { ", n: 1" };
-    format!("- {{type: sphere, position: [0, 0, 0], radius: 1, material: {{{material}{exponent}}}}}\n")
+    format!(
+        "- {{type: sphere, position: [0, 0, 0], radius: 1, material: {{{material}{exponent}}}}}\n"
+    )
 }
 
-fn rendered(name: &'static str, scene: &str, arguments: &[&str], expected: Option<&'static str>) -> Repro {
-    let arguments = ["render", "scene.yaml", "-o", "out.png", "-q"].iter().chain(arguments);
+fn rendered(
+    name: &'static str,
+    scene: &str,
+    arguments: &[&str],
+    expected: Option<&'static str>,
+) -> Repro {
+    let arguments = ["render", "scene.yaml", "-o", "out.png", "-q"]
+        .iter()
+        .chain(arguments);
     let files = vec![("scene.yaml".to_owned(), scene.as_bytes().to_vec())];
-    Repro { name, files, arguments: arguments.map(|word| (*word).to_owned()).collect(), expected }
+    Repro {
+        name,
+        files,
+        arguments: arguments.map(|word| (*word).to_owned()).collect(),
+        expected,
+    }
 }
 
 fn checked(
@@ -93,12 +160,21 @@ fn checked(
     files: Vec<(&'static str, Vec<u8>)>,
     expected: Option<&'static str>,
 ) -> Repro {
-    let mut files: Vec<_> = files.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect();
+    let mut files: Vec<_> = files
+        .into_iter()
+        .map(|(name, bytes)| (name.to_owned(), bytes))
+        .collect();
     files.push(("scene.yaml".to_owned(), scene.into_bytes()));
-    Repro { name, files, arguments: ["check", "scene.yaml"].map(str::to_owned).into(), expected }
+    Repro {
+        name,
+        files,
+        arguments: ["check", "scene.yaml"].map(str::to_owned).into(),
+        expected,
+    }
 }
 
-const CAMERA: &str = "Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8], fov: 40}\n";
+const CAMERA: &str =
+    "Camera: {eye: [0, 0, 10], center: [0, 0, 0], up: [0, 1, 0], viewSize: [8, 8], fov: 40}\n";
 
 /// A scene with a sphere for each of these textures.
 fn textures(names: &[&str]) -> String {
@@ -115,7 +191,11 @@ fn textures(names: &[&str]) -> String {
 
 /// A scene with each of these meshes.
 fn meshes(names: &[&str]) -> String {
-    names.iter().fold(format!("{CAMERA}Objects:\n"), |scene, name| scene + &format!("- {{type: mesh, file: {name}}}\n"))
+    names
+        .iter()
+        .fold(format!("{CAMERA}Objects:\n"), |scene, name| {
+            scene + &format!("- {{type: mesh, file: {name}}}\n")
+        })
 }
 
 /// Twelve ways to write a name.
@@ -135,12 +215,19 @@ fn twelve_meshes() -> String {
 
 /// An OBJ of so many equal faces.
 fn obj(faces: usize) -> Vec<u8> {
-    ["v 0 0 0\nv 1 0 0\nv 0 1 0\n", &"f 1 2 3\n".repeat(faces)].concat().into_bytes()
+    ["v 0 0 0\nv 1 0 0\nv 0 1 0\n", &"f 1 2 3\n".repeat(faces)]
+        .concat()
+        .into_bytes()
 }
 
 /// The same as OFF.
 fn off(faces: usize) -> Vec<u8> {
-    [&format!("OFF\n3 {faces} 0\n0 0 0\n1 0 0\n0 1 0\n"), &*"3 0 1 2\n".repeat(faces)].concat().into_bytes()
+    [
+        &format!("OFF\n3 {faces} 0\n0 0 0\n1 0 0\n0 1 0\n"),
+        &*"3 0 1 2\n".repeat(faces),
+    ]
+    .concat()
+    .into_bytes()
 }
 
 /// A white PNG of a bit a pixel.
@@ -163,7 +250,12 @@ fn white_png(side: u32) -> Vec<u8> {
 fn chunk(kind: &[u8; 4], contents: &[u8]) -> Vec<u8> {
     let named = [kind.as_slice(), contents].concat();
     let length = u32::try_from(contents.len()).unwrap().to_be_bytes();
-    [length.as_slice(), &named, &crc32fast::hash(&named).to_be_bytes()].concat()
+    [
+        length.as_slice(),
+        &named,
+        &crc32fast::hash(&named).to_be_bytes(),
+    ]
+    .concat()
 }
 
 /// The contents of the chunks of a kind, put together.
@@ -216,16 +308,23 @@ fn webp(side: u32) -> Vec<u8> {
 
 /// A grey JPEG of noise.
 fn jpeg(side: u32) -> Vec<u8> {
-    let pixels: Vec<u8> = (0..side * side).map(|k| (k.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let pixels: Vec<u8> = (0..side * side)
+        .map(|k| (k.wrapping_mul(2_654_435_761) >> 24) as u8)
+        .collect();
     let mut bytes = Vec::new();
-    image::codecs::jpeg::JpegEncoder::new(&mut bytes).write_image(&pixels, side, side, ExtendedColorType::L8).unwrap();
+    image::codecs::jpeg::JpegEncoder::new(&mut bytes)
+        .write_image(&pixels, side, side, ExtendedColorType::L8)
+        .unwrap();
     bytes
 }
 
 /// A small JPEG whose header tells of 16384² pixels.
 fn huge_jpeg() -> Vec<u8> {
     let mut bytes = jpeg(8);
-    let frame = bytes.windows(2).position(|marker| marker == [0xff, 0xc0]).unwrap();
+    let frame = bytes
+        .windows(2)
+        .position(|marker| marker == [0xff, 0xc0])
+        .unwrap();
     bytes[frame + 5..frame + 9].copy_from_slice(&[0x40, 0, 0x40, 0]);
     bytes
 }
@@ -244,8 +343,17 @@ fn hdr(width: u32) -> Vec<u8> {
 /// A black EXR.
 fn exr(width: usize, height: usize) -> Vec<u8> {
     let black = SpecificChannels::rgb(|_| (f16::ZERO, f16::ZERO, f16::ZERO));
-    let layer = Layer::new((width, height), LayerAttributes::default(), Encoding::SMALL_LOSSLESS, black);
+    let layer = Layer::new(
+        (width, height),
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        black,
+    );
     let mut bytes = Cursor::new(Vec::new());
-    Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes).unwrap();
+    Image::from_layer(layer)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .unwrap();
     bytes.into_inner()
 }

@@ -1,4 +1,5 @@
-//! The generators of hostile files, shared by the tests and by the script that measures what they cost.
+//! The generators of hostile files, shared by the tests and by the script that measures what they
+//! cost.
 
 pub(crate) mod gltf;
 pub(crate) mod media;

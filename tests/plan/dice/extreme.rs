@@ -1,10 +1,12 @@
-//! Random scenes of all kinds: as the other ones, and by chance with traced paths, all materials and lights, directions of
-//! lengths from 1e-300 to 1e300, all of the scene or one surface of it 1e-58 to 1e58 times as large, and shapes out of all
-//! proportion.
+//! Random scenes of all kinds: as the other ones, and by chance with traced paths, all materials
+//! and lights, directions of lengths from 1e-300 to 1e300, all of the scene or one surface of it
+//! 1e-58 to 1e58 times as large, and shapes out of all proportion.
 
 use super::super::scale::{scale_shape, scaled};
 use super::Dice;
-use rtc::ir::{self, Emitter, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId};
+use rtc::ir::{
+    self, Emitter, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId,
+};
 use rtc::math::Vec3;
 
 impl Dice {
@@ -13,8 +15,10 @@ impl Dice {
         let mut scene = self.scene();
         self.complete(&mut scene);
         if self.chance(3) {
-            scene.settings.mode =
-                Mode::Path(ir::Path { samples: 1 + self.roll(3), multiple_scattering: self.chance(2) });
+            scene.settings.mode = Mode::Path(ir::Path {
+                samples: 1 + self.roll(3),
+                multiple_scattering: self.chance(2),
+            });
         }
         if self.chance(8) {
             scene.camera.projection = ir::Projection::Orthographic;
@@ -47,32 +51,60 @@ impl Dice {
         scene
     }
 
-    /// Adds what a scene without paths has no use for: an image of surroundings, and ways to look up the other images.
+    /// Adds what a scene without paths has no use for: an image of surroundings, and ways to look
+    /// up the other images.
     fn complete(&mut self, scene: &mut Scene) {
-        let light: Vec<u8> = (0_u8..12).flat_map(|k| (f32::from(k) * 0.3).to_le_bytes()).collect();
+        let light: Vec<u8> = (0_u8..12)
+            .flat_map(|k| (f32::from(k) * 0.3).to_le_bytes())
+            .collect();
         let kind = ir::Pixels::Rgb32f;
-        scene.images.push(ir::Image { name: "light".to_owned(), width: 2, height: 2, kind, pixels: light.into() });
+        scene.images.push(ir::Image {
+            name: "light".to_owned(),
+            width: 2,
+            height: 2,
+            kind,
+            pixels: light.into(),
+        });
         if self.chance(3) {
             let image = self.chance(2).then_some(ImageId(3));
             let turned = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
             let image_from_world = self.chance(2).then_some(turned);
             let radiance = self.pick(&[[0.0; 3], [0.2, 0.4, 1.0], [3.0; 3]]);
-            scene.environment = Some(ir::Environment { radiance, image, image_from_world });
+            scene.environment = Some(ir::Environment {
+                radiance,
+                image,
+                image_from_world,
+            });
         }
         let wraps = [ir::Wrap::Repeat, ir::Wrap::Mirror, ir::Wrap::Clamp];
         for image in [0, 1] {
             let filter = self.pick(&[ir::Filter::Linear, ir::Filter::Nearest]);
             let wrap = [self.pick(&wraps), self.pick(&wraps)];
-            scene.textures.push(Texture::Sampled(ir::Sampled { image: ImageId(image), wrap, filter }));
+            scene.textures.push(Texture::Sampled(ir::Sampled {
+                image: ImageId(image),
+                wrap,
+                filter,
+            }));
         }
         for mesh in &mut scene.meshes {
             if self.chance(2) {
                 mesh.second_uvs = vec![[0.0, 1.0], [2.0, 0.0], [1.0, 3.0], [-1.0, 0.5]].into();
-                mesh.colors = vec![[1.0, 0.5, 0.0, 1.0], [0.0, 1.0, 1.0, 0.5], [1.0; 4], [0.5, 0.0, 1.0, 0.0]].into();
+                mesh.colors = vec![
+                    [1.0, 0.5, 0.0, 1.0],
+                    [0.0, 1.0, 1.0, 0.5],
+                    [1.0; 4],
+                    [0.5, 0.0, 1.0, 0.0],
+                ]
+                .into();
             }
             if self.chance(3) && !mesh.normals.is_empty() {
-                mesh.tangents =
-                    vec![[1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, -1.0], [0.0, 1.0, 0.0, 1.0], [0.0; 4]].into();
+                mesh.tangents = vec![
+                    [1.0, 0.0, 0.0, 1.0],
+                    [1.0, 0.0, 0.0, -1.0],
+                    [0.0, 1.0, 0.0, 1.0],
+                    [0.0; 4],
+                ]
+                .into();
             }
         }
     }
@@ -80,21 +112,42 @@ impl Dice {
     fn punctual(&mut self) -> Light {
         let range = self.pick(&[None, Some(6.0), Some(30.0)]);
         let emitter = match self.roll(3) {
-            0 => Emitter::Sun { direction: self.axis() },
-            1 => Emitter::Point { position: self.point(6), range },
+            0 => Emitter::Sun {
+                direction: self.axis(),
+            },
+            1 => Emitter::Point {
+                position: self.point(6),
+                range,
+            },
             _ => {
                 let (position, direction) = (self.point(6), self.axis());
-                Emitter::Spot { position, direction, inner_angle: 0.1, outer_angle: self.pick(&[0.2, 1.5]), range }
+                Emitter::Spot {
+                    position,
+                    direction,
+                    inner_angle: 0.1,
+                    outer_angle: self.pick(&[0.2, 1.5]),
+                    range,
+                }
             }
         };
-        Light::Punctual(ir::Punctual { emitter, intensity: self.pick(&[[0.0; 3], [3.0, 2.0, 1.0], [40.0; 3]]) })
+        Light::Punctual(ir::Punctual {
+            emitter,
+            intensity: self.pick(&[[0.0; 3], [3.0, 2.0, 1.0], [40.0; 3]]),
+        })
     }
 
     /// A map of six textures.
     fn sampled(&mut self) -> Option<Map> {
-        let map = Map { texture: TextureId(self.roll(6)), set: self.roll(2), texture_from_surface: None };
+        let map = Map {
+            texture: TextureId(self.roll(6)),
+            set: self.roll(2),
+            texture_from_surface: None,
+        };
         let turned = Some([[0.0, 2.0, 0.3], [-2.0, 0.0, 0.0]]);
-        self.chance(8).then(|| Map { texture_from_surface: if self.chance(3) { turned } else { None }, ..map })
+        self.chance(8).then(|| Map {
+            texture_from_surface: if self.chance(3) { turned } else { None },
+            ..map
+        })
     }
 
     /// A number of [0, 1], most often 0.
@@ -105,7 +158,12 @@ impl Dice {
     fn standard(&mut self) -> Standard {
         let thickness = self.pick(&[0.0, 0.0, 1.0]);
         Standard {
-            base_color: self.pick(&[[1.0; 4], [0.9, 0.5, 0.1, 1.0], [0.2, 0.7, 0.4, 0.5], [0.0; 4]]),
+            base_color: self.pick(&[
+                [1.0; 4],
+                [0.9, 0.5, 0.1, 1.0],
+                [0.2, 0.7, 0.4, 0.5],
+                [0.0; 4],
+            ]),
             base_color_map: self.sampled(),
             metallic: self.pick(&[0.0, 0.0, 0.5, 1.0]),
             roughness: self.pick(&[0.0, 0.3, 1.0]),
@@ -116,7 +174,12 @@ impl Dice {
             emissive_map: self.sampled(),
             normal_map: self.sampled(),
             normal_scale: self.pick(&[1.0, -2.0]),
-            alpha: self.pick(&[ir::Alpha::Opaque, ir::Alpha::Opaque, ir::Alpha::Mask(0.5), ir::Alpha::Blend]),
+            alpha: self.pick(&[
+                ir::Alpha::Opaque,
+                ir::Alpha::Opaque,
+                ir::Alpha::Mask(0.5),
+                ir::Alpha::Blend,
+            ]),
             double_sided: self.chance(2),
             unlit: self.chance(8),
             ior: self.pick(&[0.0, 1.0, 1.5, 2.4]),
@@ -150,30 +213,56 @@ impl Dice {
         }
     }
 
-    /// Gives directions, whose length has no meaning, another one, or bends them by a component that vanishes beside them.
+    /// Gives directions, whose length has no meaning, another one, or bends them by a component
+    /// that vanishes beside them.
     fn stretch_directions(&mut self, scene: &mut Scene) {
-        let shapes = scene.surfaces.iter_mut().filter_map(|surface| match &mut surface.shape {
-            Shape::Plane(ir::Plane { normal, .. }) | Shape::Disc(ir::Disc { normal, .. }) => Some(normal),
-            Shape::Cylinder(ir::Cylinder { axis, .. }) | Shape::Torus(ir::Torus { axis, .. }) => Some(axis),
-            Shape::Sphere(_) | Shape::Triangle(_) | Shape::Quad(_) | Shape::Cone(_) | Shape::Instance(_) => None,
-        });
+        let shapes = scene
+            .surfaces
+            .iter_mut()
+            .filter_map(|surface| match &mut surface.shape {
+                Shape::Plane(ir::Plane { normal, .. }) | Shape::Disc(ir::Disc { normal, .. }) => {
+                    Some(normal)
+                }
+                Shape::Cylinder(ir::Cylinder { axis, .. })
+                | Shape::Torus(ir::Torus { axis, .. }) => Some(axis),
+                Shape::Sphere(_)
+                | Shape::Triangle(_)
+                | Shape::Quad(_)
+                | Shape::Cone(_)
+                | Shape::Instance(_) => None,
+            });
         let lights = scene.lights.iter_mut().filter_map(|light| match light {
-            Light::Punctual(ir::Punctual { emitter: Emitter::Sun { direction }, .. })
-            | Light::Punctual(ir::Punctual { emitter: Emitter::Spot { direction, .. }, .. }) => Some(direction),
+            Light::Punctual(ir::Punctual {
+                emitter: Emitter::Sun { direction },
+                ..
+            })
+            | Light::Punctual(ir::Punctual {
+                emitter: Emitter::Spot { direction, .. },
+                ..
+            }) => Some(direction),
             Light::Point(_) | Light::Punctual(_) => None,
         });
         for direction in shapes.chain(lights) {
             if self.chance(2) {
-                let length = self.pick(&[1e-300, 1e-200, 1e-161, 1e-155, 1e155, 1e161, 1e200, 1e300]);
+                let length =
+                    self.pick(&[1e-300, 1e-200, 1e-161, 1e-155, 1e155, 1e161, 1e200, 1e300]);
                 *direction = direction.map(|component| component * length);
             }
             if self.chance(8) {
                 direction[0] += Vec3::from_array(*direction).abs().max_element() * 1e-162;
             }
         }
-        for mesh in scene.meshes.iter_mut().filter(|mesh| !mesh.normals.is_empty()) {
+        for mesh in scene
+            .meshes
+            .iter_mut()
+            .filter(|mesh| !mesh.normals.is_empty())
+        {
             let length = self.pick(&[1.0, 1.0, 1e-300, 1e-170, 1e170, 1e300]);
-            mesh.normals = mesh.normals.iter().map(|normal| normal.map(|component| component * length)).collect();
+            mesh.normals = mesh
+                .normals
+                .iter()
+                .map(|normal| normal.map(|component| component * length))
+                .collect();
         }
     }
 
@@ -182,23 +271,42 @@ impl Dice {
         let factor = self.power(20);
         let index = self.roll(u32::try_from(scene.surfaces.len()).unwrap()) as usize;
         if self.chance(6) {
-            scene.camera.eye = scene.camera.eye.map(|component| component * factor.max(1.0));
+            scene.camera.eye = scene
+                .camera
+                .eye
+                .map(|component| component * factor.max(1.0));
             return;
         }
         match &mut scene.surfaces[index].shape {
-            Shape::Sphere(ir::Sphere { radius, .. }) | Shape::Disc(ir::Disc { radius, .. }) => *radius *= factor,
+            Shape::Sphere(ir::Sphere { radius, .. }) | Shape::Disc(ir::Disc { radius, .. }) => {
+                *radius *= factor
+            }
             Shape::Plane(ir::Plane { center, .. }) => center[self.roll(3) as usize] *= factor,
-            Shape::Triangle(ir::Triangle { vertices, .. }) => vertices[0][self.roll(3) as usize] *= factor,
-            Shape::Quad(ir::Quad { vertices }) => vertices[self.roll(4) as usize][self.roll(3) as usize] *= factor,
+            Shape::Triangle(ir::Triangle { vertices, .. }) => {
+                vertices[0][self.roll(3) as usize] *= factor
+            }
+            Shape::Quad(ir::Quad { vertices }) => {
+                vertices[self.roll(4) as usize][self.roll(3) as usize] *= factor
+            }
             Shape::Cylinder(ir::Cylinder { height, radius, .. }) => {
                 *(if self.chance(2) { height } else { radius }) *= factor;
             }
             Shape::Cone(ir::Cone { up, radius, .. }) => {
                 *radius *= factor;
-                *up = up.map(|component| if self.chance(2) { component / factor } else { component });
+                *up = up.map(|component| {
+                    if self.chance(2) {
+                        component / factor
+                    } else {
+                        component
+                    }
+                });
             }
-            Shape::Torus(ir::Torus { major, minor, .. }) => *(if self.chance(2) { major } else { minor }) *= factor,
-            Shape::Instance(ir::Instance { world_from_object, .. }) => {
+            Shape::Torus(ir::Torus { major, minor, .. }) => {
+                *(if self.chance(2) { major } else { minor }) *= factor
+            }
+            Shape::Instance(ir::Instance {
+                world_from_object, ..
+            }) => {
                 let column = &mut world_from_object[self.roll(4) as usize];
                 *column = column.map(|component| component * factor);
             }
@@ -212,6 +320,8 @@ impl Dice {
 
     /// A power of ten, from 10^-most to 10^most.
     fn power(&mut self, most: u32) -> f64 {
-        format!("1e{}", i64::from(self.roll(2 * most + 1)) - i64::from(most)).parse().unwrap()
+        format!("1e{}", i64::from(self.roll(2 * most + 1)) - i64::from(most))
+            .parse()
+            .unwrap()
     }
 }

@@ -6,7 +6,15 @@ use crate::math::{Vec3, camera_basis, length, unit};
 
 impl Text {
     pub(super) fn camera(&mut self, camera: &Camera) {
-        let Camera { eye, center, right, up, size: [width, height], lens, projection: _ } = camera;
+        let Camera {
+            eye,
+            center,
+            right,
+            up,
+            size: [width, height],
+            lens,
+            projection: _,
+        } = camera;
         let Lens { radius, samples } = lens;
         self.line(0, "Camera:");
         self.numbers("eye", eye, 2);
@@ -26,15 +34,18 @@ impl Text {
     }
 }
 
-/// How far frames may be from right angles and equal lengths to be looked for among those of an `up` alone.
+/// How far frames may be from right angles and equal lengths to be looked for among those of an
+/// `up` alone.
 const TOLERANCE: f64 = 1e-9;
 
 /// An `up` that alone gives exactly the frame of the camera, if one is found.
 fn upright(camera: &Camera) -> Option<Vec3> {
-    let [eye, center, right, up] = [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
+    let [eye, center, right, up] =
+        [camera.eye, camera.center, camera.right, camera.up].map(Vec3::from_array);
     let (gaze, across, upward) = (unit(center - eye)?, unit(right)?, unit(up)?);
     let pixel = length(up);
-    let is_square = ((length(right) - pixel) / pixel).abs() < TOLERANCE && across.dot(upward).abs() < TOLERANCE;
+    let is_square =
+        ((length(right) - pixel) / pixel).abs() < TOLERANCE && across.dot(upward).abs() < TOLERANCE;
     // A mirrored image is none either.
     let is_faced = across.dot(gaze).abs() < TOLERANCE && upward.dot(gaze).abs() < TOLERANCE;
     if !is_square || !is_faced || across.cross(upward).dot(gaze) > 0.0 {
@@ -48,8 +59,16 @@ fn upright(camera: &Camera) -> Option<Vec3> {
 fn axes(pixel: f64) -> impl Iterator<Item = Vec3> {
     let rounded = move |digits: usize| format!("{pixel:.digits$e}").parse().unwrap_or(pixel);
     let lengths = move || [rounded(3), rounded(8), rounded(14), pixel];
-    let axes = [Vec3::Y, Vec3::Z, Vec3::X, Vec3::NEG_Y, Vec3::NEG_Z, Vec3::NEG_X];
-    axes.into_iter().flat_map(move |axis| lengths().map(|length| axis * length))
+    let axes = [
+        Vec3::Y,
+        Vec3::Z,
+        Vec3::X,
+        Vec3::NEG_Y,
+        Vec3::NEG_Z,
+        Vec3::NEG_X,
+    ];
+    axes.into_iter()
+        .flat_map(move |axis| lengths().map(|length| axis * length))
 }
 
 /// `up` tilted along the gaze: all give the same frame, each with its own rounding.

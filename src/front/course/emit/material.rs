@@ -5,9 +5,29 @@ use crate::front::course::texture::UV;
 use crate::ir::{Bump, Material, Phong, Scene, Texture, TextureId};
 
 impl Text {
-    pub(super) fn material(&mut self, key: &str, material: &Material, scene: &Scene) -> Result<(), String> {
-        let phong = material.phong().ok_or("a material of glTF has no spelling")?;
-        let Phong { color, ka, kd, ks, n, kt, eta, glossy_samples, color_map, specular_map, normal_map, bump } = phong;
+    pub(super) fn material(
+        &mut self,
+        key: &str,
+        material: &Material,
+        scene: &Scene,
+    ) -> Result<(), String> {
+        let phong = material
+            .phong()
+            .ok_or("a material of glTF has no spelling")?;
+        let Phong {
+            color,
+            ka,
+            kd,
+            ks,
+            n,
+            kt,
+            eta,
+            glossy_samples,
+            color_map,
+            specular_map,
+            normal_map,
+            bump,
+        } = phong;
         self.line(4, key);
         self.numbers("color", color, 6);
         for (key, value) in [("ka", ka), ("kd", kd), ("ks", ks), ("n", n)] {
@@ -21,7 +41,9 @@ impl Text {
             self.line(6, &format!("glossySamples: {glossy_samples}"));
         }
         if bump.as_ref().is_some_and(|bump| bump.height != 1.0) {
-            return Err("a bump map has another height than 1, and this format has none".to_owned());
+            return Err(
+                "a bump map has another height than 1, and this format has none".to_owned(),
+            );
         }
         let bump = bump.as_ref().map(|Bump { texture, height: _ }| texture);
         let maps = [
@@ -41,12 +63,18 @@ impl Text {
 
 /// What stands for a texture in a text.
 fn texture_name(TextureId(id): TextureId, scene: &Scene) -> Result<String, String> {
-    let texture = scene.textures.get(id as usize).ok_or("a material refers to a texture that does not exist")?;
+    let texture = scene
+        .textures
+        .get(id as usize)
+        .ok_or("a material refers to a texture that does not exist")?;
     match texture {
         Texture::Uv => Ok(UV.to_owned()),
         Texture::Sampled(_) => Err("a texture of glTF has no spelling".to_owned()),
         Texture::Image(image) => {
-            let image = scene.images.get(image.0 as usize).ok_or("a texture refers to an image that does not exist")?;
+            let image = scene
+                .images
+                .get(image.0 as usize)
+                .ok_or("a texture refers to an image that does not exist")?;
             file_name(&image.name)
         }
     }
@@ -55,7 +83,10 @@ fn texture_name(TextureId(id): TextureId, scene: &Scene) -> Result<String, Strin
 /// The name of a file in quotes, if it names one.
 pub(super) fn file_name(name: &str) -> Result<String, String> {
     if name.is_empty() || name.eq_ignore_ascii_case(UV) || name.contains('\\') {
-        return Err(format!("an image or mesh of the name `{}` comes from no file", name.escape_debug()));
+        return Err(format!(
+            "an image or mesh of the name `{}` comes from no file",
+            name.escape_debug()
+        ));
     }
     Ok(serde_json::Value::from(name).to_string())
 }

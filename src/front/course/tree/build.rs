@@ -15,10 +15,27 @@ pub(super) const MAX_DEPTH: usize = 128;
 const FEW_KEYS: usize = 12;
 
 /// Parses a file into a tree. `None` if it is no YAML document; the sink says why.
-pub(in super::super) fn parse<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink) -> Option<Tree<'s>> {
+pub(in super::super) fn parse<'s>(
+    file: FileId,
+    bytes: &'s [u8],
+    sink: &mut Sink,
+) -> Option<Tree<'s>> {
     let (source, base) = text(file, bytes, sink)?;
-    let tree = Tree { source, base, file, nodes: Vec::new(), cooked: Vec::new() };
-    let mut build = Build { tree, open: Vec::new(), anchors: Vec::new(), ended: false, last_end: 0, sink };
+    let tree = Tree {
+        source,
+        base,
+        file,
+        nodes: Vec::new(),
+        cooked: Vec::new(),
+    };
+    let mut build = Build {
+        tree,
+        open: Vec::new(),
+        anchors: Vec::new(),
+        ended: false,
+        last_end: 0,
+        sink,
+    };
     let options = granit_parser::options! {
         flow_nesting_limit: MAX_DEPTH,
         block_nesting_limit: MAX_DEPTH,
@@ -78,9 +95,12 @@ impl<'s> Build<'s, '_> {
             Ok(())
         } else if matches!(event, Event::DocumentStart(..)) && self.ended {
             Err(Box::new(
-                Diagnostic::new(&codes::TWO_DOCUMENTS, "a second document starts in this file")
-                    .at(self.span(start, end), "the second document")
-                    .hint("keep one scene a file, or remove the `---`"),
+                Diagnostic::new(
+                    &codes::TWO_DOCUMENTS,
+                    "a second document starts in this file",
+                )
+                .at(self.span(start, end), "the second document")
+                .hint("keep one scene a file, or remove the `---`"),
             ))
         } else {
             self.ended |= matches!(event, Event::DocumentEnd);
@@ -95,7 +115,10 @@ impl<'s> Build<'s, '_> {
     fn tag(&mut self, tagged: bool, start: u32, end: u32) {
         if tagged {
             let finding = Diagnostic::new(&codes::TAG, "a tag has no meaning in a scene");
-            self.sink.push(finding.at(self.span(start, end.max(start + 1)), "read as if it had no tag"));
+            self.sink.push(finding.at(
+                self.span(start, end.max(start + 1)),
+                "read as if it had no tag",
+            ));
         }
     }
 
@@ -108,12 +131,17 @@ impl<'s> Build<'s, '_> {
         end: u32,
     ) -> Result<(Kind, u32), Box<Diagnostic>> {
         if value.len() > MAX_WORD {
-            return Err(Box::new(too_long(self.tree.file, (start + self.tree.base) as usize)));
+            return Err(Box::new(too_long(
+                self.tree.file,
+                (start + self.tree.base) as usize,
+            )));
         }
         let is_written = |range: Range<u32>| self.tree.written(range) == Some(value.as_ref());
         let kind = match style {
             ScalarStyle::Plain if start == end || is_written(start..end) => Kind::Plain,
-            ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted if is_written(inside_quotes(start, end)) => {
+            ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted
+                if is_written(inside_quotes(start, end)) =>
+            {
                 Kind::Quoted
             }
             ScalarStyle::Plain
@@ -130,36 +158,80 @@ impl<'s> Build<'s, '_> {
 
     fn word(&mut self, (kind, link): (Kind, u32), anchor: usize, start: u32, end: u32) {
         self.last_end = end;
-        self.push(Node { start, end, link, kind }, anchor);
+        self.push(
+            Node {
+                start,
+                end,
+                link,
+                kind,
+            },
+            anchor,
+        );
     }
 
     fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {
-        let at = self.anchors.binary_search_by_key(&anchor, |(anchor, _)| *anchor);
+        let at = self
+            .anchors
+            .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
         let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
         if self.open.iter().any(|open| open.node == target) {
             return Err(Box::new(
                 Diagnostic::new(&codes::SELF_ALIAS, "an alias refers to what it stands in")
                     .at(self.span(start, end), "this would never end")
-                    .also(self.span(self.tree.node(target).start, start), "the anchor stands before this"),
+                    .also(
+                        self.span(self.tree.node(target).start, start),
+                        "the anchor stands before this",
+                    ),
             ));
         }
         self.last_end = end;
-        self.push(Node { start, end, link: target.0, kind: Kind::Alias }, 0);
+        self.push(
+            Node {
+                start,
+                end,
+                link: target.0,
+                kind: Kind::Alias,
+            },
+            0,
+        );
         Ok(())
     }
 
-    fn start(&mut self, kind: Kind, style: StructureStyle, anchor: usize, start: u32, end: u32) -> Step {
+    fn start(
+        &mut self,
+        kind: Kind,
+        style: StructureStyle,
+        anchor: usize,
+        start: u32,
+        end: u32,
+    ) -> Step {
         if self.open.len() >= MAX_DEPTH {
-            return Err(Box::new(fault::too_deep(self.span(start, end.max(start + 1)))));
+            return Err(Box::new(fault::too_deep(
+                self.span(start, end.max(start + 1)),
+            )));
         }
         self.last_end = end;
-        let node = self.push(Node { start, end, link: 0, kind }, anchor);
-        self.open.push(Open { node, flow: style == StructureStyle::Flow });
+        let node = self.push(
+            Node {
+                start,
+                end,
+                link: 0,
+                kind,
+            },
+            anchor,
+        );
+        self.open.push(Open {
+            node,
+            flow: style == StructureStyle::Flow,
+        });
         Ok(())
     }
 
     fn end(&mut self, end: u32) {
-        let Open { node: id, flow } = self.open.pop().expect("the parser closes only what it opened");
+        let Open { node: id, flow } = self
+            .open
+            .pop()
+            .expect("the parser closes only what it opened");
         self.last_end = if flow { end } else { self.last_end };
         let link = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[id.0 as usize];
@@ -185,9 +257,15 @@ impl<'s> Build<'s, '_> {
 
     fn duplicates(&mut self, map: NodeId) {
         let tree = &self.tree;
-        let texts = || tree.pairs(map).filter_map(|(key, _)| Some((tree.text(key)?, key)));
+        let texts = || {
+            tree.pairs(map)
+                .filter_map(|(key, _)| Some((tree.text(key)?, key)))
+        };
         let mut few = [("", map); FEW_KEYS];
-        let count = texts().zip(&mut few).map(|(entry, slot)| *slot = entry).count();
+        let count = texts()
+            .zip(&mut few)
+            .map(|(entry, slot)| *slot = entry)
+            .count();
         let mut found = Vec::new();
         if count < FEW_KEYS {
             for (at, (text, key)) in few[..count].iter().enumerate() {
@@ -208,7 +286,11 @@ impl<'s> Build<'s, '_> {
 
     /// The innermost bracket that is still open.
     fn open_bracket(&self) -> Option<NodeId> {
-        self.open.iter().rev().find(|open| open.flow).map(|open| open.node)
+        self.open
+            .iter()
+            .rev()
+            .find(|open| open.flow)
+            .map(|open| open.node)
     }
 
     fn finish(self) -> Option<Tree<'s>> {
@@ -227,8 +309,11 @@ impl<'s> Build<'s, '_> {
 
 fn duplicate(tree: &Tree<'_>, first: NodeId, second: NodeId) -> Diagnostic {
     let key = crate::diag::clip(tree.text(second).unwrap_or_default());
-    Diagnostic::new(&codes::DUPLICATE_KEY, format!("the key `{key}` stands here twice"))
-        .at(tree.span(second), "again")
-        .also(tree.span(first), "first")
-        .hint("remove one of them")
+    Diagnostic::new(
+        &codes::DUPLICATE_KEY,
+        format!("the key `{key}` stands here twice"),
+    )
+    .at(tree.span(second), "again")
+    .also(tree.span(first), "first")
+    .hint("remove one of them")
 }

@@ -8,12 +8,24 @@ use crate::source::Span;
 use granit_parser::{ErrorKind, ScanError};
 
 /// The finding for a text that is not YAML; `bracket` is the innermost one still open.
-pub(super) fn syntax(tree: &Tree<'_>, bracket: Option<NodeId>, error: &ScanError) -> Box<Diagnostic> {
-    let at = tree.source.floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
+pub(super) fn syntax(
+    tree: &Tree<'_>,
+    bracket: Option<NodeId>,
+    error: &ScanError,
+) -> Box<Diagnostic> {
+    let at = tree
+        .source
+        .floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
     let here = character_at(tree, at);
-    let bracket = bracket.map(|id| Span { end: tree.span(id).start + 1, ..tree.span(id) });
+    let bracket = bracket.map(|id| Span {
+        end: tree.span(id).start + 1,
+        ..tree.span(id)
+    });
     let kind = error.kind();
-    let ran_on = |span: &Span| tree.written(span.start - tree.base..to_u32(at)).is_some_and(|text| text.contains('\n'));
+    let ran_on = |span: &Span| {
+        tree.written(span.start - tree.base..to_u32(at))
+            .is_some_and(|text| text.contains('\n'))
+    };
     Box::new(match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => too_deep(here),
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
@@ -21,7 +33,9 @@ pub(super) fn syntax(tree: &Tree<'_>, bracket: Option<NodeId>, error: &ScanError
         Some(bracket) if runs_on(kind) && ran_on(&bracket) => unclosed(bracket, Some(here)),
         bracket => {
             let (message, label, hint) = words(kind);
-            let finding = Diagnostic::new(&codes::SYNTAX, message).at(here, label).hint(hint);
+            let finding = Diagnostic::new(&codes::SYNTAX, message)
+                .at(here, label)
+                .hint(hint);
             finding.also(bracket, "inside what this bracket opens")
         }
     })
@@ -29,13 +43,20 @@ pub(super) fn syntax(tree: &Tree<'_>, bracket: Option<NodeId>, error: &ScanError
 
 /// The finding for lists and maps nested too deep.
 pub(super) fn too_deep(span: Span) -> Diagnostic {
-    Diagnostic::new(&codes::NESTED_TOO_DEEP, format!("lists and maps lie more than {MAX_DEPTH} deep in each other"))
-        .at(span, "too deep here")
-        .hint("a scene needs a depth of 6")
+    Diagnostic::new(
+        &codes::NESTED_TOO_DEEP,
+        format!("lists and maps lie more than {MAX_DEPTH} deep in each other"),
+    )
+    .at(span, "too deep here")
+    .hint("a scene needs a depth of 6")
 }
 
 fn character_at(tree: &Tree<'_>, at: usize) -> Span {
-    let next = tree.source.get(at..).and_then(|rest| rest.chars().next()).filter(|next| *next != '\n');
+    let next = tree
+        .source
+        .get(at..)
+        .and_then(|rest| rest.chars().next())
+        .filter(|next| *next != '\n');
     let end = at + next.map_or(0, char::len_utf8);
     Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
 }
@@ -72,9 +93,17 @@ fn runs_on(kind: &ErrorKind) -> bool {
 fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
     let say = |message: &str, label, hint| (message.to_owned(), label, hint);
     if is_tab(kind) {
-        say("a tab can't indent", "a tab near here", "indent with spaces")
+        say(
+            "a tab can't indent",
+            "a tab near here",
+            "indent with spaces",
+        )
     } else if matches!(kind, ErrorKind::UnknownAnchor) {
-        say("an alias without an anchor", "no `&` with this name before", "put `&name` before the value it stands for")
+        say(
+            "an alias without an anchor",
+            "no `&` with this name before",
+            "put `&name` before the value it stands for",
+        )
     } else if matches!(kind, ErrorKind::MappingValueNotAllowed) {
         say(
             "a colon where no key can stand",
@@ -82,16 +111,39 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
             "write `key: value` on a line of its own, with a space after each colon, or put text with `: ` in quotes",
         )
     } else if matches!(kind, ErrorKind::SimpleKeyExpected) {
-        say("a line that is no `key: value`", "no colon follows this", "write a colon and a space after the key")
+        say(
+            "a line that is no `key: value`",
+            "no colon follows this",
+            "write a colon and a space after the key",
+        )
     } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
-        say("a bracket closes what was never opened", "closed here", "remove it, or open it before")
-    } else if matches!(kind, ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent) {
-        say("a quote is never closed", "still inside quotes here", "close it with the same kind of quote")
+        say(
+            "a bracket closes what was never opened",
+            "closed here",
+            "remove it, or open it before",
+        )
+    } else if matches!(
+        kind,
+        ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent
+    ) {
+        say(
+            "a quote is never closed",
+            "still inside quotes here",
+            "close it with the same kind of quote",
+        )
     } else if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
-        (format!("`{open}` is closed by `{close}`"), "opened here", "close it with its own kind of bracket")
+        (
+            format!("`{open}` is closed by `{close}`"),
+            "opened here",
+            "close it with its own kind of bracket",
+        )
     } else if let ErrorKind::UnexpectedCharacter { character } = kind {
         let message = format!("`{}` can't start a value", character.escape_debug());
-        (message, "this character", "put the value in quotes if it is text")
+        (
+            message,
+            "this character",
+            "put the value in quotes if it is text",
+        )
     } else {
         (
             error_text(kind),
@@ -102,7 +154,10 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
 }
 
 fn is_tab(kind: &ErrorKind) -> bool {
-    matches!(kind, ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar)
+    matches!(
+        kind,
+        ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
+    )
 }
 
 fn error_text(kind: &ErrorKind) -> String {

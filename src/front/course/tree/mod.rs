@@ -1,7 +1,8 @@
 //! The spanned tree: YAML text as one flat vector of nodes, each with the bytes it was written in.
 //!
-//! A node is 16 bytes, in the order of the text; a list or map knows where its descendants end. Aliases are links and
-//! are never expanded, so a small text can't become a large tree. Only this folder names the YAML parser.
+//! A node is 16 bytes, in the order of the text; a list or map knows where its descendants end.
+//! Aliases are links and are never expanded, so a small text can't become a large tree. Only this
+//! folder names the YAML parser.
 
 mod build;
 mod fault;
@@ -81,7 +82,11 @@ impl Tree<'_> {
     /// The node an alias stands for, or the node itself. An alias never points at another.
     pub(super) fn target(&self, id: NodeId) -> NodeId {
         let node = self.node(id);
-        if node.kind == Kind::Alias { NodeId(node.link) } else { id }
+        if node.kind == Kind::Alias {
+            NodeId(node.link)
+        } else {
+            id
+        }
     }
 
     /// Where the node was written; for an alias, where the alias stands.
@@ -93,14 +98,19 @@ impl Tree<'_> {
     /// What the node is, aliases followed.
     pub(super) fn shape(&self, id: NodeId) -> Shape<'_> {
         let node = self.node(self.target(id));
-        let written = |range| self.written(range).expect("a word was read where it was written");
+        let written = |range| {
+            self.written(range)
+                .expect("a word was read where it was written")
+        };
         match node.kind {
             Kind::Plain => Shape::Word(written(node.start..node.end)),
             Kind::Quoted => Shape::Text(written(inside_quotes(node.start, node.end))),
             Kind::Cooked => Shape::Text(&self.cooked[node.link as usize]),
             Kind::List => Shape::List,
             Kind::Map => Shape::Map,
-            Kind::Alias => unreachable!("`target` follows aliases, and an alias can't carry an anchor"),
+            Kind::Alias => {
+                unreachable!("`target` follows aliases, and an alias can't carry an anchor")
+            }
         }
     }
 
@@ -126,7 +136,11 @@ impl Tree<'_> {
     pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let id = self.target(id);
         let node = self.node(id);
-        let end = if matches!(node.kind, Kind::List | Kind::Map) { node.link } else { 0 };
+        let end = if matches!(node.kind, Kind::List | Kind::Map) {
+            node.link
+        } else {
+            0
+        };
         let inside = move |id: u32| (id < end).then_some(NodeId(id));
         std::iter::successors(inside(id.0 + 1), move |id| inside(self.after(*id)))
     }
@@ -140,7 +154,11 @@ impl Tree<'_> {
     /// The index after the node and its descendants.
     fn after(&self, id: NodeId) -> u32 {
         let node = self.node(id);
-        if matches!(node.kind, Kind::List | Kind::Map) { node.link } else { id.0 + 1 }
+        if matches!(node.kind, Kind::List | Kind::Map) {
+            node.link
+        } else {
+            id.0 + 1
+        }
     }
 }
 
@@ -175,10 +193,16 @@ mod tests {
             let pairs: Vec<_> = tree.pairs(tree.root()).collect();
             assert_eq!(pairs.len(), 2);
             let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
-            assert_eq!(words, [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]);
+            assert_eq!(
+                words,
+                [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]
+            );
             assert_eq!(tree.target(pairs[1].1), pairs[0].1);
             let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
-            assert_eq!((list.start, list.end, alias.start, alias.end), (9, 27, 31, 33));
+            assert_eq!(
+                (list.start, list.end, alias.start, alias.end),
+                (9, 27, 31, 33)
+            );
         });
     }
 
@@ -193,7 +217,9 @@ mod tests {
         ] {
             with(text, |tree| {
                 let (_, value) = tree.pairs(tree.root()).next().unwrap();
-                let Shape::Text(found) = tree.shape(value) else { panic!("{text:?} is no text") };
+                let Shape::Text(found) = tree.shape(value) else {
+                    panic!("{text:?} is no text")
+                };
                 // Whether a last line that does not end gets an end is the parser's affair.
                 assert_eq!(found.trim_end_matches('\n'), word, "{text:?}");
             });

@@ -28,7 +28,11 @@ fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Box<Diagnostic>> {
         let span = Span::new(file, 0, to_u32(bytes.len().min(2)));
         let finding = Diagnostic::new(&codes::NOT_UTF8, "this file is UTF-16, not UTF-8");
         let hint = "save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`";
-        return Err(Box::new(finding.at(span, "two bytes a character from here on").hint(hint)));
+        return Err(Box::new(
+            finding
+                .at(span, "two bytes a character from here on")
+                .hint(hint),
+        ));
     }
     std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();
@@ -36,7 +40,11 @@ fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Box<Diagnostic>> {
         let message = format!("this file is not UTF-8: byte 0x{byte:02x} at offset {at}");
         let finding = Diagnostic::new(&codes::NOT_UTF8, message);
         let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
-        Box::new(finding.at(Span::new(file, to_u32(at), to_u32(at + 1)), "not UTF-8").hint(hint))
+        Box::new(
+            finding
+                .at(Span::new(file, to_u32(at), to_u32(at + 1)), "not UTF-8")
+                .hint(hint),
+        )
     })
 }
 
@@ -105,9 +113,12 @@ fn unfit(file: FileId, text: &str, base: usize) -> Option<Diagnostic> {
 
 fn control(file: FileId, at: usize, length: usize, character: u32) -> Diagnostic {
     let span = Span::new(file, to_u32(at), to_u32(at + length));
-    Diagnostic::new(&codes::CONTROL_CHARACTER, format!("control character U+{character:04X}"))
-        .at(span, "not allowed in YAML")
-        .replace("remove it", span, "")
+    Diagnostic::new(
+        &codes::CONTROL_CHARACTER,
+        format!("control character U+{character:04X}"),
+    )
+    .at(span, "not allowed in YAML")
+    .replace("remove it", span, "")
 }
 
 /// A finding about a word of more than a MiB that starts at `at`.

@@ -1,6 +1,8 @@
-//! JSON as one flat vector of nodes, each with the bytes it was written in and its way from the root.
+//! JSON as one flat vector of nodes, each with the bytes it was written in and its way from the
+//! root.
 //!
-//! A list or map knows where its descendants end, so nothing recurses, and a node costs 24 bytes, whatever it is.
+//! A list or map knows where its descendants end, so nothing recurses, and a node costs 24 bytes,
+//! whatever it is.
 
 mod scan;
 mod text;
@@ -71,7 +73,8 @@ pub(super) struct Tree<'s> {
     wide: BTreeMap<NodeId, Vec<NodeId>>,
 }
 
-/// The longest step of a pointer and the longest pointer in bytes: longer ones are cut, for findings are many.
+/// The longest step of a pointer and the longest pointer in bytes: longer ones are cut, for
+/// findings are many.
 const LONG_STEP: usize = 256;
 const LONG_POINTER: usize = 512;
 
@@ -104,36 +107,54 @@ impl<'s> Tree<'s> {
     /// As written.
     pub(super) fn written(&self, id: NodeId) -> &'s str {
         let node = self.node(id);
-        self.text.get(node.start as usize..node.end as usize).expect("a node starts and ends between characters")
+        self.text
+            .get(node.start as usize..node.end as usize)
+            .expect("a node starts and ends between characters")
     }
 
     /// The items of a list; of a map, its keys and values in turn.
     pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let node = self.node(id);
-        let end = if matches!(node.kind, Kind::List | Kind::Map) { node.after } else { 0 };
+        let end = if matches!(node.kind, Kind::List | Kind::Map) {
+            node.after
+        } else {
+            0
+        };
         let inside = move |id: u32| (id < end).then_some(NodeId(id));
         std::iter::successors(inside(id.0 + 1), move |id| inside(self.node(*id).after))
     }
 
     /// The items of the list that `key` of a map holds; none if there is no such list.
     pub(super) fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
-        let list = self.get(map, key).filter(|list| self.kind(*list) == Kind::List);
+        let list = self
+            .get(map, key)
+            .filter(|list| self.kind(*list) == Kind::List);
         list.into_iter().flat_map(|list| self.items(list))
     }
 
     /// The keys and values of a map; of anything else, nothing.
     pub(super) fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
-        let mut items = self.items(id).take(if self.kind(id) == Kind::Map { usize::MAX } else { 0 });
+        let mut items = self.items(id).take(if self.kind(id) == Kind::Map {
+            usize::MAX
+        } else {
+            0
+        });
         std::iter::from_fn(move || Some((items.next()?, items.next()?)))
     }
 
     /// The value of `key` in a map.
     pub(super) fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
         let Some(sorted) = self.wide.get(&map) else {
-            return self.pairs(map).find(|(name, _)| self.is(*name, key)).map(|(_, value)| value);
+            return self
+                .pairs(map)
+                .find(|(name, _)| self.is(*name, key))
+                .map(|(_, value)| value);
         };
         let first = sorted.partition_point(|own| self.text(*own).is_some_and(|own| *own < *key));
-        sorted.get(first).filter(|own| self.is(**own, key)).map(|own| NodeId(own.0 + 1))
+        sorted
+            .get(first)
+            .filter(|own| self.is(**own, key))
+            .map(|own| NodeId(own.0 + 1))
     }
 
     /// The value at the end of a way of keys.
@@ -165,8 +186,14 @@ impl<'s> Tree<'s> {
     /// The number of a number that is whole, not negative and below 2^53, however it is written.
     pub(super) fn whole(&self, id: NodeId) -> Option<u64> {
         const EXACT: f64 = 9_007_199_254_740_992.0;
-        let number = self.number(id).filter(|number| (0.0..EXACT).contains(number) && number.fract() == 0.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole and in range, see above")]
+        let number = self
+            .number(id)
+            .filter(|number| (0.0..EXACT).contains(number) && number.fract() == 0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole and in range, see above"
+        )]
         number.map(|number| number as u64)
     }
 
@@ -185,15 +212,19 @@ impl<'s> Tree<'s> {
         NodeId(self.node(id).parent)
     }
 
-    /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is left out, and of a
-    /// long key the end: `…` stands there.
+    /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is
+    /// left out, and of a long key the end: `…` stands there.
     pub(super) fn pointer(&self, id: NodeId) -> String {
         let mut steps = Vec::new();
         let (mut at, mut length) = (id, 0);
         while at != self.root() && length <= LONG_POINTER {
             let node = self.node(at);
             let parent = NodeId(node.parent);
-            let step = if self.kind(parent) == Kind::List { node.slot.to_string() } else { self.key(at) };
+            let step = if self.kind(parent) == Kind::List {
+                node.slot.to_string()
+            } else {
+                self.key(at)
+            };
             length += step.len() + 1;
             steps.push(format!("/{}", step.replace('~', "~0").replace('/', "~1")));
             at = parent;
@@ -208,7 +239,10 @@ impl<'s> Tree<'s> {
     fn key(&self, id: NodeId) -> String {
         let before = NodeId(id.0 - 1);
         let node = self.node(id);
-        let is_key = self.text.as_bytes()[node.end as usize..].trim_ascii_start().first() == Some(&b':');
+        let is_key = self.text.as_bytes()[node.end as usize..]
+            .trim_ascii_start()
+            .first()
+            == Some(&b':');
         let key = if is_key { id } else { before };
         let written = self.written(key);
         if written.len() <= LONG_STEP {
@@ -235,10 +269,30 @@ mod tests {
         let at = |keys: &[&str]| tree.at(tree.root(), keys).unwrap();
         let inner = tree.items(at(&["a"])).nth(1).unwrap();
         let text = tree.get(inner, "b/c").unwrap();
-        assert_eq!((tree.pointer(text).as_str(), tree.text(text).unwrap().as_ref()), ("/a/1/b~1c", "xé😀"));
-        assert_eq!((tree.number(at(&["e"])), tree.whole(at(&["e"]))), (Some(-25.0), None));
-        assert_eq!(tree.items(at(&["a"])).filter_map(|id| tree.truth(id)).next(), Some(true));
-        assert_eq!((tree.pairs(at(&["d"])).count(), tree.pairs(tree.root()).count()), (0, 3));
+        assert_eq!(
+            (
+                tree.pointer(text).as_str(),
+                tree.text(text).unwrap().as_ref()
+            ),
+            ("/a/1/b~1c", "xé😀")
+        );
+        assert_eq!(
+            (tree.number(at(&["e"])), tree.whole(at(&["e"]))),
+            (Some(-25.0), None)
+        );
+        assert_eq!(
+            tree.items(at(&["a"]))
+                .filter_map(|id| tree.truth(id))
+                .next(),
+            Some(true)
+        );
+        assert_eq!(
+            (
+                tree.pairs(at(&["d"])).count(),
+                tree.pairs(tree.root()).count()
+            ),
+            (0, 3)
+        );
         assert_eq!(tree.span(tree.root()).start, 11);
         let (key, _) = tree.pairs(tree.root()).nth(1).unwrap();
         assert_eq!(tree.pointer(key), "/d");
@@ -272,7 +326,10 @@ mod tests {
     fn keys_that_stand_twice_are_found_in_small_maps_and_large() {
         let twice = |text: &str| {
             let tree = parse(file(), 0, text).unwrap();
-            tree.twice().iter().map(|(_, later)| tree.span(*later).start as usize).collect::<Vec<_>>()
+            tree.twice()
+                .iter()
+                .map(|(_, later)| tree.span(*later).start as usize)
+                .collect::<Vec<_>>()
         };
         assert_eq!(twice(r#"{"a":1,"\u0061":2}"#), [7]);
         let many: String = (0..100).map(|key| format!("\"{key}\":0,")).collect();
@@ -281,10 +338,13 @@ mod tests {
 
     #[test]
     fn keys_of_wide_maps_are_found() {
-        let text: String = (0..100).map(|key| format!("\"\\u0061{key}\":{key},")).collect();
+        let text: String = (0..100)
+            .map(|key| format!("\"\\u0061{key}\":{key},"))
+            .collect();
         let text = format!("{{{text}\"b\":[1,{{\"c\":2}}]}}");
         let tree = parse(file(), 0, &text).unwrap();
-        let found = (0..100).filter_map(|key| tree.whole(tree.get(tree.root(), &format!("a{key}"))?));
+        let found =
+            (0..100).filter_map(|key| tree.whole(tree.get(tree.root(), &format!("a{key}"))?));
         assert!(found.eq(0..100));
         assert_eq!(tree.get(tree.root(), "a100"), None);
         assert_eq!(tree.list(tree.root(), "b").count(), 2);
@@ -296,11 +356,17 @@ mod tests {
         let tree = parse(file(), 0, &text).unwrap();
         let inner = tree.pairs(tree.root()).next().unwrap().1;
         let pointer = tree.pointer(tree.get(inner, "b").unwrap());
-        assert!(pointer.starts_with("/ü") && pointer.ends_with("ü…/b") && pointer.len() < 300, "{pointer}");
+        assert!(
+            pointer.starts_with("/ü") && pointer.ends_with("ü…/b") && pointer.len() < 300,
+            "{pointer}"
+        );
         let text = r#"{"key":"#.repeat(500) + "1" + &"}".repeat(500);
         let tree = parse(file(), 0, &text).unwrap();
         let pointer = tree.pointer(NodeId(1_000));
-        assert!(pointer.starts_with("…/key/key/") && pointer.len() < 600, "{pointer}");
+        assert!(
+            pointer.starts_with("…/key/key/") && pointer.len() < 600,
+            "{pointer}"
+        );
     }
 
     #[test]

@@ -30,8 +30,20 @@ impl From<(usize, &'static str)> for Fault {
 /// # Errors
 /// The first fault.
 pub(in super::super) fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
-    let tree = Tree { text, base, file, nodes: Vec::new(), twice: Vec::new(), wide: BTreeMap::new() };
-    let mut scan = Scan { bytes: text.as_bytes(), at: 0, tree, open: Vec::new() };
+    let tree = Tree {
+        text,
+        base,
+        file,
+        nodes: Vec::new(),
+        twice: Vec::new(),
+        wide: BTreeMap::new(),
+    };
+    let mut scan = Scan {
+        bytes: text.as_bytes(),
+        at: 0,
+        tree,
+        open: Vec::new(),
+    };
     scan.document()?;
     Ok(scan.tree)
 }
@@ -98,7 +110,9 @@ impl Scan<'_> {
     /// Closes what ends here, and goes to the next value. True if the document has ended.
     fn close_all(&mut self) -> Result<bool, Fault> {
         loop {
-            let Some(&(parent, _)) = self.open.last() else { return Ok(true) };
+            let Some(&(parent, _)) = self.open.last() else {
+                return Ok(true);
+            };
             let kind = self.tree.nodes[parent as usize].kind;
             match (self.peek(), kind) {
                 (Some(b']'), Kind::List) | (Some(b'}'), Kind::Map) => self.close(),
@@ -126,7 +140,14 @@ impl Scan<'_> {
             }
             None => (0, 0),
         };
-        let node = Node { start: to_u32(start), end: to_u32(end), after: index + 1, parent, slot, kind };
+        let node = Node {
+            start: to_u32(start),
+            end: to_u32(end),
+            after: index + 1,
+            parent,
+            slot,
+            kind,
+        };
         self.tree.nodes.push(node);
     }
 
@@ -143,7 +164,9 @@ impl Scan<'_> {
 
     fn close(&mut self) {
         self.at += 1;
-        let Some((index, _)) = self.open.pop() else { return };
+        let Some((index, _)) = self.open.pop() else {
+            return;
+        };
         let after = to_u32(self.tree.nodes.len());
         let node = &mut self.tree.nodes[index as usize];
         (node.end, node.after) = (to_u32(self.at), after);
@@ -174,9 +197,16 @@ impl Scan<'_> {
     }
 
     fn word(&mut self) -> Result<(), Fault> {
-        let words = [("null", Kind::Null), ("true", Kind::Truth), ("false", Kind::Truth)];
+        let words = [
+            ("null", Kind::Null),
+            ("true", Kind::Truth),
+            ("false", Kind::Truth),
+        ];
         let rest = &self.bytes[self.at..];
-        let Some((word, kind)) = words.into_iter().find(|(word, _)| rest.starts_with(word.as_bytes())) else {
+        let Some((word, kind)) = words
+            .into_iter()
+            .find(|(word, _)| rest.starts_with(word.as_bytes()))
+        else {
             return Err(self.fault("expected a value"));
         };
         self.push(kind, self.at, self.at + word.len(), false);
@@ -209,21 +239,35 @@ impl Scan<'_> {
     }
 
     fn digits(&mut self) -> Result<(), Fault> {
-        let count = self.bytes[self.at..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+        let count = self.bytes[self.at..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit())
+            .count();
         self.at += count;
-        if count == 0 { Err(self.fault("expected a digit")) } else { Ok(()) }
+        if count == 0 {
+            Err(self.fault("expected a digit"))
+        } else {
+            Ok(())
+        }
     }
 
     fn keys_differ(&mut self, map: NodeId) {
-        let mut keys: Vec<(Cow<'_, str>, NodeId)> =
-            self.tree.pairs(map).map(|(key, _)| (text::value(self.tree.written(key)), key)).collect();
+        let mut keys: Vec<(Cow<'_, str>, NodeId)> = self
+            .tree
+            .pairs(map)
+            .map(|(key, _)| (text::value(self.tree.written(key)), key))
+            .collect();
         let mut twice = Vec::new();
         if keys.len() <= FEW_KEYS {
             let before = |at: usize| keys[..at].iter().find(|(key, _)| *key == keys[at].0);
             twice.extend((1..keys.len()).filter_map(|at| Some((before(at)?.1, keys[at].1))));
         } else {
             keys.sort_unstable();
-            twice.extend(keys.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| (pair[0].1, pair[1].1)));
+            twice.extend(
+                keys.windows(2)
+                    .filter(|pair| pair[0].0 == pair[1].0)
+                    .map(|pair| (pair[0].1, pair[1].1)),
+            );
             let sorted = keys.into_iter().map(|(_, key)| key).collect();
             self.tree.wide.insert(map, sorted);
         }

@@ -22,7 +22,13 @@ pub(super) fn end(text: &[u8], start: usize) -> Result<usize, (usize, &'static s
 fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
     match text.get(at + 1) {
         Some(b'"' | b'\\' | b'/' | b'b' | b'f' | b'n' | b'r' | b't') => Ok(at + 2),
-        Some(b'u') if text.get(at + 2..at + 6).is_some_and(|hex| hex.iter().all(u8::is_ascii_hexdigit)) => Ok(at + 6),
+        Some(b'u')
+            if text
+                .get(at + 2..at + 6)
+                .is_some_and(|hex| hex.iter().all(u8::is_ascii_hexdigit)) =>
+        {
+            Ok(at + 6)
+        }
         Some(_) => Err((at, "an escape means nothing")),
         None => Err((text.len(), "a text is never closed")),
     }
@@ -30,7 +36,10 @@ fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
 
 /// What a text says; `written` has its quotes and is sound.
 pub(super) fn value(written: &str) -> Cow<'_, str> {
-    let inside = written.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).expect("a text has its quotes");
+    let inside = written
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'))
+        .expect("a text has its quotes");
     if !inside.contains('\\') {
         return Cow::Borrowed(inside);
     }
@@ -45,10 +54,13 @@ pub(super) fn value(written: &str) -> Cow<'_, str> {
     Cow::Owned(said + rest)
 }
 
-/// The character that an escape stands for, and what follows it; `escape` starts after the backslash.
+/// The character that an escape stands for, and what follows it; `escape` starts after the
+/// backslash.
 fn unescape(escape: &str) -> (char, &str) {
     let mut rest = escape.chars();
-    let letter = rest.next().expect("`end` has seen a letter after each backslash");
+    let letter = rest
+        .next()
+        .expect("`end` has seen a letter after each backslash");
     let rest = rest.as_str();
     match letter {
         'u' => unicode(rest),
@@ -73,6 +85,9 @@ fn unicode(digits: &str) -> (char, &str) {
             let character = char::decode_utf16([high, low]).next().and_then(Result::ok);
             (character.unwrap_or(char::REPLACEMENT_CHARACTER), rest)
         }
-        (unit, _) => (char::from_u32(u32::from(unit)).unwrap_or(char::REPLACEMENT_CHARACTER), rest),
+        (unit, _) => (
+            char::from_u32(u32::from(unit)).unwrap_or(char::REPLACEMENT_CHARACTER),
+            rest,
+        ),
     }
 }

@@ -1,4 +1,5 @@
-//! The camera: the one that is asked for or the first one that the scene shows, or else one that looks at all of it.
+//! The camera: the one that is asked for or the first one that the scene shows, or else one that
+//! looks at all of it.
 
 use super::super::camera::Projection;
 use super::super::field::Fields;
@@ -13,7 +14,8 @@ const HEIGHT: u32 = 512;
 const ASPECT: f64 = 1.0;
 /// The opening of a camera that we choose, in degrees from bottom to top.
 const OPENING: f64 = 35.0;
-/// Where it stands, from the middle of the scene: a three-quarter view, 34° to the right of the front and 23° above.
+/// Where it stands, from the middle of the scene: a three-quarter view, 34° to the right of the
+/// front and 23° above.
 const FROM: [f64; 3] = [2.0, 1.5, 3.0];
 
 /// A camera that the scene shows, by its index and that of its node.
@@ -24,7 +26,8 @@ pub(super) struct Seen {
 }
 
 impl Lowering<'_, '_, '_> {
-    /// Puts the camera into the scene: the one that is wanted, by its name, that of its node, or its index.
+    /// Puts the camera into the scene: the one that is wanted, by its name, that of its node, or
+    /// its index.
     pub(super) fn camera(&mut self, wanted: Option<&str>) {
         let own = match wanted {
             Some(name) => self.find_camera(name).and_then(|seen| self.own(seen)),
@@ -32,16 +35,30 @@ impl Lowering<'_, '_, '_> {
         };
         match own {
             Some((at, camera)) => {
-                self.origins.record(Place::new(Noun::Camera, 0, Field::Whole), self.report.json.span(at));
+                self.origins.record(
+                    Place::new(Noun::Camera, 0, Field::Whole),
+                    self.report.json.span(at),
+                );
                 self.scene.camera = camera;
             }
             None => {
                 if let Some(name) = wanted {
-                    let names: Vec<String> =
-                        self.cameras.iter().map(|seen| self.camera_names(seen).join("/")).collect();
-                    super::missing("camera that shows anything called", name, &names, self.report);
+                    let names: Vec<String> = self
+                        .cameras
+                        .iter()
+                        .map(|seen| self.camera_names(seen).join("/"))
+                        .collect();
+                    super::missing(
+                        "camera that shows anything called",
+                        name,
+                        &names,
+                        self.report,
+                    );
                 }
-                let ball = self.scene.ball().unwrap_or(Ball { center: Vec3::ZERO, radius: 1.0 });
+                let ball = self.scene.ball().unwrap_or(Ball {
+                    center: Vec3::ZERO,
+                    radius: 1.0,
+                });
                 self.scene.camera = looking_at(ball);
             }
         }
@@ -53,13 +70,25 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn find_camera(&self, name: &str) -> Option<&Seen> {
-        (0..3).find_map(|kind| self.cameras.iter().find(|seen| self.camera_names(seen)[kind] == name))
+        (0..3).find_map(|kind| {
+            self.cameras
+                .iter()
+                .find(|seen| self.camera_names(seen)[kind] == name)
+        })
     }
 
     /// What a camera can be called: its name, that of its node, its index.
     fn camera_names(&self, seen: &Seen) -> [String; 3] {
-        let own = self.doc.cameras.get(seen.camera).map(|camera| Fields::new(self.report.json, camera.at).name());
-        [own.unwrap_or_default(), self.doc.nodes[seen.node].name.clone(), seen.camera.to_string()]
+        let own = self
+            .doc
+            .cameras
+            .get(seen.camera)
+            .map(|camera| Fields::new(self.report.json, camera.at).name());
+        [
+            own.unwrap_or_default(),
+            self.doc.nodes[seen.node].name.clone(),
+            seen.camera.to_string(),
+        ]
     }
 }
 
@@ -75,7 +104,10 @@ fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
             if yfov >= std::f64::consts::PI {
                 return None;
             }
-            ([tangent * aspect.unwrap_or(ASPECT), tangent], ir::Projection::Perspective)
+            (
+                [tangent * aspect.unwrap_or(ASPECT), tangent],
+                ir::Projection::Perspective,
+            )
         }
         Projection::Orthographic { xmag, ymag } => ([xmag, ymag], ir::Projection::Orthographic),
     };
@@ -85,7 +117,11 @@ fn through(projection: Projection, world: DAffine3) -> Option<Camera> {
 /// A camera at `eye` that sees so much to each side at distance 1.
 fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Projection) -> Camera {
     let ratio = (half[0] / half[1]).abs();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped"
+    )]
     let width = (f64::from(HEIGHT) * ratio).round().clamp(1.0, 16384.0) as u32;
     Camera {
         eye: eye.to_array(),
@@ -93,7 +129,10 @@ fn camera(eye: Vec3, [x, y, z]: [Vec3; 3], half: [f64; 2], projection: ir::Proje
         right: (x * (2.0 * half[0] / f64::from(width))).to_array(),
         up: (y * (2.0 * half[1] / f64::from(HEIGHT))).to_array(),
         size: [width, HEIGHT],
-        lens: Lens { radius: 0.0, samples: 1 },
+        lens: Lens {
+            radius: 0.0,
+            samples: 1,
+        },
         projection,
     }
 }
@@ -105,5 +144,10 @@ pub(super) fn looking_at(Ball { center, radius }: Ball) -> Camera {
     let x = Vec3::Y.cross(z).normalize();
     let eye = center + z * (radius / sin(half));
     let tangent = sin(half) / cos(half);
-    camera(eye, [x, z.cross(x), z], [tangent * ASPECT, tangent], ir::Projection::Perspective)
+    camera(
+        eye,
+        [x, z.cross(x), z],
+        [tangent * ASPECT, tangent],
+        ir::Projection::Perspective,
+    )
 }

@@ -9,9 +9,20 @@ use crate::math::Vec3;
 use glam::{DAffine3, DMat3};
 
 /// Moves the vertices of a mesh.
-pub(super) fn deform(doc: &Document<'_>, primitive: &Primitive, shape: Shape<'_>, mesh: &mut ir::Mesh) {
-    let targets = primitive.targets.iter().zip(shape.weights).filter(|(_, weight)| **weight != 0.0);
-    let targets = targets.map(|(target, weight)| (target.as_slice(), *weight)).collect::<Vec<_>>();
+pub(super) fn deform(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    shape: Shape<'_>,
+    mesh: &mut ir::Mesh,
+) {
+    let targets = primitive
+        .targets
+        .iter()
+        .zip(shape.weights)
+        .filter(|(_, weight)| **weight != 0.0);
+    let targets = targets
+        .map(|(target, weight)| (target.as_slice(), *weight))
+        .collect::<Vec<_>>();
     let morph = Morph { doc, targets };
     morph.add::<3, 3>("POSITION", &mut mesh.positions);
     morph.add::<3, 3>("NORMAL", &mut mesh.normals);
@@ -33,17 +44,26 @@ struct Morph<'d, 's> {
 }
 
 impl Morph<'_, '_> {
-    /// Adds what the targets move of an attribute, to the first `M` of its components. False if they leave it alone.
+    /// Adds what the targets move of an attribute, to the first `M` of its components. False if
+    /// they leave it alone.
     fn add<const N: usize, const M: usize>(&self, name: &str, column: &mut Column<N>) -> bool {
         let mut moved: Option<Vec<[f64; N]>> = None;
         for (target, weight) in &self.targets {
-            let accessor = target.iter().find(|attribute| attribute.name == name).map(|attribute| attribute.accessor);
+            let accessor = target
+                .iter()
+                .find(|attribute| attribute.name == name)
+                .map(|attribute| attribute.accessor);
             let accessor = accessor.and_then(|accessor| self.doc.accessors.get(accessor));
-            let Some(deltas) = accessor.and_then(|accessor| Elements::of(self.doc, accessor)) else { continue };
+            let Some(deltas) = accessor.and_then(|accessor| Elements::of(self.doc, accessor))
+            else {
+                continue;
+            };
             let moved = moved.get_or_insert_with(|| column.iter().collect());
             deltas.each(|at, delta| {
                 let vertex = moved.get_mut(at).into_iter().flatten().take(M);
-                vertex.zip(delta).for_each(|(number, delta)| *number += weight * deltas.fraction(*delta));
+                vertex
+                    .zip(delta)
+                    .for_each(|(number, delta)| *number += weight * deltas.fraction(*delta));
             });
         }
         if let Some(moved) = &moved {
@@ -58,28 +78,52 @@ fn skin(doc: &Document<'_>, primitive: &Primitive, joints: &[DAffine3], mesh: &m
     let mut blends = vec![(DMat3::ZERO, Vec3::ZERO); mesh.positions.len()];
     let part = |accessor: usize| Elements::of(doc, doc.accessors.get(accessor)?);
     for [own, weights] in primitive.influences() {
-        let (Some(own), Some(weights)) = (part(own), part(weights)) else { break };
-        for (at, blend) in blends.iter_mut().enumerate().take(own.count.min(weights.count)) {
+        let (Some(own), Some(weights)) = (part(own), part(weights)) else {
+            break;
+        };
+        for (at, blend) in blends
+            .iter_mut()
+            .enumerate()
+            .take(own.count.min(weights.count))
+        {
             let own = own.at::<4>(at).into_iter().zip(weights.at::<4>(at));
             for (joint, weight) in own.filter(|(_, weight)| *weight != 0.0) {
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "joints are whole numbers")]
-                let Some(joint) = joints.get(joint as usize) else { continue };
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "joints are whole numbers"
+                )]
+                let Some(joint) = joints.get(joint as usize) else {
+                    continue;
+                };
                 blend.0 += joint.matrix3 * weight;
                 blend.1 += joint.translation * weight;
             }
         }
     }
     let positions = mesh.positions.iter().map(Vec3::from_array).zip(&blends);
-    mesh.positions = Column::rounded(positions.map(|(p, (matrix, translation))| (matrix * p + translation).to_array()));
+    mesh.positions = Column::rounded(
+        positions.map(|(p, (matrix, translation))| (matrix * p + translation).to_array()),
+    );
     // Normals turn with the cofactors, which the inverse transpose is but for its length.
-    let cofactors =
-        |m: &DMat3| DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis));
+    let cofactors = |m: &DMat3| {
+        DMat3::from_cols(
+            m.y_axis.cross(m.z_axis),
+            m.z_axis.cross(m.x_axis),
+            m.x_axis.cross(m.y_axis),
+        )
+    };
     let normals = mesh.normals.iter().map(Vec3::from_array).zip(&blends);
-    let turned = normals.map(|(normal, (matrix, _))| (cofactors(matrix) * normal).normalize_or_zero().to_array());
+    let turned = normals
+        .map(|(normal, (matrix, _))| (cofactors(matrix) * normal).normalize_or_zero().to_array());
     mesh.normals = Column::rounded(turned);
-    let turned = mesh.tangents.iter().zip(&blends).map(|([x, y, z, side], (matrix, _))| {
-        let Vec3 { x, y, z } = (*matrix * Vec3::new(x, y, z)).normalize_or_zero();
-        [x, y, z, side]
-    });
+    let turned = mesh
+        .tangents
+        .iter()
+        .zip(&blends)
+        .map(|([x, y, z, side], (matrix, _))| {
+            let Vec3 { x, y, z } = (*matrix * Vec3::new(x, y, z)).normalize_or_zero();
+            [x, y, z, side]
+        });
     mesh.tangents = Column::rounded(turned);
 }

@@ -1,4 +1,5 @@
-//! Punctual lights in the world (`KHR_lights_punctual`): they shine along their negative z axis, scale has no effect.
+//! Punctual lights in the world (`KHR_lights_punctual`): they shine along their negative z axis,
+//! scale has no effect.
 
 use super::super::field::Fields;
 use super::super::json::NodeId;
@@ -17,20 +18,37 @@ impl Lowering<'_, '_, '_> {
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);
         let range = fields.number("range").filter(|range| *range > 0.0);
         let emitter = match fields.text("type").as_deref() {
-            Some("directional") if backward != Vec3::ZERO => Emitter::Sun { direction: backward.to_array() },
+            Some("directional") if backward != Vec3::ZERO => Emitter::Sun {
+                direction: backward.to_array(),
+            },
             Some("point") => Emitter::Point { position, range },
             Some("spot") if backward != Vec3::ZERO => {
-                let angle = |key, default| fields.object("spot").map_or(default, |spot| spot.number_or(key, default));
+                let angle = |key, default| {
+                    fields
+                        .object("spot")
+                        .map_or(default, |spot| spot.number_or(key, default))
+                };
                 let outer_angle: f64 = angle("outerConeAngle", FRAC_PI_4);
                 let outer_angle = outer_angle.min(FRAC_PI_2);
                 let inner_angle = angle("innerConeAngle", 0.0);
-                Emitter::Spot { position, direction: (-backward).to_array(), inner_angle, outer_angle, range }
+                Emitter::Spot {
+                    position,
+                    direction: (-backward).to_array(),
+                    inner_angle,
+                    outer_angle,
+                    range,
+                }
             }
             _ => return,
         };
-        let color = fields.vector_or("color", [1.0; 3]).map(|channel| channel * intensity);
+        let color = fields
+            .vector_or("color", [1.0; 3])
+            .map(|channel| channel * intensity);
         let place = Place::new(Noun::Light, self.scene.lights.len(), Field::Whole);
         self.origins.record(place, self.report.json.span(light));
-        self.scene.lights.push(Light::Punctual(Punctual { emitter, intensity: color }));
+        self.scene.lights.push(Light::Punctual(Punctual {
+            emitter,
+            intensity: color,
+        }));
     }
 }

@@ -18,16 +18,26 @@ pub(super) struct Materials {
 }
 
 /// The material that a primitive has in a variant.
-pub(super) fn chosen(primitive: &Primitive, variant: Option<usize>, json: &Tree<'_>) -> Option<usize> {
+pub(super) fn chosen(
+    primitive: &Primitive,
+    variant: Option<usize>,
+    json: &Tree<'_>,
+) -> Option<usize> {
     let variant = variant?;
     let mappings = Fields::new(json, primitive.at).extension("KHR_materials_variants")?;
-    let mapping = mappings.objects("mappings").find(|mapping| mapping.indices("variants").contains(&variant))?;
+    let mapping = mappings
+        .objects("mappings")
+        .find(|mapping| mapping.indices("variants").contains(&variant))?;
     mapping.index("material")
 }
 
 impl Materials {
     pub(super) fn new(doc: &Document<'_>) -> Self {
-        Self { made: vec![None; doc.materials.len()], default: None, textures: Textures::new(doc) }
+        Self {
+            made: vec![None; doc.materials.len()],
+            default: None,
+            textures: Textures::new(doc),
+        }
     }
 
     /// True if the material looks at tangents.
@@ -35,7 +45,9 @@ impl Materials {
     pub(super) fn needs_tangents(&self, material: MaterialId, scene: &Scene) -> bool {
         match scene.materials.get(material.0 as usize) {
             Some(ir::Material::Standard(standard)) => {
-                standard.normal_map.is_some() || standard.clearcoat_normal_map.is_some() || standard.anisotropy > 0.0
+                standard.normal_map.is_some()
+                    || standard.clearcoat_normal_map.is_some()
+                    || standard.anisotropy > 0.0
             }
             Some(ir::Material::Phong(_)) | None => false,
         }
@@ -58,7 +70,14 @@ impl Materials {
             None => Standard::default(),
             Some(material) => {
                 let fields = Fields::new(report.json, doc.materials[material]);
-                Reader { doc, textures: &mut self.textures, scene, origins, report }.material(fields)
+                Reader {
+                    doc,
+                    textures: &mut self.textures,
+                    scene,
+                    origins,
+                    report,
+                }
+                .material(fields)
             }
         };
         let id = MaterialId(to_u32(scene.materials.len()));
@@ -66,7 +85,9 @@ impl Materials {
             let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
             origins.record(place, report.json.span(doc.materials[material]));
         }
-        scene.materials.push(ir::Material::Standard(Box::new(standard)));
+        scene
+            .materials
+            .push(ir::Material::Standard(Box::new(standard)));
         match material {
             Some(material) => self.made[material] = Some(id),
             None => self.default = Some(id),
@@ -87,21 +108,27 @@ struct Reader<'m, 'd, 'r, 's> {
 impl Reader<'_, '_, '_, '_> {
     fn map(&mut self, fields: Option<Fields<'_, '_>>, key: &str) -> Option<Map> {
         let info = fields?.object(key)?;
-        self.textures.map(self.doc, info, self.scene, self.origins, self.report)
+        self.textures
+            .map(self.doc, info, self.scene, self.origins, self.report)
     }
 
     fn material(&mut self, fields: Fields<'_, '_>) -> Standard {
         let pbr = fields.object("pbrMetallicRoughness");
-        let strength = extension(fields, "emissive_strength").map_or(1.0, |own| own.number_or("emissiveStrength", 1.0));
+        let strength = extension(fields, "emissive_strength")
+            .map_or(1.0, |own| own.number_or("emissiveStrength", 1.0));
         let normal = fields.object("normalTexture");
         let mut standard = Standard {
             name: fields.name(),
-            base_color: pbr.and_then(|pbr| pbr.vector("baseColorFactor")).unwrap_or([1.0; 4]),
+            base_color: pbr
+                .and_then(|pbr| pbr.vector("baseColorFactor"))
+                .unwrap_or([1.0; 4]),
             base_color_map: self.map(pbr, "baseColorTexture"),
             metallic: number(pbr, "metallicFactor", 1.0),
             roughness: number(pbr, "roughnessFactor", 1.0),
             metallic_roughness_map: self.map(pbr, "metallicRoughnessTexture"),
-            emissive: fields.vector_or("emissiveFactor", [0.0; 3]).map(|channel| channel * strength),
+            emissive: fields
+                .vector_or("emissiveFactor", [0.0; 3])
+                .map(|channel| channel * strength),
             emissive_map: self.map(Some(fields), "emissiveTexture"),
             normal_map: self.map(Some(fields), "normalTexture"),
             normal_scale: number(normal, "scale", 1.0),
@@ -151,7 +178,8 @@ impl Reader<'_, '_, '_, '_> {
         let volume = extension(fields, "volume");
         standard.thickness = number(volume, "thicknessFactor", 0.0);
         standard.thickness_map = self.map(volume, "thicknessTexture");
-        standard.attenuation_distance = volume.and_then(|volume| volume.number("attenuationDistance"));
+        standard.attenuation_distance =
+            volume.and_then(|volume| volume.number("attenuationDistance"));
         standard.attenuation_color = vector(volume, "attenuationColor", 1.0);
     }
 
@@ -187,8 +215,10 @@ impl Reader<'_, '_, '_, '_> {
         standard.iridescence_map = self.map(own, "iridescenceTexture");
         standard.iridescence_ior = number(own, "iridescenceIor", 1.3);
         let thickness = |key, default| number(own, key, default);
-        standard.iridescence_thickness =
-            [thickness("iridescenceThicknessMinimum", 100.0), thickness("iridescenceThicknessMaximum", 400.0)];
+        standard.iridescence_thickness = [
+            thickness("iridescenceThicknessMinimum", 100.0),
+            thickness("iridescenceThicknessMaximum", 400.0),
+        ];
         standard.iridescence_thickness_map = self.map(own, "iridescenceThicknessTexture");
     }
 }

@@ -51,7 +51,11 @@ pub(super) struct Wanted<'d, 'w> {
 
 impl<'d> Meshes<'d> {
     pub(super) fn new() -> Self {
-        Self { parts: BTreeMap::new(), of_primitive: BTreeMap::new(), made: BTreeMap::new() }
+        Self {
+            parts: BTreeMap::new(),
+            of_primitive: BTreeMap::new(),
+            made: BTreeMap::new(),
+        }
     }
 
     /// The mesh of a primitive of the document; none if it has no surface, or asks for too much.
@@ -70,7 +74,10 @@ impl<'d> Meshes<'d> {
             let is_small = charge(doc, wanted, report);
             let mesh = is_small.then(|| read(doc, wanted)).flatten()?;
             let id = MeshId(to_u32(scene.meshes.len()));
-            origins.record(Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole), report.json.span(primitive.at));
+            origins.record(
+                Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole),
+                report.json.span(primitive.at),
+            );
             scene.meshes.push(mesh);
             Some(id)
         });
@@ -82,7 +89,11 @@ impl<'d> Meshes<'d> {
 
     /// The name of what a primitive is made of.
     fn parts(&mut self, primitive: &'d Primitive) -> usize {
-        let Self { parts, of_primitive, made: _ } = self;
+        let Self {
+            parts,
+            of_primitive,
+            made: _,
+        } = self;
         *of_primitive.entry(primitive.at).or_insert_with(|| {
             let next = parts.len();
             *parts.entry(Parts::of(primitive)).or_insert(next)
@@ -93,37 +104,84 @@ impl<'d> Meshes<'d> {
 impl<'d> Parts<'d> {
     fn of(primitive: &'d Primitive) -> Self {
         let pairs = |attributes: &'d [Attribute]| -> Pairs<'d> {
-            attributes.iter().map(|attribute| (attribute.name.as_str(), attribute.accessor)).collect()
+            attributes
+                .iter()
+                .map(|attribute| (attribute.name.as_str(), attribute.accessor))
+                .collect()
         };
         Self {
             attributes: pairs(&primitive.attributes),
-            targets: primitive.targets.iter().map(|target| pairs(target)).collect(),
+            targets: primitive
+                .targets
+                .iter()
+                .map(|target| pairs(target))
+                .collect(),
             indices: primitive.indices,
             mode: primitive.mode,
         }
     }
 }
 
-/// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target and set of joints that
-/// moves them. False if that is too much.
+/// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target
+/// and set of joints that moves them. False if that is too much.
 fn charge(doc: &Document<'_>, wanted: &Wanted<'_, '_>, report: &mut Report<'_, '_>) -> bool {
-    let Wanted { primitive, name, shape: (_, shape), needs_tangents } = wanted;
-    let count = |accessor: usize| doc.accessors.get(accessor).and_then(|own| own.count).unwrap_or(0) as u64;
+    let Wanted {
+        primitive,
+        name,
+        shape: (_, shape),
+        needs_tangents,
+    } = wanted;
+    let count = |accessor: usize| {
+        doc.accessors
+            .get(accessor)
+            .and_then(|own| own.count)
+            .unwrap_or(0) as u64
+    };
     let vertices = primitive.find("POSITION").map_or(0, count);
     let corners = primitive.indices.map_or(vertices, count);
-    let triangles = if primitive.mode == TRIANGLES { corners / 3 } else { corners };
-    let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() { 3 * triangles } else { 0 };
-    let targets = primitive.targets.iter().zip(shape.weights).filter(|(_, weight)| **weight != 0.0);
+    let triangles = if primitive.mode == TRIANGLES {
+        corners / 3
+    } else {
+        corners
+    };
+    let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() {
+        3 * triangles
+    } else {
+        0
+    };
+    let targets = primitive
+        .targets
+        .iter()
+        .zip(shape.weights)
+        .filter(|(_, weight)| **weight != 0.0);
     let targets: u64 = targets.map(|(target, _)| target.len() as u64).sum();
-    let sets = shape.joints.map_or(0, |_| primitive.influences().count() as u64);
+    let sets = shape
+        .joints
+        .map_or(0, |_| primitive.influences().count() as u64);
     let is_moved = targets + sets > 0;
-    let columns =
-        [("POSITION", 12), ("NORMAL", 12), ("TANGENT", 16), ("TEXCOORD_0", 8), ("TEXCOORD_1", 8), ("COLOR_0", 16)];
-    let columns = columns.into_iter().filter(|(name, _)| primitive.find(name).is_some()).map(|(_, size)| size);
+    let columns = [
+        ("POSITION", 12),
+        ("NORMAL", 12),
+        ("TANGENT", 16),
+        ("TEXCOORD_0", 8),
+        ("TEXCOORD_1", 8),
+        ("COLOR_0", 16),
+    ];
+    let columns = columns
+        .into_iter()
+        .filter(|(name, _)| primitive.find(name).is_some())
+        .map(|(_, size)| size);
     let vertex = columns.sum::<u64>() + if is_moved { MOVED } else { 0 };
-    let work = vertices.saturating_mul(1 + targets + sets).saturating_add(corners + TANGENT * tangents);
-    let memory =
-        [vertices * vertex, corners * CORNER, triangles * TRIANGLE, tangents * TANGENT_BYTES, name.len() as u64];
+    let work = vertices
+        .saturating_mul(1 + targets + sets)
+        .saturating_add(corners + TANGENT * tangents);
+    let memory = [
+        vertices * vertex,
+        corners * CORNER,
+        triangles * TRIANGLE,
+        tangents * TANGENT_BYTES,
+        name.len() as u64,
+    ];
     let memory = memory.into_iter().fold(0, u64::saturating_add);
     report.charge(Resource::Vertices, work, primitive.at, "the mesh")
         && report.charge(Resource::Memory, memory, primitive.at, "the mesh")
@@ -131,7 +189,12 @@ fn charge(doc: &Document<'_>, wanted: &Wanted<'_, '_>, report: &mut Report<'_, '
 
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them.
 fn read(doc: &Document<'_>, wanted: &Wanted<'_, '_>) -> Option<Mesh> {
-    let Wanted { primitive, name, shape: (_, shape), needs_tangents } = wanted;
+    let Wanted {
+        primitive,
+        name,
+        shape: (_, shape),
+        needs_tangents,
+    } = wanted;
     let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
     let count = positions.len();
@@ -175,7 +238,16 @@ pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
 
 /// Makes a mesh of these vertices of it, whatever its triangles say.
 pub(super) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
-    let Mesh { name: _, positions, normals, uvs, second_uvs, tangents, colors, triangles: _ } = mesh;
+    let Mesh {
+        name: _,
+        positions,
+        normals,
+        uvs,
+        second_uvs,
+        tangents,
+        colors,
+        triangles: _,
+    } = mesh;
     *positions = positions.pick(vertices);
     *normals = normals.pick(vertices);
     *uvs = uvs.pick(vertices);

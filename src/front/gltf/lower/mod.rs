@@ -1,4 +1,5 @@
-//! A sound asset to the IR: what its scene shows at one moment, in world coordinates, in one set of materials.
+//! A sound asset to the IR: what its scene shows at one moment, in world coordinates, in one set of
+//! materials.
 
 mod camera;
 mod deform;
@@ -32,7 +33,8 @@ use std::collections::BTreeMap;
 const DEPTH: u32 = 16;
 const SAMPLES: u32 = 64;
 
-/// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of its parts.
+/// Bytes that a surface takes, beside its name: in the scene, in the proof, and in the places of
+/// its parts.
 pub(in crate::front) const SURFACE: u64 = 768;
 
 /// What an asset is lowered with.
@@ -53,8 +55,15 @@ struct Lowering<'l, 'r, 's> {
 }
 
 /// Lowers an asset without errors.
-pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Report<'_, 's>) -> Lowered {
-    let variant = options.variant.as_deref().and_then(|name| find_variant(name, report));
+pub(super) fn lower<'s>(
+    doc: &Document<'s>,
+    options: &Options,
+    report: &mut Report<'_, 's>,
+) -> Lowered {
+    let variant = options
+        .variant
+        .as_deref()
+        .and_then(|name| find_variant(name, report));
     let pose = pose::pose(doc, options, report);
     let mut lowering = Lowering {
         doc,
@@ -71,7 +80,9 @@ pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Repo
     let worlds = place::worlds(doc, &pose);
     let shown = place::shown(doc);
     if shown.iter().all(|node| lowering.charge(*node)) {
-        shown.into_iter().for_each(|node| lowering.node(node, &pose, &worlds));
+        shown
+            .into_iter()
+            .for_each(|node| lowering.node(node, &pose, &worlds));
     }
     lowering.finish(options.camera.as_deref())
 }
@@ -79,9 +90,15 @@ pub(super) fn lower<'s>(doc: &Document<'s>, options: &Options, report: &mut Repo
 /// A scene without anything, that is rendered as glTF means it.
 fn empty() -> Scene {
     Scene {
-        camera: camera::looking_at(ir::Ball { center: Vec3::ZERO, radius: 1.0 }),
+        camera: camera::looking_at(ir::Ball {
+            center: Vec3::ZERO,
+            radius: 1.0,
+        }),
         settings: ir::Settings {
-            mode: Mode::Path(ir::Path { samples: SAMPLES, multiple_scattering: true }),
+            mode: Mode::Path(ir::Path {
+                samples: SAMPLES,
+                multiple_scattering: true,
+            }),
             shadows: true,
             max_depth: DEPTH,
             supersampling: 1,
@@ -103,8 +120,11 @@ fn empty() -> Scene {
 fn find_variant(name: &str, report: &mut Report<'_, '_>) -> Option<usize> {
     let root = Fields::new(report.json, report.json.root());
     let variants = root.extension("KHR_materials_variants");
-    let names: Vec<String> =
-        variants.iter().flat_map(|fields| fields.objects("variants")).map(|one| one.name()).collect();
+    let names: Vec<String> = variants
+        .iter()
+        .flat_map(|fields| fields.objects("variants"))
+        .map(|one| one.name())
+        .collect();
     let found = names.iter().position(|own| own == name);
     if found.is_none() {
         missing("variant", name, &names, report);
@@ -114,8 +134,15 @@ fn find_variant(name: &str, report: &mut Report<'_, '_>) -> Option<usize> {
 
 /// Reports that the command line names what there isn't.
 fn missing(noun: &str, name: &str, names: &[String], report: &mut Report<'_, '_>) {
-    let names: Vec<String> = names.iter().map(|name| format!("`{}`", super::report::shown(name))).collect();
-    let hint = if names.is_empty() { "it has none".to_owned() } else { format!("it has {}", names.join(", ")) };
+    let names: Vec<String> = names
+        .iter()
+        .map(|name| format!("`{}`", super::report::shown(name)))
+        .collect();
+    let hint = if names.is_empty() {
+        "it has none".to_owned()
+    } else {
+        format!("it has {}", names.join(", "))
+    };
     let root = report.json.root();
     let message = format!("the asset has no {noun} `{}`", super::report::shown(name));
     report.advise(&codes::GLTF_CHOSEN, "", root, message, hint);
@@ -125,28 +152,46 @@ impl Lowering<'_, '_, '_> {
     /// Charges the surfaces that one node shows. False if that is too much.
     fn charge(&mut self, index: usize) -> bool {
         let (doc, node) = (self.doc, &self.doc.nodes[index]);
-        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return true };
+        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
+            return true;
+        };
         let places = node.instances.filter(|_| node.skin.is_none());
         let count = places.map_or(1, |own| Places::many(doc, DAffine3::IDENTITY, own).count());
         let count = (count as u64).saturating_mul(mesh.primitives.len() as u64);
         let memory = count.saturating_mul(SURFACE + node.name.len() as u64);
-        self.report.charge(Resource::Surfaces, count, node.at, "the node")
-            && self.report.charge(Resource::Memory, memory, node.at, "the node")
+        self.report
+            .charge(Resource::Surfaces, count, node.at, "the node")
+            && self
+                .report
+                .charge(Resource::Memory, memory, node.at, "the node")
     }
 
     /// Lowers what one node shows.
     fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
         let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
         if let Some(camera) = node.camera {
-            self.cameras.push(camera::Seen { camera, node: index, world });
+            self.cameras.push(camera::Seen {
+                camera,
+                node: index,
+                world,
+            });
         }
         if let Some(light) = node.light.and_then(|light| doc.lights.get(light)) {
             self.light(*light, world);
         }
-        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else { return };
+        let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
+            return;
+        };
         let is_skinned = mesh.is_skinned() == Some(true);
-        let skin = node.skin.filter(|skin| *skin < doc.skins.len() && is_skinned);
-        let Some(shape) = self.shapes.of_node(doc, (index, skin), (pose, worlds), self.report) else { return };
+        let skin = node
+            .skin
+            .filter(|skin| *skin < doc.skins.len() && is_skinned);
+        let Some(shape) = self
+            .shapes
+            .of_node(doc, (index, skin), (pose, worlds), self.report)
+        else {
+            return;
+        };
         let places = match (skin, node.instances) {
             (Some(_), _) => Places::one(DAffine3::IDENTITY),
             (None, Some(instances)) => Places::many(doc, world, instances),
@@ -156,8 +201,16 @@ impl Lowering<'_, '_, '_> {
             let material = self.material(primitive);
             let needs_tangents = self.materials.needs_tangents(material, &self.scene);
             let shape = (shape, self.shapes.get(shape));
-            let made = mesh::Wanted { primitive, name: &mesh.name, shape, needs_tangents };
-            let Some(id) = self.meshes.make(doc, &made, &mut self.scene, &mut self.origins, self.report) else {
+            let made = mesh::Wanted {
+                primitive,
+                name: &mesh.name,
+                shape,
+                needs_tangents,
+            };
+            let Some(id) =
+                self.meshes
+                    .make(doc, &made, &mut self.scene, &mut self.origins, self.report)
+            else {
                 continue;
             };
             for at in 0..places.count() {
@@ -167,13 +220,23 @@ impl Lowering<'_, '_, '_> {
     }
 
     /// Places a mesh, unless its place has no volume: then nothing of it shows.
-    fn surface(&mut self, mesh: ir::MeshId, world: DAffine3, material: MaterialId, name: &str, at: NodeId) {
+    fn surface(
+        &mut self,
+        mesh: ir::MeshId,
+        world: DAffine3,
+        material: MaterialId,
+        name: &str,
+        at: NodeId,
+    ) {
         if !place::has_volume(world) {
             let message = "the node is scaled to nothing, so it does not show".to_owned();
             return self.report.say(&codes::GLTF_REMARK, "", at, message);
         }
         let world_from_object = world.to_cols_array_2d();
-        let shape = ir::Shape::Instance(ir::Instance { mesh, world_from_object });
+        let shape = ir::Shape::Instance(ir::Instance {
+            mesh,
+            world_from_object,
+        });
         let place = Place::new(Noun::Surface, self.scene.surfaces.len(), Field::Whole);
         self.origins.record(place, self.report.json.span(at));
         self.scene.surfaces.push(ir::Surface { shape, material });
@@ -184,9 +247,16 @@ impl Lowering<'_, '_, '_> {
         if let Some(known) = self.chosen.get(&primitive.at) {
             return *known;
         }
-        let material = material::chosen(primitive, self.variant, self.report.json).or(primitive.material);
+        let material =
+            material::chosen(primitive, self.variant, self.report.json).or(primitive.material);
         let material = material.filter(|material| *material < self.doc.materials.len());
-        let made = self.materials.make(self.doc, material, &mut self.scene, &mut self.origins, self.report);
+        let made = self.materials.make(
+            self.doc,
+            material,
+            &mut self.scene,
+            &mut self.origins,
+            self.report,
+        );
         self.chosen.insert(primitive.at, made);
         made
     }
@@ -197,6 +267,9 @@ impl Lowering<'_, '_, '_> {
             self.scene.names.clear();
         }
         self.origins.finish();
-        Lowered { scene: self.scene, origins: self.origins }
+        Lowered {
+            scene: self.scene,
+            origins: self.origins,
+        }
     }
 }

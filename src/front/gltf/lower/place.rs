@@ -10,13 +10,23 @@ use glam::{DAffine3, DQuat};
 pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
     let count = doc.nodes.len();
     let mut is_child = vec![false; count];
-    for child in doc.nodes.iter().flat_map(|node| &node.children).filter(|child| **child < count) {
+    for child in doc
+        .nodes
+        .iter()
+        .flat_map(|node| &node.children)
+        .filter(|child| **child < count)
+    {
         is_child[*child] = true;
     }
     let mut worlds: Vec<DAffine3> = (0..count).map(|node| pose.local(node)).collect();
     let mut open: Vec<usize> = (0..count).filter(|node| !is_child[*node]).collect();
     while let Some(node) = open.pop() {
-        for child in doc.nodes[node].children.iter().copied().filter(|child| *child < count) {
+        for child in doc.nodes[node]
+            .children
+            .iter()
+            .copied()
+            .filter(|child| *child < count)
+        {
             worlds[child] = worlds[node] * worlds[child];
             open.push(child);
         }
@@ -24,15 +34,20 @@ pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
     worlds
 }
 
-/// The nodes that the scene shows, parents before children, in the order of the file; if there is no scene, all.
+/// The nodes that the scene shows, parents before children, in the order of the file; if there is
+/// no scene, all.
 pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
     let Some(scene) = doc.scenes.get(doc.scene.unwrap_or(0)) else {
-        return (0..doc.nodes.len()).filter(|node| doc.nodes[*node].visible).collect();
+        return (0..doc.nodes.len())
+            .filter(|node| doc.nodes[*node].visible)
+            .collect();
     };
     let mut shown = Vec::new();
     let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
     while let Some(index) = open.pop() {
-        let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else { continue };
+        let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else {
+            continue;
+        };
         shown.push(index);
         open.extend(node.children.iter().rev());
     }
@@ -50,41 +65,73 @@ pub(super) struct Places<'d> {
 impl<'d> Places<'d> {
     /// That of the node alone.
     pub(super) fn one(world: DAffine3) -> Self {
-        Self { world, instances: None }
+        Self {
+            world,
+            instances: None,
+        }
     }
 
     /// Those of instances, by their accessors.
-    pub(super) fn many(doc: &'d Document<'_>, world: DAffine3, accessors: [Option<usize>; 3]) -> Self {
+    pub(super) fn many(
+        doc: &'d Document<'_>,
+        world: DAffine3,
+        accessors: [Option<usize>; 3],
+    ) -> Self {
         let instances = accessors.map(|accessor| Elements::of(doc, doc.accessors.get(accessor?)?));
-        Self { world, instances: Some(instances) }
+        Self {
+            world,
+            instances: Some(instances),
+        }
     }
 
     /// How many there are.
     pub(super) fn count(&self) -> usize {
-        let counts = |own: &[Option<Elements<'_>>; 3]| own.iter().flatten().map(|own| own.count).min();
-        self.instances.as_ref().map_or(1, |own| counts(own).unwrap_or(0))
+        let counts =
+            |own: &[Option<Elements<'_>>; 3]| own.iter().flatten().map(|own| own.count).min();
+        self.instances
+            .as_ref()
+            .map_or(1, |own| counts(own).unwrap_or(0))
     }
 
     /// The place at `at`, which is below the count.
     pub(super) fn at(&self, at: usize) -> DAffine3 {
-        let Some([translations, rotations, scales]) = &self.instances else { return self.world };
+        let Some([translations, rotations, scales]) = &self.instances else {
+            return self.world;
+        };
         let translation = translations.as_ref().map_or([0.0; 3], |own| own.at(at));
-        let rotation = rotations.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |own| own.at(at));
-        self.world * compose(translation, rotation, scales.as_ref().map_or([1.0; 3], |own| own.at(at)))
+        let rotation = rotations
+            .as_ref()
+            .map_or([0.0, 0.0, 0.0, 1.0], |own| own.at(at));
+        self.world
+            * compose(
+                translation,
+                rotation,
+                scales.as_ref().map_or([1.0; 3], |own| own.at(at)),
+            )
     }
 }
 
 /// Scale first, then rotation, then translation.
 pub(super) fn compose(translation: [f64; 3], rotation: [f64; 4], scale: [f64; 3]) -> DAffine3 {
     let rotation = DQuat::from_array(rotation);
-    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
-    DAffine3::from_scale_rotation_translation(Vec3::from_array(scale), rotation, Vec3::from_array(translation))
+    let rotation = if rotation.length_squared() > 0.0 {
+        rotation.normalize()
+    } else {
+        DQuat::IDENTITY
+    };
+    DAffine3::from_scale_rotation_translation(
+        Vec3::from_array(scale),
+        rotation,
+        Vec3::from_array(translation),
+    )
 }
 
 /// True if a place keeps a volume, by far more than the IR asks.
 pub(super) fn has_volume(world: DAffine3) -> bool {
     let axes = [world.x_axis, world.y_axis, world.z_axis];
     let [x, y, z] = axes.map(|axis| unit(axis).unwrap_or(Vec3::ZERO));
-    let is_sound = axes.iter().all(|axis| axis.is_finite() && axis.abs().max_element() > f64::MIN_POSITIVE);
+    let is_sound = axes
+        .iter()
+        .all(|axis| axis.is_finite() && axis.abs().max_element() > f64::MIN_POSITIVE);
     is_sound && x.dot(y.cross(z)).abs() >= 1e-9
 }

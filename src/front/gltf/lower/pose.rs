@@ -1,4 +1,5 @@
-//! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a moment of an animation.
+//! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a
+//! moment of an animation.
 
 use super::super::animation::{Animation, Interpolation, Path, Sampler};
 use super::super::document::Document;
@@ -28,7 +29,11 @@ impl Pose {
     pub(super) fn local(&self, node: usize) -> DAffine3 {
         match self.transforms[node] {
             Transform::Matrix(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
-            Transform::Parts { translation, rotation, scale } => compose(translation, rotation, scale),
+            Transform::Parts {
+                translation,
+                rotation,
+                scale,
+            } => compose(translation, rotation, scale),
         }
     }
 
@@ -41,16 +46,29 @@ impl Pose {
 /// The pose that the options ask for.
 pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Pose {
     let nodes = doc.nodes.iter().enumerate();
-    let own = nodes.filter(|(_, node)| !node.weights.is_empty()).map(|(index, node)| (index, node.weights.clone()));
-    let mut pose = Pose { transforms: doc.nodes.iter().map(|node| node.transform).collect(), weights: own.collect() };
+    let own = nodes
+        .filter(|(_, node)| !node.weights.is_empty())
+        .map(|(index, node)| (index, node.weights.clone()));
+    let mut pose = Pose {
+        transforms: doc.nodes.iter().map(|node| node.transform).collect(),
+        weights: own.collect(),
+    };
     if let Some(animation) = chosen(doc, options, report) {
         let time = options.time.unwrap_or(0.0);
         for channel in &animation.channels {
-            let (Some(node), Some(path)) = (channel.node, channel.path) else { continue };
-            let sampler = channel.sampler.and_then(|sampler| animation.samplers.get(sampler));
-            let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else { continue };
+            let (Some(node), Some(path)) = (channel.node, channel.path) else {
+                continue;
+            };
+            let sampler = channel
+                .sampler
+                .and_then(|sampler| animation.samplers.get(sampler));
+            let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else {
+                continue;
+            };
             let memory = keys.width() as u64 * WEIGHT;
-            if path == Path::Weights && !report.charge(Resource::Memory, memory, channel.at, "the channel") {
+            if path == Path::Weights
+                && !report.charge(Resource::Memory, memory, channel.at, "the channel")
+            {
                 break;
             }
             if let Some(value) = keys.sample(path, time) {
@@ -62,18 +80,30 @@ pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_
 }
 
 /// The animation that was asked for: by name, or else the first if there is a time.
-fn chosen<'d>(doc: &'d Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Option<&'d Animation> {
+fn chosen<'d>(
+    doc: &'d Document<'_>,
+    options: &Options,
+    report: &mut Report<'_, '_>,
+) -> Option<&'d Animation> {
     let Some(name) = &options.animation else {
         options.time?;
         if doc.animations.is_empty() {
-            let [message, hint] = ["the asset is the same at all times", "it has no animations"].map(str::to_owned);
+            let [message, hint] =
+                ["the asset is the same at all times", "it has no animations"].map(str::to_owned);
             report.advise(&codes::GLTF_STILL, "", report.json.root(), message, hint);
         }
         return doc.animations.first();
     };
-    let found = doc.animations.iter().find(|animation| animation.name == *name);
+    let found = doc
+        .animations
+        .iter()
+        .find(|animation| animation.name == *name);
     if found.is_none() {
-        let names: Vec<String> = doc.animations.iter().map(|animation| animation.name.clone()).collect();
+        let names: Vec<String> = doc
+            .animations
+            .iter()
+            .map(|animation| animation.name.clone())
+            .collect();
         super::missing("animation", name, &names, report);
     }
     found
@@ -85,7 +115,14 @@ impl Pose {
             self.weights.insert(node, value);
             return;
         }
-        let Some(Transform::Parts { translation, rotation, scale }) = self.transforms.get_mut(node) else { return };
+        let Some(Transform::Parts {
+            translation,
+            rotation,
+            scale,
+        }) = self.transforms.get_mut(node)
+        else {
+            return;
+        };
         let three = || <[f64; 3]>::try_from(&value[..]).ok();
         match path {
             Path::Translation => *translation = three().unwrap_or(*translation),
@@ -107,7 +144,11 @@ impl<'d> Keys<'d> {
     fn of(doc: &'d Document<'_>, sampler: &Sampler) -> Option<Self> {
         let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
         let (times, output) = (elements(sampler.input)?, elements(sampler.output)?);
-        Some(Self { times, output, interpolation: sampler.interpolation })
+        Some(Self {
+            times,
+            output,
+            interpolation: sampler.interpolation,
+        })
     }
 
     fn is_cubic(&self) -> bool {
@@ -138,13 +179,20 @@ impl<'d> Keys<'d> {
         low
     }
 
-    /// A keyframe; of a cubic one, its part: the tangent before it, the value, or the tangent after it.
+    /// A keyframe; of a cubic one, its part: the tangent before it, the value, or the tangent after
+    /// it.
     fn key(&self, index: usize, part: usize) -> Option<Vec<f64>> {
         let (width, components) = (self.width(), self.output.layout.components());
-        let at = if self.is_cubic() { 3 * index + part } else { index } * width;
+        let at = if self.is_cubic() {
+            3 * index + part
+        } else {
+            index
+        } * width;
         let elements = at / components..(at + width).div_ceil(components);
-        let numbers = elements.flat_map(|element| self.output.at::<16>(element).into_iter().take(components));
-        (at + width <= self.output.count * components).then(|| numbers.skip(at % components).take(width).collect())
+        let numbers =
+            elements.flat_map(|element| self.output.at::<16>(element).into_iter().take(components));
+        (at + width <= self.output.count * components)
+            .then(|| numbers.skip(at % components).take(width).collect())
     }
 
     /// The value at a time; before the first and after the last keyframe it stands still.
@@ -152,13 +200,21 @@ impl<'d> Keys<'d> {
         let next = self.until(time);
         let (a, b) = (next.saturating_sub(1), next.min(self.times.count - 1));
         let span = self.time(b) - self.time(a);
-        let share = if a == b || span <= 0.0 { 0.0 } else { ((time - self.time(a)) / span).clamp(0.0, 1.0) };
+        let share = if a == b || span <= 0.0 {
+            0.0
+        } else {
+            ((time - self.time(a)) / span).clamp(0.0, 1.0)
+        };
         let middle = usize::from(self.is_cubic());
         let (from, to) = (self.key(a, middle)?, self.key(b, middle)?);
         Some(match self.interpolation {
             Interpolation::Step => from,
             Interpolation::Linear if path == Path::Rotation => slerp(&from, &to, share),
-            Interpolation::Linear => from.iter().zip(&to).map(|(a, b)| a + (b - a) * share).collect(),
+            Interpolation::Linear => from
+                .iter()
+                .zip(&to)
+                .map(|(a, b)| a + (b - a) * share)
+                .collect(),
             Interpolation::Cubic => {
                 let (leaving, arriving) = (self.key(a, 2)?, self.key(b, 0)?);
                 hermite([&from, &leaving, &to, &arriving], span, share)
@@ -170,10 +226,19 @@ impl<'d> Keys<'d> {
 /// The cubic through two values with their tangents (glTF 2.0, appendix C.5).
 fn hermite([from, leaving, to, arriving]: [&[f64]; 4], span: f64, t: f64) -> Vec<f64> {
     let (t2, t3) = (t * t, t * t * t);
-    let weights = [2.0 * t3 - 3.0 * t2 + 1.0, span * (t3 - 2.0 * t2 + t), 3.0 * t2 - 2.0 * t3, span * (t3 - t2)];
+    let weights = [
+        2.0 * t3 - 3.0 * t2 + 1.0,
+        span * (t3 - 2.0 * t2 + t),
+        3.0 * t2 - 2.0 * t3,
+        span * (t3 - t2),
+    ];
     let part = |at: usize| {
         let parts = [from[at], leaving[at], to[at], arriving[at]];
-        parts.iter().zip(weights).map(|(part, weight)| part * weight).sum()
+        parts
+            .iter()
+            .zip(weights)
+            .map(|(part, weight)| part * weight)
+            .sum()
     };
     (0..from.len()).map(part).collect()
 }
@@ -183,9 +248,16 @@ fn slerp(from: &[f64], to: &[f64], t: f64) -> Vec<f64> {
     let cosine: f64 = from.iter().zip(to).map(|(a, b)| a * b).sum();
     let angle = acos(cosine.abs().min(1.0));
     let sine = sin(angle);
-    let (a, b) = if sine > 1e-6 { (sin(angle * (1.0 - t)) / sine, sin(angle * t) / sine) } else { (1.0 - t, t) };
+    let (a, b) = if sine > 1e-6 {
+        (sin(angle * (1.0 - t)) / sine, sin(angle * t) / sine)
+    } else {
+        (1.0 - t, t)
+    };
     let b = if cosine < 0.0 { -b } else { b };
-    from.iter().zip(to).map(|(from, to)| a * from + b * to).collect()
+    from.iter()
+        .zip(to)
+        .map(|(from, to)| a * from + b * to)
+        .collect()
 }
 
 #[cfg(test)]
@@ -197,7 +269,10 @@ mod tests {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let quarter = slerp(&[0.0, 0.0, 0.0, 1.0], &[0.0, 0.0, -half, -half], 0.5);
         let eighth = std::f64::consts::FRAC_PI_8;
-        assert!((quarter[2] - sin(eighth)).abs() < 1e-15 && (quarter[3] - crate::math::cos(eighth)).abs() < 1e-15);
+        assert!(
+            (quarter[2] - sin(eighth)).abs() < 1e-15
+                && (quarter[3] - crate::math::cos(eighth)).abs() < 1e-15
+        );
     }
 
     #[test]

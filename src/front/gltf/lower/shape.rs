@@ -1,4 +1,5 @@
-//! The shapes that nodes give to meshes: weights of morph targets and joints of a skin, each different one held once.
+//! The shapes that nodes give to meshes: weights of morph targets and joints of a skin, each
+//! different one held once.
 
 use super::super::document::Document;
 use super::super::elements::Elements;
@@ -46,14 +47,21 @@ struct Different<T> {
 
 impl<T> Default for Different<T> {
     fn default() -> Self {
-        Self { known: BTreeMap::new(), lists: Vec::new() }
+        Self {
+            known: BTreeMap::new(),
+            lists: Vec::new(),
+        }
     }
 }
 
 impl<T> Different<T> {
     fn name<const N: usize>(&mut self, list: Vec<T>, numbers: impl Fn(&T) -> [f64; N]) -> usize {
         // The sum turns -0 into 0, which is the same shape.
-        let bits = list.iter().flat_map(numbers).map(|number| (number + 0.0).to_bits()).collect();
+        let bits = list
+            .iter()
+            .flat_map(numbers)
+            .map(|number| (number + 0.0).to_bits())
+            .collect();
         let Self { known, lists } = self;
         *known.entry(bits).or_insert_with(|| {
             lists.push(list);
@@ -63,7 +71,8 @@ impl<T> Different<T> {
 }
 
 impl Shapes {
-    /// The shape that a node gives to its mesh, with its skin if it follows one; none if that asks for too much.
+    /// The shape that a node gives to its mesh, with its skin if it follows one; none if that asks
+    /// for too much.
     pub(super) fn of_node(
         &mut self,
         doc: &Document<'_>,
@@ -75,7 +84,10 @@ impl Shapes {
             Some(skin) => Some(self.of_skin(doc, skin, worlds, report)?),
             None => None,
         };
-        Some(ShapeId { weights: self.of_weights(doc, node, pose)?, joints })
+        Some(ShapeId {
+            weights: self.of_weights(doc, node, pose)?,
+            joints,
+        })
     }
 
     fn of_weights(&mut self, doc: &Document<'_>, node: usize, pose: &Pose) -> Option<usize> {
@@ -88,7 +100,10 @@ impl Shapes {
         let weights = own.unwrap_or(&mesh.weights);
         let weights = &weights[..weights.len().min(mesh.targets())];
         let last = weights.iter().rposition(|weight| *weight != 0.0);
-        let name = self.weights.name(weights[..last.map_or(0, |last| last + 1)].to_vec(), |weight| [*weight]);
+        let name = self.weights.name(
+            weights[..last.map_or(0, |last| last + 1)].to_vec(),
+            |weight| [*weight],
+        );
         if own.is_none() {
             self.of_mesh.insert(of, name);
         }
@@ -106,10 +121,17 @@ impl Shapes {
             return Some(*known);
         }
         let skin = &doc.skins[of];
-        if !report.charge(Resource::Memory, JOINT * skin.joints.len() as u64, skin.at, "the skin") {
+        if !report.charge(
+            Resource::Memory,
+            JOINT * skin.joints.len() as u64,
+            skin.at,
+            "the skin",
+        ) {
             return None;
         }
-        let name = self.joints.name(joints(doc, skin, worlds), DAffine3::to_cols_array);
+        let name = self
+            .joints
+            .name(joints(doc, skin, worlds), DAffine3::to_cols_array);
         self.of_skin.insert(of, name);
         Some(name)
     }
@@ -117,15 +139,28 @@ impl Shapes {
     /// The shape of a name.
     pub(super) fn get(&self, id: ShapeId) -> Shape<'_> {
         let joints = id.joints.map(|joints| self.joints.lists[joints].as_slice());
-        Shape { weights: &self.weights.lists[id.weights], joints }
+        Shape {
+            weights: &self.weights.lists[id.weights],
+            joints,
+        }
     }
 }
 
 /// From the mesh to the world for each joint: its inverse bind matrix, then its place.
 fn joints(doc: &Document<'_>, skin: &Skin, worlds: &[DAffine3]) -> Vec<DAffine3> {
-    let matrices = skin.matrices.and_then(|matrices| Elements::of(doc, doc.accessors.get(matrices)?));
+    let matrices = skin
+        .matrices
+        .and_then(|matrices| Elements::of(doc, doc.accessors.get(matrices)?));
     let known = |at: usize| matrices.as_ref().filter(|matrices| at < matrices.count);
-    let bind = |at: usize| known(at).map_or(DMat4::IDENTITY, |matrices| DMat4::from_cols_array(&matrices.at(at)));
+    let bind = |at: usize| {
+        known(at).map_or(DMat4::IDENTITY, |matrices| {
+            DMat4::from_cols_array(&matrices.at(at))
+        })
+    };
     let world = |joint: usize| worlds.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
-    skin.joints.iter().enumerate().map(|(at, joint)| world(*joint) * DAffine3::from_mat4(bind(at))).collect()
+    skin.joints
+        .iter()
+        .enumerate()
+        .map(|(at, joint)| world(*joint) * DAffine3::from_mat4(bind(at)))
+        .collect()
 }

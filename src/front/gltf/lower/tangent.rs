@@ -32,7 +32,10 @@ impl Corners<'_> {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "MikkTSpace computes in 32-bit floats")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "MikkTSpace computes in 32-bit floats"
+)]
 impl Geometry<Libm> for Corners<'_> {
     fn num_faces(&self) -> usize {
         self.mesh.triangles.len()
@@ -43,28 +46,42 @@ impl Geometry<Libm> for Corners<'_> {
     }
 
     fn position(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.mesh.positions.at(self.vertex(face, vert)).map(|number| number as f32)
+        self.mesh
+            .positions
+            .at(self.vertex(face, vert))
+            .map(|number| number as f32)
     }
 
     fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.mesh.normals.at(self.vertex(face, vert)).map(|number| number as f32)
+        self.mesh
+            .normals
+            .at(self.vertex(face, vert))
+            .map(|number| number as f32)
     }
 
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
-        self.mesh.uvs.at(self.vertex(face, vert)).map(|number| number as f32)
+        self.mesh
+            .uvs
+            .at(self.vertex(face, vert))
+            .map(|number| number as f32)
     }
 
     fn set_tangent(&mut self, tangent: Option<TangentSpace>, face: usize, vert: usize) {
         if let Some(tangent) = tangent {
             let [x, y, z] = tangent.tangent().map(f64::from);
             // MikkTSpace has green along growing v; in glTF v grows downwards, and green is up.
-            let sign = if tangent.is_orientation_preserving() { -1.0 } else { 1.0 };
+            let sign = if tangent.is_orientation_preserving() {
+                -1.0
+            } else {
+                1.0
+            };
             self.tangents[3 * face + vert] = [x, y, z, sign];
         }
     }
 }
 
-/// Gives a mesh tangents, and normals if it has none. Without texture coordinates there are none to give.
+/// Gives a mesh tangents, and normals if it has none. Without texture coordinates there are none to
+/// give.
 pub(super) fn generate(mesh: &mut Mesh) {
     if mesh.uvs.is_empty() || mesh.triangles.is_empty() {
         return;
@@ -72,7 +89,10 @@ pub(super) fn generate(mesh: &mut Mesh) {
     if mesh.normals.is_empty() {
         flatten(mesh);
     }
-    let mut corners = Corners { mesh, tangents: vec![[1.0, 0.0, 0.0, 1.0]; 3 * mesh.triangles.len()] };
+    let mut corners = Corners {
+        mesh,
+        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 3 * mesh.triangles.len()],
+    };
     if generate_tangents(&mut corners).is_err() {
         return;
     }
@@ -85,8 +105,14 @@ fn flatten(mesh: &mut Mesh) {
     let corners: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
     pick(mesh, &corners);
     let first = (0..to_u32(corners.len())).step_by(3);
-    mesh.triangles = first.map(|corner| [corner, corner + 1, corner + 2]).collect();
-    let positions = mesh.positions.iter().map(Vec3::from_array).collect::<Vec<_>>();
+    mesh.triangles = first
+        .map(|corner| [corner, corner + 1, corner + 2])
+        .collect();
+    let positions = mesh
+        .positions
+        .iter()
+        .map(Vec3::from_array)
+        .collect::<Vec<_>>();
     let normals = positions.as_chunks::<3>().0.iter().flat_map(|[a, b, c]| {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         [normal.to_array(); 3]
@@ -122,7 +148,10 @@ fn split(mesh: &mut Mesh, tangents: &[[f64; 4]]) {
         }
     }
     pick(mesh, &origin);
-    mesh.tangents = Column::rounded(own.into_iter().map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])));
+    mesh.tangents = Column::rounded(
+        own.into_iter()
+            .map(|tangent| tangent.unwrap_or([1.0, 0.0, 0.0, 1.0])),
+    );
 }
 
 #[cfg(test)]
@@ -133,14 +162,24 @@ mod tests {
     fn tangents_follow_u_and_vertices_split_where_it_is_mirrored() {
         let corner = |x: f32, y: f32| [x, y, 0.0];
         let mut mesh = Mesh {
-            positions: vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(-1.0, 0.0)].into(),
+            positions: vec![
+                corner(0.0, 0.0),
+                corner(1.0, 0.0),
+                corner(0.0, 1.0),
+                corner(-1.0, 0.0),
+            ]
+            .into(),
             uvs: vec![[0.0, 1.0], [1.0, 1.0], [0.0, 0.0], [1.0_f32, 1.0]].into(),
             normals: vec![[0.0_f32, 0.0, 1.0]; 4].into(),
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
             ..Mesh::default()
         };
         generate(&mut mesh);
-        assert_eq!((mesh.positions.len(), mesh.tangents.len()), (6, 6), "two corners are shared and differ");
+        assert_eq!(
+            (mesh.positions.len(), mesh.tangents.len()),
+            (6, 6),
+            "two corners are shared and differ"
+        );
         let tangent = |triangle: usize| mesh.tangents.at(mesh.triangles[triangle][0] as usize);
         assert_eq!([tangent(0)[0], tangent(1)[0]], [1.0, -1.0]);
         // Green is up in the picture, against v: w·(n × t) points there.

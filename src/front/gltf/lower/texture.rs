@@ -4,7 +4,9 @@ use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::report::Report;
 use crate::diag::codes;
-use crate::ir::{self, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap};
+use crate::ir::{
+    self, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap,
+};
 use crate::math::{cos, sin};
 use std::collections::BTreeMap;
 
@@ -22,10 +24,14 @@ const NEAREST: u64 = 9728;
 
 impl Textures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
-        Self { textures: vec![None; doc.textures.len()], images: BTreeMap::new() }
+        Self {
+            textures: vec![None; doc.textures.len()],
+            images: BTreeMap::new(),
+        }
     }
 
-    /// The map that a texture info of a material stands for; none if its texture has no image that can be read.
+    /// The map that a texture info of a material stands for; none if its texture has no image that
+    /// can be read.
     pub(super) fn map(
         &mut self,
         doc: &Document<'_>,
@@ -36,13 +42,24 @@ impl Textures {
     ) -> Option<Map> {
         let texture = self.texture(doc, info.index("index")?, scene, origins, report)?;
         let transform = info.extension("KHR_texture_transform");
-        let set = transform.and_then(|fields| fields.whole("texCoord")).or(info.whole("texCoord")).unwrap_or(0);
-        let set = u32::try_from(set).ok().filter(|set| *set < 2).unwrap_or_else(|| {
-            let message = format!("set {set} of texture coordinates is not kept, so set 0 is taken");
-            report.say(&codes::GLTF_MATERIAL_ODD, "", info.at, message);
-            0
-        });
-        Some(Map { texture, set, texture_from_surface: transform.map(texture_from_surface) })
+        let set = transform
+            .and_then(|fields| fields.whole("texCoord"))
+            .or(info.whole("texCoord"))
+            .unwrap_or(0);
+        let set = u32::try_from(set)
+            .ok()
+            .filter(|set| *set < 2)
+            .unwrap_or_else(|| {
+                let message =
+                    format!("set {set} of texture coordinates is not kept, so set 0 is taken");
+                report.say(&codes::GLTF_MATERIAL_ODD, "", info.at, message);
+                0
+            });
+        Some(Map {
+            texture,
+            set,
+            texture_from_surface: transform.map(texture_from_surface),
+        })
     }
 
     fn texture(
@@ -58,20 +75,38 @@ impl Textures {
         }
         let texture = &doc.textures[index];
         let mut images = [texture.webp, texture.source].into_iter().flatten();
-        let image = images.find(|image| doc.images.get(*image).is_some_and(|image| image.picture.is_some()));
+        let image = images.find(|image| {
+            doc.images
+                .get(*image)
+                .is_some_and(|image| image.picture.is_some())
+        });
         let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
         if image.is_none() {
-            let message = "the texture has no image that can be read, so it has no effect".to_owned();
+            let message =
+                "the texture has no image that can be read, so it has no effect".to_owned();
             report.say(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }
-        let sampler = texture.sampler.and_then(|sampler| doc.samplers.get(sampler));
+        let sampler = texture
+            .sampler
+            .and_then(|sampler| doc.samplers.get(sampler));
         let wrap = sampler.map_or([Wrap::Repeat; 2], |sampler| sampler.wrap.map(wrap));
         let is_nearest = sampler.is_some_and(|sampler| sampler.mag_filter == Some(NEAREST));
-        let filter = if is_nearest { Filter::Nearest } else { Filter::Linear };
+        let filter = if is_nearest {
+            Filter::Nearest
+        } else {
+            Filter::Linear
+        };
         let id = image.map(|image| {
             let at = scene.textures.len();
-            origins.record(Place::new(Noun::Texture, at, Field::Whole), report.json.span(texture.at));
-            scene.textures.push(ir::Texture::Sampled(Sampled { image, wrap, filter }));
+            origins.record(
+                Place::new(Noun::Texture, at, Field::Whole),
+                report.json.span(texture.at),
+            );
+            scene.textures.push(ir::Texture::Sampled(Sampled {
+                image,
+                wrap,
+                filter,
+            }));
             TextureId(super::mesh::to_u32(at))
         });
         self.textures[index] = Some(id);
@@ -90,8 +125,14 @@ impl Textures {
         let picture = image.picture?;
         Some(*self.images.entry(picture).or_insert_with(|| {
             let at = scene.images.len();
-            origins.record(Place::new(Noun::Image, at, Field::Whole), report.json.span(image.at));
-            scene.images.push(ir::Image { name: image.name.clone(), ..doc.pictures[picture].clone() });
+            origins.record(
+                Place::new(Noun::Image, at, Field::Whole),
+                report.json.span(image.at),
+            );
+            scene.images.push(ir::Image {
+                name: image.name.clone(),
+                ..doc.pictures[picture].clone()
+            });
             ImageId(super::mesh::to_u32(at))
         }))
     }

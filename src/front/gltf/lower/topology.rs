@@ -9,7 +9,11 @@ const STRIP: u64 = 5;
 const FAN: u64 = 6;
 
 /// The corners of the triangles; none if the primitive has no surface, or its indices can't be had.
-pub(super) fn triangles(doc: &Document<'_>, primitive: &Primitive, vertices: usize) -> Option<Vec<[u32; 3]>> {
+pub(super) fn triangles(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    vertices: usize,
+) -> Option<Vec<[u32; 3]>> {
     let indices = match primitive.indices {
         Some(index) => Elements::of(doc, doc.accessors.get(index)?)?.integers(),
         None => (0..super::mesh::to_u32(vertices)).collect(),
@@ -24,13 +28,28 @@ fn assemble(indices: &[u32], mode: u64) -> Option<Vec<[u32; 3]>> {
     match mode {
         TRIANGLES => Some(indices.as_chunks::<3>().0.to_vec()),
         STRIP => {
-            let corner =
-                |at: usize, w: &[u32]| if at.is_multiple_of(2) { [w[0], w[1], w[2]] } else { [w[0], w[2], w[1]] };
-            Some(indices.windows(3).enumerate().map(|(at, window)| corner(at, window)).collect())
+            let corner = |at: usize, w: &[u32]| {
+                if at.is_multiple_of(2) {
+                    [w[0], w[1], w[2]]
+                } else {
+                    [w[0], w[2], w[1]]
+                }
+            };
+            Some(
+                indices
+                    .windows(3)
+                    .enumerate()
+                    .map(|(at, window)| corner(at, window))
+                    .collect(),
+            )
         }
         FAN => {
             let (first, rest) = indices.split_first()?;
-            Some(rest.windows(2).map(|pair| [pair[0], pair[1], *first]).collect())
+            Some(
+                rest.windows(2)
+                    .map(|pair| [pair[0], pair[1], *first])
+                    .collect(),
+            )
         }
         _ => None,
     }
@@ -51,7 +70,10 @@ pub(super) fn compact(triangles: &mut [[u32; 3]], vertices: usize) -> Option<Vec
     if 4 * kept.len() > 3 * vertices {
         return None;
     }
-    triangles.iter_mut().flatten().for_each(|corner| *corner = renamed[*corner as usize]);
+    triangles
+        .iter_mut()
+        .flatten()
+        .for_each(|corner| *corner = renamed[*corner as usize]);
     Some(kept)
 }
 
@@ -61,8 +83,14 @@ mod tests {
 
     #[test]
     fn strips_and_fans_turn_one_way() {
-        assert_eq!(assemble(&[0, 1, 2, 3, 4], STRIP).unwrap(), [[0, 1, 2], [1, 3, 2], [2, 3, 4]]);
-        assert_eq!(assemble(&[0, 1, 2, 3], FAN).unwrap(), [[1, 2, 0], [2, 3, 0]]);
+        assert_eq!(
+            assemble(&[0, 1, 2, 3, 4], STRIP).unwrap(),
+            [[0, 1, 2], [1, 3, 2], [2, 3, 4]]
+        );
+        assert_eq!(
+            assemble(&[0, 1, 2, 3], FAN).unwrap(),
+            [[1, 2, 0], [2, 3, 0]]
+        );
         assert_eq!(assemble(&[0, 1, 2, 3], TRIANGLES).unwrap(), [[0, 1, 2]]);
         assert_eq!(assemble(&[0, 1], 1), None);
     }

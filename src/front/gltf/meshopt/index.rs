@@ -1,4 +1,5 @@
-//! Modes 1 and 2: triangles by the edges and corners they share with those before, and indices by their differences.
+//! Modes 1 and 2: triangles by the edges and corners they share with those before, and indices by
+//! their differences.
 
 use super::{Fault, Reader, unzigzag};
 
@@ -13,7 +14,10 @@ struct Queue<T> {
 
 impl<T: Copy + Default> Queue<T> {
     fn new() -> Self {
-        Self { entries: [T::default(); QUEUE], newest: 0 }
+        Self {
+            entries: [T::default(); QUEUE],
+            newest: 0,
+        }
     }
 
     fn push(&mut self, entry: T) {
@@ -39,20 +43,37 @@ struct Triangles<'a> {
 
 /// Decodes `count` indices of triangles.
 pub(super) fn triangles(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
-    let inside = bytes.strip_prefix(&[0xe1]).ok_or("the first byte is not that of triangles")?;
-    let end = inside.len().checked_sub(QUEUE).ok_or("the data ends too early")?;
+    let inside = bytes
+        .strip_prefix(&[0xe1])
+        .ok_or("the first byte is not that of triangles")?;
+    let end = inside
+        .len()
+        .checked_sub(QUEUE)
+        .ok_or("the data ends too early")?;
     let (inside, table) = inside.split_at(end);
     if !count.is_multiple_of(3) {
         return Err("the indices make no whole triangles");
     }
-    let (codes, data) = inside.split_at_checked(count / 3).ok_or("the data ends too early")?;
+    let (codes, data) = inside
+        .split_at_checked(count / 3)
+        .ok_or("the data ends too early")?;
     let data = Reader { bytes: data };
-    let mut state = Triangles { data, edges: Queue::new(), corners: Queue::new(), next: 0, last: 0 };
+    let mut state = Triangles {
+        data,
+        edges: Queue::new(),
+        corners: Queue::new(),
+        next: 0,
+        last: 0,
+    };
     let mut indices = Vec::with_capacity(count);
     for code in codes {
         indices.extend(state.triangle(*code, table)?);
     }
-    if state.data.bytes.is_empty() { Ok(indices) } else { Err("something is left over at the end of the data") }
+    if state.data.bytes.is_empty() {
+        Ok(indices)
+    } else {
+        Err("something is left over at the end of the data")
+    }
 }
 
 impl Triangles<'_> {
@@ -65,7 +86,11 @@ impl Triangles<'_> {
             self.edges.push([a, c]);
             return Ok([a, b, c]);
         }
-        let pair = if low < 14 { table[usize::from(low)] } else { self.data.byte()? };
+        let pair = if low < 14 {
+            table[usize::from(low)]
+        } else {
+            self.data.byte()?
+        };
         if low >= 14 && pair == 0 {
             self.next = 0;
         }
@@ -122,12 +147,20 @@ impl Triangles<'_> {
     }
 }
 
-/// Decodes `count` indices without triangles; the lowest bit says from which of two baselines each differs.
+/// Decodes `count` indices without triangles; the lowest bit says from which of two baselines each
+/// differs.
 pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
     const TAIL: usize = 4;
-    let inside = bytes.strip_prefix(&[0xd1]).ok_or("the first byte is not that of indices")?;
-    let end = inside.len().checked_sub(TAIL).ok_or("the data ends too early")?;
-    let mut reader = Reader { bytes: &inside[..end] };
+    let inside = bytes
+        .strip_prefix(&[0xd1])
+        .ok_or("the first byte is not that of indices")?;
+    let end = inside
+        .len()
+        .checked_sub(TAIL)
+        .ok_or("the data ends too early")?;
+    let mut reader = Reader {
+        bytes: &inside[..end],
+    };
     let mut last = [0_u32; 2];
     let mut indices = Vec::with_capacity(count);
     for _ in 0..count {
@@ -136,7 +169,11 @@ pub(super) fn sequence(bytes: &[u8], count: usize) -> Result<Vec<u32>, Fault> {
         *baseline = baseline.wrapping_add(unzigzag(number >> 1));
         indices.push(*baseline);
     }
-    if reader.bytes.is_empty() { Ok(indices) } else { Err("something is left over at the end of the data") }
+    if reader.bytes.is_empty() {
+        Ok(indices)
+    } else {
+        Err("something is left over at the end of the data")
+    }
 }
 
 #[cfg(test)]
@@ -145,7 +182,8 @@ mod tests {
 
     #[test]
     fn two_triangles_that_share_an_edge() {
-        // The first has three new corners, by the first entry of the table; the second is on its newest edge (a, c).
+        // The first has three new corners, by the first entry of the table; the second is on its
+        // newest edge (a, c).
         let bytes = [&[0xe1, 0xf0, 0x00][..], &[0; QUEUE]].concat();
         assert_eq!(triangles(&bytes, 6), Ok(vec![0, 1, 2, 0, 2, 3]));
         assert!(triangles(&bytes[..10], 6).is_err() && triangles(&bytes, 9).is_err());

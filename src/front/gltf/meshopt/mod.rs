@@ -1,7 +1,9 @@
-//! Buffer views compressed by meshoptimizer (`EXT_meshopt_compression`, appendix A, and its successor
-//! `KHR_meshopt_compression`): attributes, triangles and indices, with the filters on top.
+//! Buffer views compressed by meshoptimizer (`EXT_meshopt_compression`, appendix A, and its
+//! successor `KHR_meshopt_compression`): attributes, triangles and indices, with the filters on
+//! top.
 //!
-//! Every read is within the bytes given, and what is claimed is bounded by what so many bytes can stand for.
+//! Every read is within the bytes given, and what is claimed is bounded by what so many bytes can
+//! stand for.
 
 mod filter;
 mod index;
@@ -18,8 +20,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The most bytes that one compressed byte can stand for: a control byte that says of four channels of a block of 256
-/// elements that nothing changes.
+/// The most bytes that one compressed byte can stand for: a control byte that says of four channels
+/// of a block of 256 elements that nothing changes.
 const MAX_RATIO: usize = 1024;
 
 /// Why bytes are not what they should be.
@@ -32,7 +34,10 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn take(&mut self, count: usize) -> Result<&'a [u8], Fault> {
-        let (head, rest) = self.bytes.split_at_checked(count).ok_or("the data ends too early")?;
+        let (head, rest) = self
+            .bytes
+            .split_at_checked(count)
+            .ok_or("the data ends too early")?;
         self.bytes = rest;
         Ok(head)
     }
@@ -81,7 +86,13 @@ impl Claim {
             return Err("it claims more than so few bytes can stand for");
         }
         let text = |key| own.text(key).unwrap_or_default();
-        Ok(Self { bytes: stretch(bytes), count, stride, mode: text("mode"), filter: text("filter") })
+        Ok(Self {
+            bytes: stretch(bytes),
+            count,
+            stride,
+            mode: text("mode"),
+            filter: text("filter"),
+        })
     }
 
     /// Bytes that it takes to decode it: indices are decoded to four bytes each.
@@ -97,13 +108,22 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
     for index in 0..doc.views.len() {
         let fields = Fields::new(report.json, doc.views[index].at);
         let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
-        let Some(own) = names.iter().find_map(|name| fields.extension(name)) else { continue };
-        let Some(bytes) = source(doc, own) else { continue };
+        let Some(own) = names.iter().find_map(|name| fields.extension(name)) else {
+            continue;
+        };
+        let Some(bytes) = source(doc, own) else {
+            continue;
+        };
         let decoded = Claim::read(bytes, own).and_then(|claim| {
             if let Some(known) = made.get(&claim) {
                 return known.clone();
             }
-            if !report.charge(Resource::Memory, claim.memory(), own.at, "the compressed view") {
+            if !report.charge(
+                Resource::Memory,
+                claim.memory(),
+                own.at,
+                "the compressed view",
+            ) {
                 return Err("it asks for too much");
             }
             let decoded = decode(bytes, &claim).map(|decoded| Rc::new(Cow::Owned(decoded)));
@@ -118,18 +138,32 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
 }
 
 fn say(at: NodeId, fault: Fault, report: &mut Report<'_, '_>) {
-    report.say(&codes::GLTF_COMPRESSED, "", at, format!("the compressed view can't be read: {fault}"));
+    report.say(
+        &codes::GLTF_COMPRESSED,
+        "",
+        at,
+        format!("the compressed view can't be read: {fault}"),
+    );
 }
 
 /// The compressed bytes of a view.
 fn source<'d>(doc: &'d Document<'_>, own: Fields<'_, '_>) -> Option<&'d [u8]> {
     let buffer = doc.buffers.get(own.index("buffer")?)?;
     let offset = own.index("byteOffset").unwrap_or(0);
-    buffer.bytes.as_ref()?.get(offset..offset.checked_add(own.index("byteLength")?)?)
+    buffer
+        .bytes
+        .as_ref()?
+        .get(offset..offset.checked_add(own.index("byteLength")?)?)
 }
 
 fn decode(bytes: &[u8], claim: &Claim) -> Result<Vec<u8>, Fault> {
-    let Claim { bytes: _, count, stride, mode, filter } = claim;
+    let Claim {
+        bytes: _,
+        count,
+        stride,
+        mode,
+        filter,
+    } = claim;
     match mode.as_str() {
         "ATTRIBUTES" => {
             let mut decoded = vertex::decode(bytes, *count, *stride)?;
@@ -145,11 +179,18 @@ fn decode(bytes: &[u8], claim: &Claim) -> Result<Vec<u8>, Fault> {
 /// Indices as bytes, of two or four each.
 fn narrow(indices: &[u32], stride: usize) -> Result<Vec<u8>, Fault> {
     match stride {
-        4 => Ok(indices.iter().flat_map(|index| index.to_le_bytes()).collect()),
+        4 => Ok(indices
+            .iter()
+            .flat_map(|index| index.to_le_bytes())
+            .collect()),
         2 => {
-            let short = |index: &u32| u16::try_from(*index).map_err(|_| "an index has more than 16 bits");
+            let short =
+                |index: &u32| u16::try_from(*index).map_err(|_| "an index has more than 16 bits");
             let shorts: Result<Vec<u16>, Fault> = indices.iter().map(short).collect();
-            Ok(shorts?.iter().flat_map(|index| index.to_le_bytes()).collect())
+            Ok(shorts?
+                .iter()
+                .flat_map(|index| index.to_le_bytes())
+                .collect())
         }
         _ => Err("indices have two or four bytes"),
     }

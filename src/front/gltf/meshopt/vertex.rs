@@ -27,12 +27,26 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
         Some(0xa1) => 1,
         _ => return Err("the first byte is not that of attributes"),
     };
-    let tail = if version == 0 { stride } else { stride + stride / 4 };
+    let tail = if version == 0 {
+        stride
+    } else {
+        stride + stride / 4
+    };
     let padded = tail.max(if version == 0 { 32 } else { 24 });
-    let end = bytes.len().checked_sub(padded).filter(|end| *end >= 1).ok_or("the data ends too early")?;
+    let end = bytes
+        .len()
+        .checked_sub(padded)
+        .filter(|end| *end >= 1)
+        .ok_or("the data ends too early")?;
     let (baseline, channels) = bytes[bytes.len() - tail..].split_at(stride);
-    let channels = if version == 0 { vec![Channel::Bytes; stride / 4] } else { read_channels(channels)? };
-    let mut reader = Reader { bytes: &bytes[1..end] };
+    let channels = if version == 0 {
+        vec![Channel::Bytes; stride / 4]
+    } else {
+        read_channels(channels)?
+    };
+    let mut reader = Reader {
+        bytes: &bytes[1..end],
+    };
     let mut last = baseline.to_vec();
     let mut decoded = Vec::with_capacity(count * stride);
     let block = ((BLOCK_BYTES / stride) & !(GROUP - 1)).min(BLOCK_ELEMENTS);
@@ -42,7 +56,8 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
         read_block(&mut reader, version, (elements, stride), &mut deltas)?;
         for element in 0..elements {
             for (channel, mode) in channels.iter().enumerate() {
-                let delta = [0, 1, 2, 3].map(|byte| deltas[(4 * channel + byte) * BLOCK_ELEMENTS + element]);
+                let delta = [0, 1, 2, 3]
+                    .map(|byte| deltas[(4 * channel + byte) * BLOCK_ELEMENTS + element]);
                 let own = &mut last[4 * channel..4 * channel + 4];
                 let next = step(*mode, [own[0], own[1], own[2], own[3]], delta);
                 own.copy_from_slice(&next);
@@ -50,7 +65,11 @@ pub(super) fn decode(bytes: &[u8], count: usize, stride: usize) -> Result<Vec<u8
             decoded.extend_from_slice(&last);
         }
     }
-    if reader.bytes.is_empty() { Ok(decoded) } else { Err("something is left over at the end of the data") }
+    if reader.bytes.is_empty() {
+        Ok(decoded)
+    } else {
+        Err("something is left over at the end of the data")
+    }
 }
 
 fn read_channels(bytes: &[u8]) -> Result<Vec<Channel>, Fault> {
@@ -75,29 +94,38 @@ fn step(channel: Channel, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
         }
         Channel::Shorts => {
             let short = |at: usize| {
-                let delta = unzigzag(u32::from(u16::from_le_bytes([delta[at], delta[at + 1]]))).to_le_bytes();
+                let delta = unzigzag(u32::from(u16::from_le_bytes([delta[at], delta[at + 1]])))
+                    .to_le_bytes();
                 let last = u16::from_le_bytes([last[at], last[at + 1]]);
-                last.wrapping_add(u16::from_le_bytes([delta[0], delta[1]])).to_le_bytes()
+                last.wrapping_add(u16::from_le_bytes([delta[0], delta[1]]))
+                    .to_le_bytes()
             };
             let ([a, b], [c, d]) = (short(0), short(2));
             [a, b, c, d]
         }
-        Channel::Xor(rotation) => {
-            (u32::from_le_bytes(last) ^ u32::from_le_bytes(delta).rotate_right(rotation)).to_le_bytes()
-        }
+        Channel::Xor(rotation) => (u32::from_le_bytes(last)
+            ^ u32::from_le_bytes(delta).rotate_right(rotation))
+        .to_le_bytes(),
     }
 }
 
-/// Reads the differences of one block: for each byte of an element its own row of [`BLOCK_ELEMENTS`].
+/// Reads the differences of one block: for each byte of an element its own row of
+/// [`BLOCK_ELEMENTS`].
 fn read_block(
     reader: &mut Reader<'_>,
     version: u8,
     (elements, stride): (usize, usize),
     deltas: &mut [u8],
 ) -> Result<(), Fault> {
-    let controls = if version == 0 { &[][..] } else { reader.take(stride / 4)? };
+    let controls = if version == 0 {
+        &[][..]
+    } else {
+        reader.take(stride / 4)?
+    };
     for (byte, row) in deltas.chunks_exact_mut(BLOCK_ELEMENTS).enumerate() {
-        let control = controls.get(byte / 4).map(|bits| bits >> (2 * (byte % 4)) & 3);
+        let control = controls
+            .get(byte / 4)
+            .map(|bits| bits >> (2 * (byte % 4)) & 3);
         match control {
             None => read_row(reader, [0, 2, 4, 8], elements, row)?,
             Some(0) => read_row(reader, [0, 1, 2, 4], elements, row)?,
@@ -110,7 +138,12 @@ fn read_block(
 }
 
 /// Reads one row: two bits a group that choose among the widths, then the groups.
-fn read_row(reader: &mut Reader<'_>, widths: [usize; 4], elements: usize, row: &mut [u8]) -> Result<(), Fault> {
+fn read_row(
+    reader: &mut Reader<'_>,
+    widths: [usize; 4],
+    elements: usize,
+    row: &mut [u8],
+) -> Result<(), Fault> {
     let groups = elements.div_ceil(GROUP);
     let header = reader.take(groups.div_ceil(4))?;
     for (group, deltas) in row.chunks_exact_mut(GROUP).take(groups).enumerate() {
@@ -120,7 +153,8 @@ fn read_row(reader: &mut Reader<'_>, widths: [usize; 4], elements: usize, row: &
     Ok(())
 }
 
-/// Reads 16 differences of so many bits each; one with all bits set stands for a byte that follows the group.
+/// Reads 16 differences of so many bits each; one with all bits set stands for a byte that follows
+/// the group.
 fn read_group(reader: &mut Reader<'_>, width: usize, deltas: &mut [u8]) -> Result<(), Fault> {
     match width {
         0 => deltas.fill(0),
@@ -131,9 +165,17 @@ fn read_group(reader: &mut Reader<'_>, width: usize, deltas: &mut [u8]) -> Resul
             for (at, delta) in deltas.iter_mut().enumerate() {
                 let bit = at * width;
                 // Single bits run from the least significant on, wider ones from the most.
-                let shift = if width == 1 { bit % 8 } else { 8 - width - bit % 8 };
+                let shift = if width == 1 {
+                    bit % 8
+                } else {
+                    8 - width - bit % 8
+                };
                 let value = packed[bit / 8] >> shift & sentinel;
-                *delta = if value == sentinel { reader.byte()? } else { value };
+                *delta = if value == sentinel {
+                    reader.byte()?
+                } else {
+                    value
+                };
             }
         }
     }
@@ -150,7 +192,10 @@ mod tests {
         let (mut deltas, mut reader) = ([0; GROUP], Reader { bytes: &bytes });
         read_group(&mut reader, 4, &mut deltas).unwrap();
         let signed = deltas.map(|delta| unzigzag(u32::from(delta)).to_le_bytes()[0].cast_signed());
-        assert_eq!(signed, [-1, -4, -3, 26, -91, 0, -6, 6, -4, -4, 5, -5, 1, -1, 0, 0]);
+        assert_eq!(
+            signed,
+            [-1, -4, -3, 26, -91, 0, -6, 6, -4, -4, 5, -5, 1, -1, 0, 0]
+        );
     }
 
     #[test]

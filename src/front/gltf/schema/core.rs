@@ -1,12 +1,13 @@
 //! The objects of glTF 2.0 itself (specification, chapter 5).
 
 use super::Value::{
-    Attributes, Choice, Elements, Index, Indices, Many, Number, Numbers, One, Targets, Text, Texts, Truth, Version,
-    Whole, Word,
+    Attributes, Choice, Elements, Index, Indices, Many, Number, Numbers, One, Targets, Text, Texts,
+    Truth, Version, Whole, Word,
 };
 use super::{FACTOR, FREE, Key, Object, POSITIVE, Pool, SIGNED, UNIT, optional, required};
 
-/// The greatest number a property takes that has no other bound: up to it floats hold every whole number.
+/// The greatest number a property takes that has no other bound: up to it floats hold every whole
+/// number.
 const MANY: u64 = (1 << 53) - 1;
 const NAME: Key = optional("name", Text);
 
@@ -49,10 +50,16 @@ static ACCESSOR: Object = Object {
         NAME,
         optional("bufferView", Index(Pool::BufferViews)),
         optional("byteOffset", Whole(0, MANY)),
-        required("componentType", Choice(&[5120, 5121, 5122, 5123, 5125, 5126])),
+        required(
+            "componentType",
+            Choice(&[5120, 5121, 5122, 5123, 5125, 5126]),
+        ),
         optional("normalized", Truth),
         required("count", Whole(1, MANY)),
-        required("type", Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"])),
+        required(
+            "type",
+            Word(&["SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"]),
+        ),
         optional("min", Elements),
         optional("max", Elements),
         optional("sparse", One(&SPARSE)),
@@ -79,11 +86,20 @@ static SPARSE_INDICES: Object = Object {
 
 static SPARSE_VALUES: Object = Object {
     name: "sparse values",
-    keys: &[required("bufferView", Index(Pool::BufferViews)), optional("byteOffset", Whole(0, MANY))],
+    keys: &[
+        required("bufferView", Index(Pool::BufferViews)),
+        optional("byteOffset", Whole(0, MANY)),
+    ],
 };
 
-static BUFFER: Object =
-    Object { name: "buffer", keys: &[NAME, optional("uri", Text), required("byteLength", Whole(1, MANY))] };
+static BUFFER: Object = Object {
+    name: "buffer",
+    keys: &[
+        NAME,
+        optional("uri", Text),
+        required("byteLength", Whole(1, MANY)),
+    ],
+};
 
 static BUFFER_VIEW: Object = Object {
     name: "buffer view",
@@ -139,7 +155,11 @@ static IMAGE: Object = Object {
 
 static TEXTURE: Object = Object {
     name: "texture",
-    keys: &[NAME, optional("sampler", Index(Pool::Samplers)), optional("source", Index(Pool::Images))],
+    keys: &[
+        NAME,
+        optional("sampler", Index(Pool::Samplers)),
+        optional("source", Index(Pool::Images)),
+    ],
 };
 
 const WRAPS: super::Value = Choice(&[33071, 33648, 10497]);
@@ -157,7 +177,10 @@ static SAMPLER: Object = Object {
 
 pub(super) static TEXTURE_INFO: Object = Object {
     name: "texture info",
-    keys: &[required("index", Index(Pool::Textures)), optional("texCoord", Whole(0, MANY))],
+    keys: &[
+        required("index", Index(Pool::Textures)),
+        optional("texCoord", Whole(0, MANY)),
+    ],
 };
 
 pub(super) static NORMAL_TEXTURE: Object = Object {
@@ -206,7 +229,11 @@ static METALLIC_ROUGHNESS: Object = Object {
 
 static MESH: Object = Object {
     name: "mesh",
-    keys: &[NAME, required("primitives", Many(&PRIMITIVE)), optional("weights", Numbers(&[], FREE))],
+    keys: &[
+        NAME,
+        required("primitives", Many(&PRIMITIVE)),
+        optional("weights", Numbers(&[], FREE)),
+    ],
 };
 
 static PRIMITIVE: Object = Object {
@@ -236,7 +263,10 @@ static NODE: Object = Object {
     ],
 };
 
-static SCENE: Object = Object { name: "scene", keys: &[NAME, optional("nodes", Indices(Pool::Nodes))] };
+static SCENE: Object = Object {
+    name: "scene",
+    keys: &[NAME, optional("nodes", Indices(Pool::Nodes))],
+};
 
 static SKIN: Object = Object {
     name: "skin",
@@ -250,17 +280,29 @@ static SKIN: Object = Object {
 
 static ANIMATION: Object = Object {
     name: "animation",
-    keys: &[NAME, required("channels", Many(&CHANNEL)), required("samplers", Many(&ANIMATION_SAMPLER))],
+    keys: &[
+        NAME,
+        required("channels", Many(&CHANNEL)),
+        required("samplers", Many(&ANIMATION_SAMPLER)),
+    ],
 };
 
-static CHANNEL: Object =
-    Object { name: "channel", keys: &[required("sampler", Index(Pool::Own)), required("target", One(&TARGET))] };
+static CHANNEL: Object = Object {
+    name: "channel",
+    keys: &[
+        required("sampler", Index(Pool::Own)),
+        required("target", One(&TARGET)),
+    ],
+};
 
 static TARGET: Object = Object {
     name: "channel target",
     keys: &[
         optional("node", Index(Pool::Nodes)),
-        required("path", Word(&["translation", "rotation", "scale", "weights", "pointer"])),
+        required(
+            "path",
+            Word(&["translation", "rotation", "scale", "weights", "pointer"]),
+        ),
     ],
 };
 

@@ -1,6 +1,9 @@
-//! The extensions that are known: where their objects stand, what is in them, and whether they can be required.
+//! The extensions that are known: where their objects stand, what is in them, and whether they can
+//! be required.
 
-use super::Value::{Attributes, Index, Indices, Many, Number, Numbers, One, Pointer, Text, Truth, Whole, Word};
+use super::Value::{
+    Attributes, Index, Indices, Many, Number, Numbers, One, Pointer, Text, Truth, Whole, Word,
+};
 use super::core::{NORMAL_TEXTURE, TEXTURE_INFO};
 use super::{Bounds, FACTOR, FREE, Key, Object, POSITIVE, Pool, UNIT, optional, required};
 
@@ -24,44 +27,87 @@ pub(in super::super) fn is_supported(name: &str) -> bool {
     find(name).is_some_and(|extension| extension.supported)
 }
 
-const RIGHT_ANGLE: Bounds = Bounds { min: 0.0, max: std::f64::consts::FRAC_PI_2, above: false };
-const FROM_ONE: Bounds = Bounds { min: 1.0, max: f64::INFINITY, above: false };
+const RIGHT_ANGLE: Bounds = Bounds {
+    min: 0.0,
+    max: std::f64::consts::FRAC_PI_2,
+    above: false,
+};
+const FROM_ONE: Bounds = Bounds {
+    min: 1.0,
+    max: f64::INFINITY,
+    above: false,
+};
 const MANY: u64 = (1 << 53) - 1;
 
 /// An extension whose objects stand in one kind of object.
-const fn known(name: &'static str, places: &'static [(&'static str, &'static Object)]) -> Extension {
-    Extension { name, places, supported: true }
+const fn known(
+    name: &'static str,
+    places: &'static [(&'static str, &'static Object)],
+) -> Extension {
+    Extension {
+        name,
+        places,
+        supported: true,
+    }
 }
 
 static EXTENSIONS: &[Extension] = &[
     known("EXT_mesh_gpu_instancing", &[("node", &INSTANCING)]),
-    known("EXT_meshopt_compression", &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)]),
+    known(
+        "EXT_meshopt_compression",
+        &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
+    ),
     known("EXT_texture_webp", &[("texture", &SOURCE)]),
-    Extension { name: "KHR_animation_pointer", places: &[("channel target", &ANIMATION_POINTER)], supported: false },
+    Extension {
+        name: "KHR_animation_pointer",
+        places: &[("channel target", &ANIMATION_POINTER)],
+        supported: false,
+    },
     known("KHR_draco_mesh_compression", &[("primitive", &DRACO)]),
-    known("KHR_lights_punctual", &[("asset", &LIGHTS), ("node", &LIGHT_REFERENCE)]),
+    known(
+        "KHR_lights_punctual",
+        &[("asset", &LIGHTS), ("node", &LIGHT_REFERENCE)],
+    ),
     known("KHR_materials_anisotropy", &[("material", &ANISOTROPY)]),
     known("KHR_materials_clearcoat", &[("material", &CLEARCOAT)]),
     known("KHR_materials_dispersion", &[("material", &DISPERSION)]),
-    known("KHR_materials_emissive_strength", &[("material", &EMISSIVE_STRENGTH)]),
+    known(
+        "KHR_materials_emissive_strength",
+        &[("material", &EMISSIVE_STRENGTH)],
+    ),
     known("KHR_materials_ior", &[("material", &IOR)]),
     known("KHR_materials_iridescence", &[("material", &IRIDESCENCE)]),
-    known("KHR_materials_pbrSpecularGlossiness", &[("material", &SPECULAR_GLOSSINESS)]),
+    known(
+        "KHR_materials_pbrSpecularGlossiness",
+        &[("material", &SPECULAR_GLOSSINESS)],
+    ),
     known("KHR_materials_sheen", &[("material", &SHEEN)]),
     known("KHR_materials_specular", &[("material", &SPECULAR)]),
     known("KHR_materials_transmission", &[("material", &TRANSMISSION)]),
     known("KHR_materials_unlit", &[("material", &UNLIT)]),
-    known("KHR_materials_variants", &[("asset", &VARIANTS), ("primitive", &VARIANT_MAPPINGS)]),
+    known(
+        "KHR_materials_variants",
+        &[("asset", &VARIANTS), ("primitive", &VARIANT_MAPPINGS)],
+    ),
     known("KHR_materials_volume", &[("material", &VOLUME)]),
     known("KHR_mesh_quantization", &[]),
-    known("KHR_meshopt_compression", &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)]),
+    known(
+        "KHR_meshopt_compression",
+        &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
+    ),
     known("KHR_node_visibility", &[("node", &VISIBILITY)]),
-    known("KHR_texture_transform", &[("texture info", &TEXTURE_TRANSFORM)]),
+    known(
+        "KHR_texture_transform",
+        &[("texture info", &TEXTURE_TRANSFORM)],
+    ),
 ];
 
 /// An extension object with these properties.
 const fn object(keys: &'static [Key]) -> Object {
-    Object { name: "extension", keys }
+    Object {
+        name: "extension",
+        keys,
+    }
 }
 
 static INSTANCING: Object = object(&[required("attributes", Attributes)]);
@@ -72,12 +118,18 @@ static MESHOPT: Object = object(&[
     required("byteStride", Whole(2, 256)),
     required("count", Whole(1, MANY)),
     required("mode", Word(&["ATTRIBUTES", "TRIANGLES", "INDICES"])),
-    optional("filter", Word(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"])),
+    optional(
+        "filter",
+        Word(&["NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"]),
+    ),
 ]);
 static FALLBACK: Object = object(&[optional("fallback", Truth)]);
 static SOURCE: Object = object(&[optional("source", Index(Pool::Images))]);
 static ANIMATION_POINTER: Object = object(&[required("pointer", Pointer)]);
-static DRACO: Object = object(&[required("bufferView", Index(Pool::BufferViews)), required("attributes", Attributes)]);
+static DRACO: Object = object(&[
+    required("bufferView", Index(Pool::BufferViews)),
+    required("attributes", Attributes),
+]);
 static LIGHTS: Object = object(&[required("lights", Many(&LIGHT))]);
 static LIGHT_REFERENCE: Object = object(&[required("light", Index(Pool::Lights))]);
 static LIGHT: Object = Object {
@@ -93,7 +145,10 @@ static LIGHT: Object = Object {
 };
 static SPOT: Object = Object {
     name: "spot",
-    keys: &[optional("innerConeAngle", Number(RIGHT_ANGLE)), optional("outerConeAngle", Number(RIGHT_ANGLE))],
+    keys: &[
+        optional("innerConeAngle", Number(RIGHT_ANGLE)),
+        optional("outerConeAngle", Number(RIGHT_ANGLE)),
+    ],
 };
 static ANISOTROPY: Object = object(&[
     optional("anisotropyStrength", Number(UNIT)),
@@ -137,11 +192,16 @@ static SPECULAR: Object = object(&[
     optional("specularColorFactor", Numbers(&[3], FACTOR)),
     optional("specularColorTexture", One(&TEXTURE_INFO)),
 ]);
-static TRANSMISSION: Object =
-    object(&[optional("transmissionFactor", Number(UNIT)), optional("transmissionTexture", One(&TEXTURE_INFO))]);
+static TRANSMISSION: Object = object(&[
+    optional("transmissionFactor", Number(UNIT)),
+    optional("transmissionTexture", One(&TEXTURE_INFO)),
+]);
 static UNLIT: Object = object(&[]);
 static VARIANTS: Object = object(&[required("variants", Many(&VARIANT))]);
-static VARIANT: Object = Object { name: "variant", keys: &[required("name", Text)] };
+static VARIANT: Object = Object {
+    name: "variant",
+    keys: &[required("name", Text)],
+};
 static VARIANT_MAPPINGS: Object = object(&[required("mappings", Many(&MAPPING))]);
 static MAPPING: Object = Object {
     name: "mapping",

@@ -1,4 +1,5 @@
-//! What glTF 2.0 lays down about the JSON alone: tables of objects and their properties, and the walk that checks them.
+//! What glTF 2.0 lays down about the JSON alone: tables of objects and their properties, and the
+//! walk that checks them.
 
 mod core;
 mod extension;
@@ -26,11 +27,19 @@ struct Key {
 }
 
 const fn required(name: &'static str, value: Value) -> Key {
-    Key { name, value, required: true }
+    Key {
+        name,
+        value,
+        required: true,
+    }
 }
 
 const fn optional(name: &'static str, value: Value) -> Key {
-    Key { name, value, required: false }
+    Key {
+        name,
+        value,
+        required: false,
+    }
 }
 
 /// What a property takes.
@@ -76,11 +85,31 @@ struct Bounds {
     above: bool,
 }
 
-const FREE: Bounds = Bounds { min: f64::NEG_INFINITY, max: f64::INFINITY, above: false };
-const UNIT: Bounds = Bounds { min: 0.0, max: 1.0, above: false };
-const SIGNED: Bounds = Bounds { min: -1.0, max: 1.0, above: false };
-const FACTOR: Bounds = Bounds { min: 0.0, max: f64::INFINITY, above: false };
-const POSITIVE: Bounds = Bounds { min: 0.0, max: f64::INFINITY, above: true };
+const FREE: Bounds = Bounds {
+    min: f64::NEG_INFINITY,
+    max: f64::INFINITY,
+    above: false,
+};
+const UNIT: Bounds = Bounds {
+    min: 0.0,
+    max: 1.0,
+    above: false,
+};
+const SIGNED: Bounds = Bounds {
+    min: -1.0,
+    max: 1.0,
+    above: false,
+};
+const FACTOR: Bounds = Bounds {
+    min: 0.0,
+    max: f64::INFINITY,
+    above: false,
+};
+const POSITIVE: Bounds = Bounds {
+    min: 0.0,
+    max: f64::INFINITY,
+    above: true,
+};
 
 /// The lists that references count in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,6 +146,12 @@ const POOLS: [(Pool, &[&str]); 14] = [
     (Pool::Scenes, &["scenes"]),
     (Pool::Skins, &["skins"]),
     (Pool::Textures, &["textures"]),
-    (Pool::Lights, &["extensions", "KHR_lights_punctual", "lights"]),
-    (Pool::Variants, &["extensions", "KHR_materials_variants", "variants"]),
+    (
+        Pool::Lights,
+        &["extensions", "KHR_lights_punctual", "lights"],
+    ),
+    (
+        Pool::Variants,
+        &["extensions", "KHR_materials_variants", "variants"],
+    ),
 ];

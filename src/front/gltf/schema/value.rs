@@ -30,10 +30,17 @@ impl Walk<'_, '_, '_> {
             Value::Indices(pool) => {
                 let mut seen = BTreeSet::new();
                 for item in self.items(node, name) {
-                    let Some(index) = self.item_index(item, name) else { continue };
+                    let Some(index) = self.item_index(item, name) else {
+                        continue;
+                    };
                     if !seen.insert(index) {
                         let message = format!("`{name}` holds {index} twice");
-                        self.report.say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
+                        self.report.say(
+                            &codes::GLTF_DUPLICATE,
+                            "DUPLICATE_ELEMENTS",
+                            item,
+                            message,
+                        );
                     }
                     self.follow(item, *pool, index);
                 }
@@ -54,8 +61,11 @@ impl Walk<'_, '_, '_> {
             Value::Many(object) => {
                 let is_root = self.report.json.parent(node) == self.report.json.root();
                 for item in self.items(node, name) {
-                    let is_object =
-                        if is_root { self.expect(item, Kind::Map, name) } else { self.element(item, Kind::Map, name) };
+                    let is_object = if is_root {
+                        self.expect(item, Kind::Map, name)
+                    } else {
+                        self.element(item, Kind::Map, name)
+                    };
                     if is_object {
                         self.open.push((item, object));
                     }
@@ -66,7 +76,11 @@ impl Walk<'_, '_, '_> {
 
     /// The items of a list.
     fn list(&mut self, node: NodeId, name: &str) -> Vec<NodeId> {
-        if self.expect(node, Kind::List, name) { self.report.json.items(node).collect() } else { Vec::new() }
+        if self.expect(node, Kind::List, name) {
+            self.report.json.items(node).collect()
+        } else {
+            Vec::new()
+        }
     }
 
     /// The items of a list that is not empty.
@@ -80,21 +94,36 @@ impl Walk<'_, '_, '_> {
 
     fn not_empty(&mut self, node: NodeId, count: usize, name: &str) {
         if count == 0 {
-            self.report.say(&codes::GLTF_EMPTY, "EMPTY_ENTITY", node, format!("`{name}` is empty"));
+            self.report.say(
+                &codes::GLTF_EMPTY,
+                "EMPTY_ENTITY",
+                node,
+                format!("`{name}` is empty"),
+            );
         }
     }
 
     fn word(&mut self, node: NodeId, words: &[&str], name: &str) {
-        if self.expect(node, Kind::Text, name) && !words.iter().any(|word| self.report.json.is(node, word)) {
-            let message = format!("`{name}` is {}, none of {}", self.report.shown(node), words.join(", "));
-            self.report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+        if self.expect(node, Kind::Text, name)
+            && !words.iter().any(|word| self.report.json.is(node, word))
+        {
+            let message = format!(
+                "`{name}` is {}, none of {}",
+                self.report.shown(node),
+                words.join(", ")
+            );
+            self.report
+                .say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
         }
     }
 
     fn pattern(&mut self, node: NodeId, fits: fn(&str) -> bool, what: &str, name: &str) {
-        if self.expect(node, Kind::Text, name) && !fits(&self.report.json.text(node).unwrap_or_default()) {
+        if self.expect(node, Kind::Text, name)
+            && !fits(&self.report.json.text(node).unwrap_or_default())
+        {
             let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
-            self.report.say(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
+            self.report
+                .say(&codes::GLTF_VALUE, "PATTERN_MISMATCH", node, message);
         }
     }
 
@@ -105,29 +134,46 @@ impl Walk<'_, '_, '_> {
         }
         let number = self.report.json.number(node)?;
         if number.fract() != 0.0 {
-            let message = format!("`{name}` is {}, not a whole number", self.report.shown(node));
-            self.report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
+            let message = format!(
+                "`{name}` is {}, not a whole number",
+                self.report.shown(node)
+            );
+            self.report
+                .say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
             return None;
         }
         Some(self.report.json.whole(node))
     }
 
     fn whole(&mut self, node: NodeId, min: u64, max: u64, name: &str) {
-        let Some(number) = self.integer(node, name) else { return };
+        let Some(number) = self.integer(node, name) else {
+            return;
+        };
         if !number.is_some_and(|number| (min..=max).contains(&number)) {
             let least = format!("`{name}` is {}, not {min}", self.report.shown(node));
-            let message =
-                if max < 1 << 53 && max > 1 << 32 { format!("{least} or more") } else { format!("{least} to {max}") };
-            self.report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+            let message = if max < 1 << 53 && max > 1 << 32 {
+                format!("{least} or more")
+            } else {
+                format!("{least} to {max}")
+            };
+            self.report
+                .say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
         }
     }
 
     fn choice(&mut self, node: NodeId, choices: &[u64], name: &str) {
-        let Some(number) = self.integer(node, name) else { return };
+        let Some(number) = self.integer(node, name) else {
+            return;
+        };
         if !number.is_some_and(|number| choices.contains(&number)) {
             let choices: Vec<String> = choices.iter().map(u64::to_string).collect();
-            let message = format!("`{name}` is {}, none of {}", self.report.shown(node), choices.join(", "));
-            self.report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
+            let message = format!(
+                "`{name}` is {}, none of {}",
+                self.report.shown(node),
+                choices.join(", ")
+            );
+            self.report
+                .say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", node, message);
         }
     }
 
@@ -135,7 +181,8 @@ impl Walk<'_, '_, '_> {
         let number = self.integer(node, name)?;
         if number.is_none() {
             let message = format!("`{name}` is {}, not an index", self.report.shown(node));
-            self.report.say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+            self.report
+                .say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
         }
         number
     }
@@ -144,8 +191,12 @@ impl Walk<'_, '_, '_> {
     fn item_index(&mut self, node: NodeId, name: &str) -> Option<u64> {
         let number = self.report.json.whole(node);
         if number.is_none() {
-            let message = format!("`{name}` holds {}, which is no index", self.report.shown(node));
-            self.report.say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
+            let message = format!(
+                "`{name}` holds {}, which is no index",
+                self.report.shown(node)
+            );
+            self.report
+                .say(&codes::GLTF_TYPE, "INVALID_INDEX", node, message);
         }
         number
     }
@@ -158,8 +209,11 @@ impl Walk<'_, '_, '_> {
 
     fn bounded(&mut self, node: NodeId, bounds: Bounds, name: &str) {
         let Bounds { min, max, above } = bounds;
-        let Some(number) = self.report.json.number(node) else { return };
-        let inside = number.is_finite() && number <= max && if above { number > min } else { number >= min };
+        let Some(number) = self.report.json.number(node) else {
+            return;
+        };
+        let inside =
+            number.is_finite() && number <= max && if above { number > min } else { number >= min };
         if !inside {
             let range = match (above, max.is_finite()) {
                 (_, true) => format!("{min} to {max}"),
@@ -168,7 +222,8 @@ impl Walk<'_, '_, '_> {
                 (false, false) => "finite".to_owned(),
             };
             let message = format!("`{name}` is {}, not {range}", self.report.shown(node));
-            self.report.say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
+            self.report
+                .say(&codes::GLTF_VALUE, "VALUE_NOT_IN_RANGE", node, message);
         }
     }
 
@@ -181,8 +236,17 @@ impl Walk<'_, '_, '_> {
             self.not_empty(node, items.len(), name);
         } else if !lengths.contains(&items.len()) {
             let lengths: Vec<String> = lengths.iter().map(usize::to_string).collect();
-            let message = format!("`{name}` has {} numbers, not {}", items.len(), lengths.join(" or "));
-            self.report.say(&codes::GLTF_VALUE, "ARRAY_LENGTH_NOT_IN_LIST", node, message);
+            let message = format!(
+                "`{name}` has {} numbers, not {}",
+                items.len(),
+                lengths.join(" or ")
+            );
+            self.report.say(
+                &codes::GLTF_VALUE,
+                "ARRAY_LENGTH_NOT_IN_LIST",
+                node,
+                message,
+            );
         }
         for item in items {
             if self.element(item, Kind::Number, name) {
@@ -195,8 +259,13 @@ impl Walk<'_, '_, '_> {
     fn element(&mut self, node: NodeId, kind: Kind, name: &str) -> bool {
         let found = self.report.json.kind(node);
         if found != kind {
-            let message = format!("an element of `{name}` is {}, not {}", found.name(), kind.name());
-            self.report.say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", node, message);
+            let message = format!(
+                "an element of `{name}` is {}, not {}",
+                found.name(),
+                kind.name()
+            );
+            self.report
+                .say(&codes::GLTF_TYPE, "ARRAY_TYPE_MISMATCH", node, message);
         }
         found == kind
     }
@@ -209,7 +278,8 @@ impl Walk<'_, '_, '_> {
                 && !seen.insert(text)
             {
                 let message = format!("`{name}` holds {} twice", self.report.shown(item));
-                self.report.say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
+                self.report
+                    .say(&codes::GLTF_DUPLICATE, "DUPLICATE_ELEMENTS", item, message);
             }
         }
     }
@@ -236,11 +306,15 @@ impl Walk<'_, '_, '_> {
 
 fn is_version(text: &str) -> bool {
     let is_number = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
-    text.split_once('.').is_some_and(|(major, minor)| is_number(major) && is_number(minor))
+    text.split_once('.')
+        .is_some_and(|(major, minor)| is_number(major) && is_number(minor))
 }
 
 /// RFC 6901.
 fn is_pointer(text: &str) -> bool {
-    let escapes = text.split('~').skip(1).all(|rest| rest.starts_with(['0', '1']));
+    let escapes = text
+        .split('~')
+        .skip(1)
+        .all(|rest| rest.starts_with(['0', '1']));
     (text.is_empty() || text.starts_with('/')) && escapes
 }

@@ -1,4 +1,5 @@
-//! The walk over the JSON of an asset: each object against its table, each extension where it may stand.
+//! The walk over the JSON of an asset: each object against its table, each extension where it may
+//! stand.
 
 use super::core::ROOT;
 use super::{Key, Object, POOLS, Pool, extension};
@@ -10,8 +11,8 @@ use std::collections::BTreeSet;
 /// The properties of an asset that say what the others are.
 const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
-/// Checks the shape of the whole asset, and that its references lead somewhere; only of its header if the rest `is_known`
-/// not.
+/// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
+/// if the rest `is_known` not.
 pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
     let root = report.json.root();
     if report.json.kind(root) != Kind::Map {
@@ -20,15 +21,32 @@ pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
         return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
     }
     let json = report.json;
-    let declared = json.list(root, "extensionsUsed").filter_map(|item| json.text(item));
+    let declared = json
+        .list(root, "extensionsUsed")
+        .filter_map(|item| json.text(item));
     let declared = declared.map(std::borrow::Cow::into_owned).collect();
-    let slot = |item| if json.kind(item) == Kind::Map { Slot::Unused } else { Slot::NoPart };
+    let slot = |item| {
+        if json.kind(item) == Kind::Map {
+            Slot::Unused
+        } else {
+            Slot::NoPart
+        }
+    };
     let slots = POOLS.map(|(_, way)| {
-        let list = json.at(root, way).filter(|list| json.kind(*list) == Kind::List);
+        let list = json
+            .at(root, way)
+            .filter(|list| json.kind(*list) == Kind::List);
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
     let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
-    let mut walk = Walk { report, declared, slots, present, is_known, open: vec![(root, &ROOT)] };
+    let mut walk = Walk {
+        report,
+        declared,
+        slots,
+        present,
+        is_known,
+        open: vec![(root, &ROOT)],
+    };
     while let Some((node, object)) = walk.open.pop() {
         walk.object(node, object);
     }
@@ -68,7 +86,10 @@ impl Walk<'_, '_, '_> {
         for (name, value) in json.pairs(node) {
             let known = object.keys.iter().position(|key| json.is(name, key.name));
             let is_common = json.is(name, "extensions") || json.is(name, "extras");
-            if is_header && (known.is_some() || is_common) && !HEADER.iter().any(|key| json.is(name, key)) {
+            if is_header
+                && (known.is_some() || is_common)
+                && !HEADER.iter().any(|key| json.is(name, key))
+            {
                 continue;
             }
             if json.is(name, "extensions") {
@@ -85,12 +106,22 @@ impl Walk<'_, '_, '_> {
         self.missing(node, object, seen);
     }
 
-    /// Reports the properties that an object needs and has not; `seen` has a bit for each that it has.
+    /// Reports the properties that an object needs and has not; `seen` has a bit for each that it
+    /// has.
     fn missing(&mut self, node: NodeId, object: &'static Object, seen: u32) {
-        for (at, Key { name, value: _, required }) in object.keys.iter().enumerate() {
+        for (
+            at,
+            Key {
+                name,
+                value: _,
+                required,
+            },
+        ) in object.keys.iter().enumerate()
+        {
             if *required && seen & (1 << at) == 0 {
                 let message = format!("the {} has no `{name}`", object.name);
-                self.report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", node, message);
+                self.report
+                    .say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", node, message);
             }
         }
     }
@@ -98,13 +129,15 @@ impl Walk<'_, '_, '_> {
     fn unknown(&mut self, name: NodeId, object: &'static Object) {
         let written = self.report.json.text(name).unwrap_or_default();
         let message = format!("the {} has no property `{}`", object.name, shown(&written));
-        self.report.say(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
+        self.report
+            .say(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
 
     fn extras(&mut self, value: NodeId) {
         if ![Kind::Map, Kind::Null].contains(&self.report.json.kind(value)) {
             let message = "extras are best an object".to_owned();
-            self.report.say(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
+            self.report
+                .say(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
         }
     }
 
@@ -117,12 +150,25 @@ impl Walk<'_, '_, '_> {
             let name = json.text(key).unwrap_or_default();
             let is_object = self.expect(value, Kind::Map, &name);
             if !self.declared.contains(&*name) {
-                let message = format!("the extension `{}` is not listed in `extensionsUsed`", shown(&name));
-                self.report.say(&codes::GLTF_EXTENSION, "UNDECLARED_EXTENSION", value, message);
+                let message = format!(
+                    "the extension `{}` is not listed in `extensionsUsed`",
+                    shown(&name)
+                );
+                self.report.say(
+                    &codes::GLTF_EXTENSION,
+                    "UNDECLARED_EXTENSION",
+                    value,
+                    message,
+                );
                 continue;
             }
-            let Some(extension) = extension::find(&name) else { continue };
-            let place = extension.places.iter().find(|(place, _)| *place == owner.name);
+            let Some(extension) = extension::find(&name) else {
+                continue;
+            };
+            let place = extension
+                .places
+                .iter()
+                .find(|(place, _)| *place == owner.name);
             if place.is_some() {
                 self.has_root(&name, value, owner);
             }
@@ -130,19 +176,33 @@ impl Walk<'_, '_, '_> {
                 Some((_, object)) if is_object => self.open.push((value, object)),
                 Some((_, object)) => self.missing(value, object, 0),
                 None => {
-                    let message = format!("the extension `{name}` means nothing in a {}", owner.name);
-                    self.report.say(&codes::GLTF_EXTENSION, "UNEXPECTED_EXTENSION_OBJECT", value, message);
+                    let message =
+                        format!("the extension `{name}` means nothing in a {}", owner.name);
+                    self.report.say(
+                        &codes::GLTF_EXTENSION,
+                        "UNEXPECTED_EXTENSION_OBJECT",
+                        value,
+                        message,
+                    );
                 }
             }
         }
     }
 
-    /// What an extension says of a part leans on what it says of the asset, if it says anything there.
+    /// What an extension says of a part leans on what it says of the asset, if it says anything
+    /// there.
     fn has_root(&mut self, name: &str, value: NodeId, owner: &Object) {
-        let pool = POOLS.iter().position(|(_, way)| way.len() > 1 && way[1] == name);
+        let pool = POOLS
+            .iter()
+            .position(|(_, way)| way.len() > 1 && way[1] == name);
         if owner.name != ROOT.name && pool.is_some_and(|pool| !self.present[pool]) {
             let message = format!("this refers to `{name}` of the asset, which has none");
-            self.report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", value, message);
+            self.report.say(
+                &codes::GLTF_TOGETHER,
+                "UNSATISFIED_DEPENDENCY",
+                value,
+                message,
+            );
         }
     }
 
@@ -151,28 +211,47 @@ impl Walk<'_, '_, '_> {
         let found = self.report.json.kind(node);
         if found != kind {
             let message = format!("`{}` is {}, not {}", shown(name), found.name(), kind.name());
-            self.report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
+            self.report
+                .say(&codes::GLTF_TYPE, "TYPE_MISMATCH", node, message);
         }
         found == kind
     }
 
     /// Follows the reference at `node` to the `index` in `pool`.
     pub(super) fn follow(&mut self, node: NodeId, pool: Pool, index: u64) {
-        let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else { return };
+        let Some(at) = POOLS.iter().position(|(own, _)| *own == pool) else {
+            return;
+        };
         let way = POOLS[at].1;
         if !self.present[at] {
             return;
         }
         let (count, pool) = (self.slots[at].len(), way[way.len() - 1]);
-        match usize::try_from(index).ok().and_then(|index| self.slots[at].get_mut(index)) {
+        match usize::try_from(index)
+            .ok()
+            .and_then(|index| self.slots[at].get_mut(index))
+        {
             Some(slot @ (Slot::Unused | Slot::Used)) => *slot = Slot::Used,
             Some(Slot::NoPart) => {
                 let message = format!("what is {index} in `{pool}` is no object");
-                self.report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", node, message);
+                self.report.say(
+                    &codes::GLTF_REFERENCE,
+                    "UNRESOLVED_REFERENCE",
+                    node,
+                    message,
+                );
             }
             None => {
-                let message = format!("there is no {index} in `{pool}`, which {}", count_words(count));
-                self.report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", node, message);
+                let message = format!(
+                    "there is no {index} in `{pool}`, which {}",
+                    count_words(count)
+                );
+                self.report.say(
+                    &codes::GLTF_REFERENCE,
+                    "UNRESOLVED_REFERENCE",
+                    node,
+                    message,
+                );
             }
         }
     }
@@ -181,12 +260,20 @@ impl Walk<'_, '_, '_> {
     fn tell_unused(&mut self) {
         let json = self.report.json;
         for ((pool, way), slots) in POOLS.iter().zip(&self.slots) {
-            if matches!(pool, Pool::Nodes | Pool::Scenes | Pool::Lights | Pool::Variants) {
+            if matches!(
+                pool,
+                Pool::Nodes | Pool::Scenes | Pool::Lights | Pool::Variants
+            ) {
                 continue;
             }
             let unused = |(_, slot): &(NodeId, &Slot)| **slot == Slot::Unused;
             for (node, _) in json.list(json.root(), way[0]).zip(slots).filter(unused) {
-                self.report.say(&codes::GLTF_REMARK, "UNUSED_OBJECT", node, "nothing refers to this");
+                self.report.say(
+                    &codes::GLTF_REMARK,
+                    "UNUSED_OBJECT",
+                    node,
+                    "nothing refers to this",
+                );
             }
         }
     }
