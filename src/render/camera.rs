@@ -1,8 +1,8 @@
 //! Rays of the camera: sub-samples of pixels, and points of the lens.
 
-use super::ray::Ray;
-use super::sampler::Key;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
+use crate::render::ray::Ray;
+use crate::render::sampler::Key;
 use crate::valid::{Camera, Lens, Projection};
 
 /// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1]
@@ -27,7 +27,7 @@ pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
 /// The ray through a point of the image from a point of the lens: of an orthographic camera all of
 /// them run side by side.
 #[must_use]
-pub(super) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
+pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
     match camera.projection {
         Projection::Perspective => camera_ray(lens_point, image_point),
         Projection::Orthographic => {
@@ -38,7 +38,7 @@ pub(super) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) 
 
 /// How many points of the lens a sub-sample takes: one where all points are the same.
 #[must_use]
-pub(super) fn lens_samples(lens: &Lens) -> u32 {
+pub(in crate::render) fn lens_samples(lens: &Lens) -> u32 {
     if lens.radius.get() == 0.0 {
         1
     } else {
@@ -58,7 +58,7 @@ pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
 
 /// How a spiral is turned, and how far its points are pushed outwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Twist {
+pub(in crate::render) struct Twist {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
     /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is
@@ -75,7 +75,7 @@ impl Twist {
 
     /// The twist of a sub-sample; that of seed 0 is none.
     #[must_use]
-    pub(super) fn new(seed: u64, key: Key) -> Self {
+    pub(in crate::render) fn new(seed: u64, key: Key) -> Self {
         if seed == 0 {
             return Self::NONE;
         }
@@ -98,7 +98,7 @@ const LENS: u64 = u64::MAX - 1;
 
 /// The origin of a ray for a place in the unit square: uniform over the lens if that is.
 #[must_use]
-pub(super) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
+pub(in crate::render) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let radius = camera.lens.radius.get();
@@ -117,7 +117,7 @@ pub(super) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
 
 /// The origin of ray k of a sub-sample.
 #[must_use]
-pub(super) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {
+pub(in crate::render) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {
     let n = lens_samples(&camera.lens);
     if n == 1 && twist == Twist::NONE {
         return camera.eye;

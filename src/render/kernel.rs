@@ -1,11 +1,11 @@
 //! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
 
-use super::film::{Film, Job};
-use super::geometry::Geometry;
-use super::heartbeat::Proceed;
-use super::path::Strategy;
-use super::world::World;
 use crate::plan::Features;
+use crate::render::film::heartbeat::Proceed;
+use crate::render::film::{Film, Job};
+use crate::render::integrator::path::Strategy;
+use crate::render::shape::geometry::Geometry;
+use crate::render::world::World;
 use crate::valid::Mode;
 
 /// An integrator compiled for a set of features.
@@ -58,7 +58,7 @@ pub fn choose(needed: Features) -> usize {
 
 /// As [`choose`], among the few.
 #[must_use]
-pub(super) fn choose_of_few(needed: Features) -> usize {
+pub(in crate::render) fn choose_of_few(needed: Features) -> usize {
     smallest(FEW, needed)
 }
 
@@ -83,10 +83,10 @@ macro_rules! dispatch {
         $world.$method::<{ $crate::render::kernel::KERNELS[$index].features.0 }>($($argument),*)
     };
 }
-pub(super) use dispatch;
+pub(in crate::render) use dispatch;
 
 impl<S: Geometry> World<S> {
-    /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
+    /// Renders on the threads of the current pool; see [`crate::render::AnyWorld::render`].
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {

@@ -39,7 +39,7 @@ impl Ray {
     /// times as far as the surface is large, rounding may leave that no length: then the
     /// surface faces the ray.
     #[must_use]
-    pub(super) fn outward(&self, out: Vec3) -> Vec3 {
+    pub(in crate::render) fn outward(&self, out: Vec3) -> Vec3 {
         out.normalize_or(-self.direction.normalize())
     }
 }

@@ -11,6 +11,7 @@ mod compensation;
 mod fresnel;
 mod ggx;
 mod microfacet;
+pub(in crate::render) mod optics;
 mod sheen;
 mod standard;
 mod thin_film;

@@ -1,0 +1,239 @@
+//! The film: a picture, and the rays it took.
+
+pub(in crate::render) mod heartbeat;
+
+use crate::image::Image;
+use crate::render::sampler::mix;
+use std::num::NonZeroU32;
+use std::ops::Range;
+
+/// What to render of a world.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Job {
+    /// The part of the picture wanted, or all of it; what lies outside the picture is cut off.
+    pub crop: Option<Crop>,
+    /// Which values the film holds.
+    pub values: Values,
+    /// Tiles the render keeps to; pixels elsewhere stay black.
+    pub tiles: Option<Tiles>,
+    /// Where sampling starts.
+    pub seeds: Seeds,
+    /// Which pixels are rendered; the others stay black.
+    pub stride: Stride,
+    /// What is seen past all surfaces.
+    pub behind: Behind,
+}
+
+impl Job {
+    /// The columns out of `xs` that are rendered of a row.
+    pub(in crate::render) fn columns(&self, y: u32, xs: Range<u32>) -> impl Iterator<Item = u32> {
+        let (tiles, stride, from) = (self.tiles, self.stride.get(), xs.start);
+        let wanted =
+            move |tile: &u32| tiles.is_none_or(|tiles| tiles.contain([tile * Tiles::SIDE, y]));
+        let runs = (xs.start / Tiles::SIDE..xs.end.div_ceil(Tiles::SIDE)).filter(wanted);
+        let run = move |tile: u32| {
+            (tile * Tiles::SIDE).max(xs.start)..((tile + 1) * Tiles::SIDE).min(xs.end)
+        };
+        runs.flat_map(run)
+            .filter(move |x| (x - from).is_multiple_of(stride))
+    }
+}
+
+/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
+/// case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Behind {
+    /// The surroundings of the scene; black if it has none.
+    #[default]
+    Surroundings,
+    /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
+    Nothing,
+}
+
+/// Where each kind of sampling starts: 0 is the one of every render, any other number gives a
+/// picture that is independent of it but for what they show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seeds {
+    /// Of the places of sub-samples, where their pattern is random.
+    pub pixel: u64,
+    /// Of the points of the lens: not 0 turns their spiral for each sub-sample, and spreads them
+    /// without bias.
+    pub lens: u64,
+    /// Of soft lights and glossy lobes.
+    pub path: u64,
+}
+
+/// Square tiles strewn over a picture: those whose rank is at most `last`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiles {
+    /// Which tiles come first.
+    pub seed: u64,
+    /// The rank of the last tile.
+    pub last: u64,
+}
+
+impl Seeds {
+    /// Those of every render.
+    pub const NONE: Self = Self {
+        pixel: 0,
+        lens: 0,
+        path: 0,
+    };
+}
+
+impl Tiles {
+    /// The side of a tile in pixels.
+    pub const SIDE: u32 = 16;
+
+    /// The rank of a tile, given by its column and row of tiles; differs from tile to tile.
+    #[must_use]
+    pub fn rank(seed: u64, tile: [u32; 2]) -> u64 {
+        mix(mix(seed) ^ (u64::from(tile[0]) << 32 | u64::from(tile[1])))
+    }
+
+    /// Whether a pixel lies in one of the tiles.
+    #[must_use]
+    pub fn contain(&self, pixel: [u32; 2]) -> bool {
+        Self::rank(self.seed, pixel.map(|at| at / Self::SIDE)) <= self.last
+    }
+}
+
+/// Every k-th pixel of a row and of a column, from the first: enough to estimate rays by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stride(NonZeroU32);
+
+impl Stride {
+    /// Every pixel.
+    pub const EVERY: Self = Self(NonZeroU32::MIN);
+
+    /// Every k-th pixel; every one for 0.
+    #[must_use]
+    pub fn new(k: u32) -> Self {
+        NonZeroU32::new(k).map_or(Self::EVERY, Self)
+    }
+
+    /// The step.
+    #[must_use]
+    pub fn get(self) -> u32 {
+        self.0.get()
+    }
+
+    /// How many of a row or column of `count` pixels are rendered.
+    #[must_use]
+    pub fn of(self, count: u32) -> u32 {
+        count.div_ceil(self.get())
+    }
+}
+
+impl Default for Stride {
+    fn default() -> Self {
+        Self::EVERY
+    }
+}
+
+/// A rectangle of pixels, y downwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Crop {
+    /// Left edge.
+    pub x: u32,
+    /// Upper edge.
+    pub y: u32,
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+}
+
+impl Crop {
+    /// The part of this rectangle inside a picture of the size given; may be empty.
+    #[must_use]
+    pub fn within(self, width: u32, height: u32) -> Self {
+        let (x, y) = (self.x.min(width), self.y.min(height));
+        Self {
+            x,
+            y,
+            width: self.width.min(width - x),
+            height: self.height.min(height - y),
+        }
+    }
+}
+
+/// Which values a film holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Values {
+    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the
+    /// mean, coded by sRGB.
+    #[default]
+    Display,
+    /// The plain mean of the sub-samples.
+    Linear,
+}
+
+/// How many rays were traced, by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// From the eye.
+    pub camera: u64,
+    /// To a light.
+    pub shadow: u64,
+    /// Mirrored, glossy ones too.
+    pub mirror: u64,
+    /// Refracted.
+    pub refracted: u64,
+    /// Camera rays that hit something.
+    pub hits: u64,
+    /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
+    pub unnumbered: u64,
+}
+
+impl Counts {
+    /// All rays.
+    #[must_use]
+    pub fn rays(&self) -> u64 {
+        self.camera + self.shadow + self.secondary()
+    }
+
+    /// Mirrored and refracted rays.
+    #[must_use]
+    pub fn secondary(&self) -> u64 {
+        self.mirror + self.refracted
+    }
+
+    /// The share of the camera rays since an earlier count that hit something; 0 if there were
+    /// none.
+    #[must_use]
+    pub(in crate::render) fn coverage_since(&self, before: &Self) -> f32 {
+        coverage(self.hits - before.hits, self.camera - before.camera)
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            camera: self.camera + other.camera,
+            shadow: self.shadow + other.shadow,
+            mirror: self.mirror + other.mirror,
+            refracted: self.refracted + other.refracted,
+            hits: self.hits + other.hits,
+            unnumbered: self.unnumbered + other.unnumbered,
+        }
+    }
+}
+
+/// The share of rays that hit something; 0 of none.
+#[must_use]
+#[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
+pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
+    (hits as f64 / rays.max(1) as f64) as f32
+}
+
+/// A picture and what it took.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// The picture, of the size of the crop.
+    pub image: Image,
+    /// Of each pixel the share of the camera rays that met a surface, in [0, 1].
+    pub coverage: Vec<f32>,
+    /// The rays it took.
+    pub counts: Counts,
+}

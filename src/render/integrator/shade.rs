@@ -1,0 +1,225 @@
+//! Local shading: the light that reaches a point directly, by Phong's and by Gooch's model.
+
+use crate::math::{Basis, Vec3};
+use crate::plan::{Effect, Features, Rule};
+use crate::render::bsdf::optics::highlight;
+use crate::render::integrator::whitted::Tracer;
+use crate::render::ray::Interaction;
+use crate::render::sampler::{DiscPoints, Key};
+use crate::render::shape::geometry::Geometry;
+use crate::valid::{Gooch, Light, Phong};
+
+/// A point seen from one side.
+pub(in crate::render) struct View<'world> {
+    /// The point.
+    pub(in crate::render) interaction: Interaction,
+    /// The unit shading normal on the side of the viewer.
+    pub(in crate::render) normal: Vec3,
+    /// The unit vector to the viewer.
+    pub(in crate::render) to_viewer: Vec3,
+    /// What the surface is made of.
+    pub(in crate::render) material: &'world Phong,
+    /// C at this point.
+    pub(in crate::render) color: Vec3,
+    /// ks at this point.
+    pub(in crate::render) ks: f64,
+    /// The index of the surface in the scene.
+    pub(in crate::render) surface: usize,
+    /// Names the point for sampling.
+    pub(in crate::render) key: Key,
+}
+
+/// Whether something may hide a light from a point.
+#[derive(Clone, Copy)]
+struct Hidden {
+    /// The index of the light.
+    light: usize,
+    maybe: bool,
+}
+
+/// A light as seen from a point.
+struct Incidence {
+    /// N·L.
+    n_dot_l: f64,
+    /// R·V.
+    r_dot_v: f64,
+}
+
+impl View<'_> {
+    /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
+    /// that.
+    pub(in crate::render) fn geometric(&self) -> Vec3 {
+        let normal = self.interaction.normal;
+        if self.to_viewer.dot(normal) < 0.0 {
+            -normal
+        } else {
+            normal
+        }
+    }
+
+    /// Whether a place is on the viewer's side of the surface itself, by the sum that decides where
+    /// a ray to it starts; where both normals are one, the shading normal says so.
+    fn is_before(&self, place: Vec3) -> bool {
+        let normal = self.geometric();
+        normal == self.normal || normal.dot(place - self.interaction.point) > 0.0
+    }
+
+    /// `None` if the light stands exactly at the point: it has no direction then, and adds its
+    /// ambient term only.
+    fn incidence(&self, light: Vec3) -> Option<Incidence> {
+        let to_light = (light - self.interaction.point).try_normalize()?;
+        let n_dot_l = self.normal.dot(to_light);
+        let reflected = self.normal * (2.0 * n_dot_l) - to_light;
+        Some(Incidence {
+            n_dot_l,
+            r_dot_v: reflected.dot(self.to_viewer),
+        })
+    }
+}
+
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// `Σ c_l·[ka·C + vis·(kd·C·max(0, N·L) + ks·max(0, R·V)ⁿ)]`, the mean over the points of a
+    /// soft light.
+    ///
+    /// Without shadows vis is 1, for the highlight too; with them it is 0 where something stands
+    /// between, and where N·L ≤ 0, with the shading or the geometric normal: the surface stands
+    /// in its own light. So a closed mesh lets no light in, whatever the normals of its
+    /// corners.
+    #[must_use]
+    pub(in crate::render) fn phong(&mut self, view: &View<'_>) -> Vec3 {
+        let world = self.world;
+        let samples = world.scene.settings().light_samples.get();
+        let mut sum = Vec3::ZERO;
+        for (index, (light, plan)) in world
+            .scene
+            .lights()
+            .iter()
+            .zip(&world.plan.lights)
+            .enumerate()
+        {
+            if !plan.kept {
+                continue;
+            }
+            if !self.goes_on() {
+                break;
+            }
+            let mut term = view.color * view.material.ka.get();
+            let ambient = term;
+            if Self::can(Features::LIGHT) && plan.direct {
+                let shadowed = Hidden {
+                    light: index,
+                    maybe: plan.shadowed[view.surface],
+                };
+                if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
+                    term += self.direct(view, light.position, shadowed);
+                } else {
+                    let key = view.key.child(index as u64);
+                    let points = DiscPoints::new(samples, key, self.spread);
+                    let points = on_soft_light(light, view.interaction.point, samples, points);
+                    let direct = points.map_while(|point| {
+                        self.goes_on().then(|| self.direct(view, point, shadowed))
+                    });
+                    term += direct.sum::<Vec3>() / f64::from(samples);
+                }
+            }
+            self.verify(Effect::DirectLight, "a light left out shines", |plan| {
+                let kept = &plan.lights[index];
+                let left_out = if kept.kept { term - ambient } else { term };
+                !(kept.kept && kept.direct) && light.color * left_out != Vec3::ZERO
+            });
+            sum += light.color * term;
+        }
+        sum
+    }
+
+    /// What one point of a light adds, for a light of colour 1.
+    fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
+        let diffuse = view.color * view.material.kd.get();
+        let shines =
+            Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
+        if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
+            return Vec3::ZERO;
+        }
+        let Some(incidence) = view.incidence(light) else {
+            return Vec3::ZERO;
+        };
+        if self.scene().settings().shadows && !self.is_lit(view, light, incidence.n_dot_l, shadowed)
+        {
+            return Vec3::ZERO;
+        }
+        let mut term = view.color * (view.material.kd.get() * incidence.n_dot_l.max(0.0));
+        if shines {
+            term += Vec3::splat(view.ks * highlight(incidence.r_dot_v, view.material.n.get()));
+        }
+        term
+    }
+
+    /// Whether a surface faces a light and nothing stands between.
+    fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: Hidden) -> bool {
+        let faces = n_dot_l > 0.0 && (!Self::can(Features::MAPS) || view.is_before(light));
+        if !faces && self.applies(Rule::ShadowFacing) {
+            return false;
+        }
+        let sees = !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(view, light);
+        self.verify(
+            Effect::Shadows,
+            "a shadow ray left out is blocked",
+            |plan| {
+                let light = &plan.lights[shadowed.light];
+                let shows = view.ks > 0.0 || view.color * view.material.kd.get() != Vec3::ZERO;
+                faces && !sees && light.direct && !light.shadowed[view.surface] && shows
+            },
+        );
+        faces && sees
+    }
+
+    fn sees(&mut self, view: &View<'_>, light: Vec3) -> bool {
+        self.counts.shadow += 1;
+        let start = view.interaction.start(light - view.interaction.point);
+        !self.world.occluded(start, light)
+    }
+
+    /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"
+    /// (SIGGRAPH 1998), in the course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 +
+    /// ks·max(0, R·V)ⁿ·c_l`.
+    #[must_use]
+    pub(in crate::render) fn gooch(&mut self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
+        let Gooch { b, y, alpha, beta } = *parameters;
+        let (kd, n) = (view.material.kd.get(), view.material.n.get());
+        let mut sum = Vec3::ZERO;
+        for light in self.scene().lights() {
+            if !self.goes_on() {
+                break;
+            }
+            let Some(incidence) = view.incidence(light.position) else {
+                continue;
+            };
+            let tone = light.color * view.color * kd;
+            let cool = Vec3::new(0.0, 0.0, b) + tone * alpha;
+            let warm = Vec3::new(y, y, 0.0) + tone * beta;
+            sum +=
+                cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
+            if Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs))
+            {
+                sum += light.color * (view.ks * highlight(incidence.r_dot_v, n));
+            }
+        }
+        sum
+    }
+}
+
+/// The first points of the disc that a soft light shows to `from`.
+fn on_soft_light(
+    light: &Light,
+    from: Vec3,
+    count: u32,
+    points: DiscPoints,
+) -> impl Iterator<Item = Vec3> {
+    let towards = (light.position - from).try_normalize().unwrap_or(Vec3::Z);
+    let basis = Basis::around(towards);
+    let (center, radius) = (light.position, light.radius.get());
+    (0..count).map(move |k| {
+        let [x, y] = points.point(k);
+        center + basis.to_world(Vec3::new(x * radius, y * radius, 0.0))
+    })
+}

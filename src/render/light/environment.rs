@@ -1,0 +1,139 @@
+//! What surrounds the scene: its radiance by direction, and directions sampled as they are bright.
+
+use crate::math::{Vec3, acos, atan2, cos, sin};
+use crate::render::bsdf::direction_turned;
+use crate::render::sampler::discrete::Table;
+use crate::render::texture::sampled::{Content, sample};
+use crate::valid::{Filter, Image, ValidScene, Wrap};
+use std::f64::consts::{PI, TAU};
+
+/// The surroundings.
+pub(in crate::render) struct Environment<'world> {
+    radiance: Vec3,
+    /// The image, and its pixels by what they send to the scene.
+    image: Option<(&'world Image, Table)>,
+    image_from_world: [Vec3; 3],
+}
+
+/// What there is in a direction.
+pub(in crate::render) struct Seen {
+    pub(in crate::render) radiance: Vec3,
+    /// The density of [`Environment::sample`] per solid angle.
+    pub(in crate::render) pdf: f64,
+}
+
+impl<'world> Environment<'world> {
+    /// Those of a scene; darkness if it has none.
+    pub(in crate::render) fn new(scene: &'world ValidScene) -> Self {
+        let Some(environment) = scene.environment() else {
+            let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+            return Self {
+                radiance: Vec3::ZERO,
+                image: None,
+                image_from_world: axes,
+            };
+        };
+        let image = environment.image.map(|image| &scene.images()[image]);
+        let image = image.map(|image| (image, table(image)));
+        Self {
+            radiance: environment.radiance,
+            image,
+            image_from_world: environment.image_from_world,
+        }
+    }
+
+    /// Whether all directions are the same.
+    pub(in crate::render) fn is_uniform(&self) -> bool {
+        self.image.is_none()
+    }
+
+    /// The mean of the radiance over all directions, by the strongest channel.
+    pub(in crate::render) fn mean(&self) -> f64 {
+        // The table weighs rows by the sine of the colatitude, whose mean is 2/π.
+        let mean = self
+            .image
+            .as_ref()
+            .map_or(1.0, |(_, table)| table.mean() * PI / 2.0);
+        self.radiance.max_element() * mean
+    }
+
+    /// What there is in a direction, a unit vector.
+    pub(in crate::render) fn seen(&self, direction: Vec3) -> Seen {
+        let Some((image, table)) = &self.image else {
+            return self.uniform();
+        };
+        let place = self.place(direction);
+        self.seen_at(image, table, place, sin(place[1] * PI))
+    }
+
+    /// A direction, and what there is.
+    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, Seen) {
+        let Some((image, table)) = &self.image else {
+            return (direction_turned(1.0 - 2.0 * u[0], u[1]), self.uniform());
+        };
+        let place = table.sample(u);
+        let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
+        let sine = sin(colatitude);
+        let local = Vec3::new(
+            sine * sin(longitude),
+            cos(colatitude),
+            -sine * cos(longitude),
+        );
+        let [x, y, z] = self.image_from_world;
+        let direction = (x * local.x + y * local.y + z * local.z).normalize();
+        (direction, self.seen_at(image, table, place, sine))
+    }
+
+    fn uniform(&self) -> Seen {
+        Seen {
+            radiance: self.radiance,
+            pdf: 0.5 / TAU,
+        }
+    }
+
+    /// What there is at a place in the image, at the sine of the colatitude given.
+    fn seen_at(&self, image: &Image, table: &Table, place: [f64; 2], sine: f64) -> Seen {
+        let [r, g, b, _] = sample(
+            image,
+            place,
+            [Wrap::Repeat, Wrap::Clamp],
+            Filter::Linear,
+            Content::Color,
+        );
+        let pdf = if sine > 0.0 {
+            table.pdf(place) / (TAU * PI * sine)
+        } else {
+            0.0
+        };
+        Seen {
+            radiance: self.radiance * Vec3::new(r, g, b),
+            pdf,
+        }
+    }
+
+    /// The place in the image of a direction: its middle towards −z, +y up, longitude growing
+    /// towards +x.
+    fn place(&self, direction: Vec3) -> [f64; 2] {
+        let [x, y, z] = &self.image_from_world;
+        let (x, y, z) = (x.dot(direction), y.dot(direction), z.dot(direction));
+        [0.5 + atan2(x, -z) / TAU, acos(y.clamp(-1.0, 1.0)) / PI]
+    }
+}
+
+/// Pixels by their strongest channel, and by the solid angle they span.
+fn table(image: &Image) -> Table {
+    let [width, height] = [image.width, image.height];
+    let weight = |x: u32, y: u32| {
+        let v = (f64::from(y) + 0.5) / f64::from(height);
+        let uv = [(f64::from(x) + 0.5) / f64::from(width), v];
+        let [r, g, b, _] = sample(
+            image,
+            uv,
+            [Wrap::Repeat, Wrap::Clamp],
+            Filter::Nearest,
+            Content::Color,
+        );
+        r.max(g).max(b) * sin(v * PI)
+    };
+    Table::new([width, height], weight)
+}

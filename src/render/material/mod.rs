@@ -1,0 +1,4 @@
+//! What surfaces are made of, as the integrators ask for it.
+
+pub(in crate::render) mod phong;
+pub(in crate::render) mod standard;

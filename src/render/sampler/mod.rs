@@ -1,0 +1,202 @@
+//! Numbers for sampling, keyed by pixel, sample and the path so far: never by time or the order of
+//! use.
+
+pub(in crate::render) mod discrete;
+pub(in crate::render) mod sequence;
+pub(in crate::render) mod sobol;
+
+use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
+
+/// The name of one point of one path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) struct Key(u64);
+
+impl Key {
+    /// The key of a camera ray.
+    #[must_use]
+    pub(in crate::render) fn new(pixel: [u32; 2], sample: u64) -> Self {
+        Self(mix(u64::from(pixel[0]) << 32 | u64::from(pixel[1]))).child(sample)
+    }
+
+    /// The key with a seed mixed in; 0 changes nothing.
+    #[must_use]
+    pub(in crate::render) fn seeded(self, seed: u64) -> Self {
+        if seed == 0 {
+            self
+        } else {
+            self.child(mix(seed))
+        }
+    }
+
+    /// The key of branch `branch` of the path.
+    #[must_use]
+    pub(in crate::render) fn child(self, branch: u64) -> Self {
+        Self(mix(self.0.rotate_left(32) ^ mix(branch)))
+    }
+
+    /// 64 bits for one dimension of this point.
+    pub(in crate::render) fn bits(self, dimension: u64) -> u64 {
+        self.child(dimension).0
+    }
+
+    /// A number in [0, 1) for one dimension of this point.
+    pub(in crate::render) fn uniform(self, dimension: u64) -> f64 {
+        /// 2⁻⁵³.
+        const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
+        (self.bits(dimension) >> 11) as f64 * UNIT
+    }
+}
+
+/// The finaliser of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// generators", 2014).
+pub(in crate::render) fn mix(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    x ^ (x >> 31)
+}
+
+/// Points spread evenly over a disc of radius 1: a golden spiral, turned by a number of the key.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct DiscPoints {
+    count: u32,
+    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points
+    /// without bias.
+    shift: f64,
+    /// In units of 2⁻⁶⁴ turns.
+    rotation: u64,
+}
+
+impl DiscPoints {
+    /// A set of `count` points, each in the middle of its ring or, if `spread`, anywhere in it.
+    #[must_use]
+    pub(in crate::render) fn new(count: u32, key: Key, spread: bool) -> Self {
+        let shift = if spread { key.uniform(3) } else { 0.5 };
+        Self {
+            count,
+            shift,
+            rotation: key.bits(2),
+        }
+    }
+
+    /// Point k.
+    #[must_use]
+    pub(in crate::render) fn point(&self, k: u32) -> [f64; 2] {
+        let r = ((f64::from(k) + self.shift) / f64::from(self.count)).sqrt();
+        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        [r * x, r * y]
+    }
+}
+
+/// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.
+///
+/// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles
+/// apart, and both are shifted by numbers of the key.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Lobe {
+    basis: Basis,
+    exponent: f64,
+    count: u32,
+    shift: f64,
+    /// In units of 2⁻⁶⁴ turns.
+    rotation: u64,
+}
+
+impl Lobe {
+    /// The lobe of `count` directions around the unit vector `axis`.
+    #[must_use]
+    pub(in crate::render) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
+        let (shift, rotation) = (key.uniform(0), key.bits(1));
+        Self {
+            basis: Basis::around(axis),
+            exponent: 1.0 / (n.get() + 1.0),
+            count,
+            shift,
+            rotation,
+        }
+    }
+
+    /// Direction k, a unit vector.
+    #[must_use]
+    pub(in crate::render) fn direction(&self, k: u32) -> Vec3 {
+        let share = (f64::from(k) + self.shift) / f64::from(self.count);
+        let cosine = pow(share, self.exponent).min(1.0);
+        let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
+        let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
+        self.basis
+            .to_world(Vec3::new(sine * x, sine * y, cosine))
+            .normalize()
+    }
+
+    /// How many directions lie on the side of both normals, as long as the count goes on.
+    #[must_use]
+    pub(in crate::render) fn count_above(
+        &self,
+        normals: [Vec3; 2],
+        mut goes_on: impl FnMut() -> bool,
+    ) -> u32 {
+        let directions = (0..self.count)
+            .take_while(|_| goes_on())
+            .map(|k| self.direction(k));
+        let above = directions
+            .filter(|direction| is_above(*direction, normals))
+            .count();
+        u32::try_from(above).unwrap_or(self.count)
+    }
+}
+
+/// Whether a direction lies on the side of both normals.
+pub(in crate::render) fn is_above(direction: Vec3, normals: [Vec3; 2]) -> bool {
+    normals
+        .into_iter()
+        .all(|normal| direction.dot(normal) > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_cosine_of_a_lobe_is_that_of_its_density() {
+        for n in [0.0, 1.0, 8.0, 64.0] {
+            let lobe = Lobe::new(
+                Vec3::Z,
+                NonNegative::new(n).unwrap(),
+                1 << 14,
+                Key::new([3, 4], 5),
+            );
+            let mean =
+                (0..lobe.count).map(|k| lobe.direction(k).z).sum::<f64>() / f64::from(lobe.count);
+            // ∫ cosⁿ⁺¹ / ∫ cosⁿ over the hemisphere.
+            assert!(
+                (mean - (n + 1.0) / (n + 2.0)).abs() < 1e-4,
+                "n = {n}: {mean}"
+            );
+        }
+    }
+
+    #[test]
+    fn directions_of_a_lobe_balance_around_its_axis() {
+        let lobe = Lobe::new(
+            Vec3::X,
+            NonNegative::new(8.0).unwrap(),
+            1 << 12,
+            Key::new([0, 0], 1),
+        );
+        let sum = (0..lobe.count).map(|k| lobe.direction(k)).sum::<Vec3>() / f64::from(lobe.count);
+        assert!(sum.y.abs() < 1e-3 && sum.z.abs() < 1e-3, "{sum}");
+    }
+
+    #[test]
+    fn keys_of_neighbours_differ() {
+        let keys = [
+            Key::new([0, 1], 0),
+            Key::new([1, 0], 0),
+            Key::new([0, 0], 1),
+            Key::new([0, 0], 0).child(1),
+        ];
+        for (i, a) in keys.iter().enumerate() {
+            assert!(keys[i + 1..].iter().all(|b| a != b));
+        }
+    }
+}

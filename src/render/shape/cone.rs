@@ -1,0 +1,251 @@
+//! The capped cone: the stretch inside one nappe and the stretch between base and apex, intersected.
+//!
+//! The ray is first moved to the point nearest to the cone's middle, so that the terms of the
+//! quadratic have the size of the cone; each root is then refined by one Newton step on the
+//! distance ρ − g from the side. A flat cone turns an error in the height of a point into one
+//! radius/height times as large in g, so its heights are counted along the ray from where that
+//! meets the base: then g is right to within rounding, however flat it is.
+
+use crate::math::{Vec3, cross, difference_of_products, dot};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::interval::{Interval, between_planes, roots};
+
+/// A cone is flat if its radius is more than this many times its height.
+const FLAT: f64 = 1024.0;
+
+/// A cone with a cap at its base, ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Cone {
+    base: Vec3,
+    /// A unit vector from the base to the apex.
+    axis: Vec3,
+    height: f64,
+    radius: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Side,
+    Base,
+    Apex,
+}
+
+/// A ray in the frame of the cone: along it ρ = ‖w + x·t‖, and the cone's own radius is g = σ −
+/// τ·t.
+struct Profile {
+    w: Vec3,
+    x: Vec3,
+    sigma: f64,
+    tau: f64,
+}
+
+impl Profile {
+    /// The Newton step of a root of ρ − g; none at the axis, where ρ has no slope.
+    fn refined(&self, t: f64) -> f64 {
+        let foot = self.w + self.x * t;
+        let rho = foot.length();
+        let slope = foot.dot(self.x) / rho + self.tau;
+        let step = (rho - (self.sigma - self.tau * t)) / slope;
+        if step.is_finite() { t - step } else { t }
+    }
+
+    /// The stretch inside the nappe below the apex.
+    fn inside(&self) -> Option<Interval<Part>> {
+        let Self { w, x, sigma, tau } = *self;
+        let a = difference_of_products(x.length(), x.length(), tau, tau);
+        let b = -(w.dot(x) + sigma * tau);
+        let c = (w.length() - sigma) * (w.length() + sigma);
+        let side = |t: f64| (t, Part::Side);
+        if a == 0.0 {
+            let t = self.refined(c / (2.0 * b));
+            let (before, after) = (side(f64::NEG_INFINITY), side(f64::INFINITY));
+            let below = if tau > 0.0 {
+                Interval {
+                    enter: before,
+                    leave: side(t),
+                }
+            } else {
+                Interval {
+                    enter: side(t),
+                    leave: after,
+                }
+            };
+            return (t.is_finite() && (b < 0.0) == (tau > 0.0)).then_some(below);
+        }
+        let discriminant = difference_of_products(b, b, a, c);
+        if a > 0.0 && (discriminant < 0.0 || sigma - tau * (b / a) < 0.0) {
+            return None;
+        }
+        let (first, second) = roots(a, b, c, discriminant);
+        let (first, second) = (self.refined(first), self.refined(second));
+        Some(if a > 0.0 {
+            Interval {
+                enter: side(first),
+                leave: side(second),
+            }
+        } else if tau > 0.0 {
+            Interval {
+                enter: side(f64::NEG_INFINITY),
+                leave: side(first),
+            }
+        } else {
+            Interval {
+                enter: side(second),
+                leave: side(f64::INFINITY),
+            }
+        })
+    }
+}
+
+impl Cone {
+    /// The cone over the disc around `base`, with its apex at `base + up`; `up` must not be zero.
+    #[must_use]
+    pub fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
+        let height = dot(up, up).sqrt();
+        Self {
+            base,
+            axis: up / height,
+            height,
+            radius,
+        }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        self.crossing(ray).map(|(t, _)| t)
+    }
+
+    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+        let d = ray.direction;
+        let start = ray.origin - self.base;
+        let nearest = (self.axis * (0.5 * self.height) - start).dot(d) / d.dot(d);
+        let slope = self.radius / self.height;
+        let rise = dot(self.axis, d);
+        if slope > FLAT && rise != 0.0 {
+            return self.crossing_flat(start, d, nearest, slope * rise);
+        }
+        let f = start + d * nearest;
+        let above = dot(self.axis, f);
+        let profile = Profile {
+            w: cross(f, self.axis),
+            x: cross(d, self.axis),
+            sigma: slope * (self.height - above),
+            tau: slope * rise,
+        };
+        let inside = profile.inside()?.map(|t| t + nearest);
+        let ends = between_planes(self.axis, self.height, start, d, [Part::Base, Part::Apex])?;
+        inside.and(ends)?.first_in_front()
+    }
+
+    /// As [`Self::crossing`] for a cone far wider than high, and a ray that meets the plane of its
+    /// base.
+    fn crossing_flat(&self, start: Vec3, d: Vec3, nearest: f64, tau: f64) -> Option<(f64, Part)> {
+        let x = cross(d, self.axis);
+        let at_base = -dot(self.axis, start) / dot(self.axis, d);
+        // A ray steeper than the side is moved to the base, any other to the point nearest to the
+        // middle: it is then never higher above the base than a few times the cone, if it
+        // hits that.
+        let across = x.length();
+        let moved = if tau.abs() > across { at_base } else { nearest };
+        // Steps are counted in the time that ρ or g takes to change by 1, so that neither leaves
+        // the range of f64.
+        let pace = across.max(tau.abs());
+        let (x, tau) = (x / pace, tau / pace);
+        let base = (at_base - moved) * pace;
+        let profile = Profile {
+            w: cross(start + d * moved, self.axis),
+            x,
+            sigma: self.radius + tau * base,
+            tau,
+        };
+        let (base, apex) = ((base, Part::Base), (base + self.radius / tau, Part::Apex));
+        let ends = if tau > 0.0 {
+            Interval {
+                enter: base,
+                leave: apex,
+            }
+        } else {
+            Interval {
+                enter: apex,
+                leave: base,
+            }
+        };
+        profile
+            .inside()?
+            .and(ends)?
+            .map(|s| moved + s / pace)
+            .first_in_front()
+    }
+
+    /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let local = (ray.origin - self.base) + ray.direction * t;
+        let along = dot(local, self.axis);
+        let radial = (local - self.axis * along).normalize_or_zero();
+        // Once more: what rounding left along the axis would count height/radius times in the side
+        // of a needle.
+        let radial = (radial - self.axis * dot(self.axis, radial)).normalize_or_zero();
+        let (local, normal) = match part {
+            Part::Base => (local - self.axis * along, -self.axis),
+            Part::Apex => (self.axis * self.height, self.axis),
+            Part::Side if radial == Vec3::ZERO => (local, self.axis),
+            Part::Side => {
+                let normal = (radial * self.height + self.axis * self.radius).normalize();
+                let off = normal.dot(local - self.axis * self.height);
+                (local - normal * off, normal)
+            }
+        };
+        Interaction::new(
+            ray,
+            self.base + local,
+            normal,
+            self.base,
+            self.height + self.radius,
+        )
+    }
+
+    /// A box around the cone.
+    #[must_use]
+    pub(in crate::render) fn bounds(&self) -> Bounds {
+        let apex = Bounds::around(self.base + self.axis * self.height, 0.0);
+        Bounds::around_disc(self.base, self.axis, self.radius).union(apex)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::reflect;
+
+    /// 200 times as long as wide, seen from afar: mirrored rays don't meet the side that they
+    /// leave.
+    #[test]
+    fn a_needle_does_not_mirror_itself() {
+        let up = Vec3::new(21.33, 5.0, -20.0);
+        let cone = Cone::new(Vec3::new(0.5, 2.729, -2.0), up, 0.15);
+        let eye = Vec3::new(0.0, -0.258, 8.0);
+        let (mut seen, mut again) = (0, 0);
+        for k in 0..4000_i32 {
+            let [along, across] = [0.618_034, 0.754_878].map(|step| (f64::from(k) * step).fract());
+            let aside = Vec3::Y * (0.2 * (across - 0.5) * (1.0 - along));
+            let ray = Ray {
+                origin: eye,
+                direction: (cone.base + up * along + aside - eye).normalize(),
+            };
+            let Some(t) = cone.intersect(&ray) else {
+                continue;
+            };
+            let at = cone.interaction(&ray, t);
+            let mirrored = reflect(ray.direction, at.normal);
+            seen += 1;
+            again += i32::from(
+                mirrored.dot(at.normal) > 0.0 && cone.intersect(&at.ray(mirrored)).is_some(),
+            );
+        }
+        assert!(seen > 2000 && again == 0, "{again} of {seen}");
+    }
+}

@@ -1,0 +1,125 @@
+//! The capped cylinder: the stretch inside the infinite cylinder and the stretch between its caps,
+//! intersected.
+//!
+//! The ray is first moved to the point nearest to the axis, so that the terms of the quadratic have
+//! the size of the radius and not of the distance from the eye; they are those of the cross
+//! products with the axis.
+
+use crate::math::{Vec3, cross, dot, unit};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::interval::{Interval, between_planes, roots};
+
+/// A cylinder with two caps, ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Cylinder {
+    base: Vec3,
+    /// A unit vector from the base to the top.
+    axis: Vec3,
+    height: f64,
+    radius: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Side,
+    Base,
+    Top,
+}
+
+impl Cylinder {
+    /// The cylinder over the disc around `base`, `height` along `direction`, which must not be
+    /// zero.
+    #[must_use]
+    pub fn new(base: Vec3, direction: Vec3, height: f64, radius: f64) -> Self {
+        Self {
+            base,
+            axis: unit(direction).unwrap_or(Vec3::Z),
+            height,
+            radius,
+        }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        self.crossing(ray).map(|(t, _)| t)
+    }
+
+    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+        let f = ray.origin - self.base;
+        let caps = between_planes(
+            self.axis,
+            self.height,
+            f,
+            ray.direction,
+            [Part::Base, Part::Top],
+        )?;
+        self.inside_side(f, ray.direction, &caps)?
+            .and(caps)?
+            .first_in_front()
+    }
+
+    /// The stretch inside the infinite cylinder, to be known well where it is between the caps.
+    fn inside_side(&self, f: Vec3, d: Vec3, caps: &Interval<Part>) -> Option<Interval<Part>> {
+        let r2 = self.radius * self.radius;
+        let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
+        let a = across.dot(across);
+        if a == 0.0 {
+            let everywhere = Interval {
+                enter: (f64::NEG_INFINITY, Part::Side),
+                leave: (f64::INFINITY, Part::Side),
+            };
+            return (from_axis.dot(from_axis) <= r2).then_some(everywhere);
+        }
+        // Move the ray to the point nearest to the axis, but not beyond the caps.
+        let nearest = (-from_axis.dot(across) / a)
+            .max(caps.enter.0)
+            .min(caps.leave.0);
+        let from_axis = cross(f + d * nearest, self.axis);
+        let b = -from_axis.dot(across);
+        let foot = from_axis + across * (b / a);
+        let inside = r2 - foot.dot(foot);
+        if inside < 0.0 || inside.is_nan() {
+            return None;
+        }
+        let length = from_axis.length();
+        let c = (length - self.radius) * (length + self.radius);
+        let (enter, leave) = roots(a, b, c, a * inside);
+        let (enter, leave) = (nearest + enter, nearest + leave);
+        Some(Interval {
+            enter: (enter, Part::Side),
+            leave: (leave, Part::Side),
+        })
+    }
+
+    /// The point at `t`, moved onto the part that was hit.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let local = (ray.origin - self.base) + ray.direction * t;
+        let along = dot(local, self.axis);
+        let (local, normal) = match part {
+            Part::Base => (local - self.axis * along, -self.axis),
+            Part::Top => (local + self.axis * (self.height - along), self.axis),
+            Part::Side => {
+                let normal = ray.outward(local - self.axis * along);
+                (self.axis * along + normal * self.radius, normal)
+            }
+        };
+        Interaction::new(
+            ray,
+            self.base + local,
+            normal,
+            self.base,
+            self.height + self.radius,
+        )
+    }
+
+    /// A box around the cylinder.
+    #[must_use]
+    pub(in crate::render) fn bounds(&self) -> Bounds {
+        let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
+        disc(self.base).union(disc(self.base + self.axis * self.height))
+    }
+}

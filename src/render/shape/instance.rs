@@ -1,0 +1,446 @@
+//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
+//! hierarchy.
+
+use crate::math::{Vec3, cross, unit};
+use crate::render::accel::bounds::Bounds;
+use crate::render::accel::wide::Wide;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::tie::{self, Nearest, Tie};
+use crate::render::shape::triangle::{Shear, Triangle};
+use crate::valid::{Column, Mesh, Shared};
+use std::sync::{Arc, OnceLock};
+
+/// A mesh ready to be hit, in object coordinates.
+#[derive(Debug)]
+pub struct PreparedMesh {
+    /// The mesh as proven.
+    pub mesh: Arc<Mesh>,
+    triangles: Vec<Triangle>,
+    /// The corners of each triangle, by their numbers in the mesh.
+    corners: Shared<[u32; 3]>,
+    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
+    /// world.
+    hierarchy: OnceLock<Option<Wide>>,
+}
+
+impl PreparedMesh {
+    /// Prepares a mesh.
+    #[must_use]
+    pub fn new(mesh: &Arc<Mesh>) -> Self {
+        let prepared = |corners: &[u32; 3]| Triangle::new(mesh.corners(*corners));
+        let triangles = mesh
+            .triangles
+            .iter()
+            .filter_map(prepared)
+            .collect::<Vec<_>>();
+        let all = &mesh.triangles;
+        let corners = match triangles.len() == all.len() {
+            true => all.clone(),
+            false => all
+                .iter()
+                .copied()
+                .filter(|corners| prepared(corners).is_some())
+                .collect(),
+        };
+        Self {
+            mesh: Arc::clone(mesh),
+            triangles,
+            corners,
+            hierarchy: OnceLock::new(),
+        }
+    }
+
+    /// The triangles that have an area.
+    pub(in crate::render) fn triangles(&self) -> &[Triangle] {
+        &self.triangles
+    }
+
+    /// The hierarchy of the triangles, if there are any.
+    pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
+        let corners = |item: u32| *self.triangles[item as usize].vertices();
+        self.hierarchy
+            .get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners))
+            .as_ref()
+    }
+}
+
+/// A mesh in the world.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    mesh: Arc<PreparedMesh>,
+    /// The images of the axes.
+    axes: [Vec3; 3],
+    origin: Vec3,
+    /// The sums of the coordinates of each, all counted positive.
+    sizes: Vec3,
+    /// The rows of the inverse of the axes.
+    inverse: [Vec3; 3],
+    /// Whether the map turns left hands into right ones.
+    mirrors: bool,
+    bounds: Bounds,
+    /// How far rounding may move a corner on its way to the world.
+    blur: f64,
+}
+
+impl Instance {
+    /// The mesh placed by a map whose columns are the images of the axes, which span space, and of
+    /// the origin.
+    #[must_use]
+    pub fn new(mesh: &Arc<PreparedMesh>, [x, y, z, origin]: [Vec3; 4]) -> Self {
+        let volume = cross(x, y).dot(z);
+        let inverse = [
+            cross(y, z) / volume,
+            cross(z, x) / volume,
+            cross(x, y) / volume,
+        ];
+        let (axes, mirrors) = ([x, y, z], volume < 0.0);
+        let sizes = axes.map(|axis| axis.abs().element_sum()).into();
+        let (mesh, bounds) = (Arc::clone(mesh), Bounds::EMPTY);
+        let mut instance = Self {
+            mesh,
+            axes,
+            origin,
+            sizes,
+            inverse,
+            mirrors,
+            bounds,
+            blur: 0.0,
+        };
+        let mesh = Arc::clone(&instance.mesh);
+        let corners = mesh
+            .triangles
+            .iter()
+            .flat_map(|triangle| triangle.vertices());
+        for corner in corners {
+            let point = instance.to_world(*corner);
+            // The map rounds; the box must hold what the ray in object space may hit.
+            let rounding = instance.rounding(*corner);
+            instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
+            instance.blur = instance.blur.max(rounding);
+        }
+        instance
+    }
+
+    /// The rows of the inverse of the axes.
+    pub(in crate::render) fn inverse(&self) -> [Vec3; 3] {
+        self.inverse
+    }
+
+    /// How far rounding may move a point between the two spaces.
+    fn rounding(&self, local: Vec3) -> f64 {
+        16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
+    }
+
+    #[inline]
+    fn to_world(&self, p: Vec3) -> Vec3 {
+        self.vector_to_world(p) + self.origin
+    }
+
+    #[inline]
+    fn vector_to_world(&self, v: Vec3) -> Vec3 {
+        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    }
+
+    #[inline]
+    fn normal_to_world(&self, n: Vec3) -> Vec3 {
+        (self.inverse[0] * n.x + self.inverse[1] * n.y + self.inverse[2] * n.z).normalize_or_zero()
+    }
+
+    /// The ray in object space; its `t` are those of the world.
+    #[inline]
+    fn to_object(&self, ray: &Ray) -> Ray {
+        let rows = |v: Vec3| {
+            Vec3::new(
+                self.inverse[0].dot(v),
+                self.inverse[1].dot(v),
+                self.inverse[2].dot(v),
+            )
+        };
+        Ray {
+            origin: rows(ray.origin - self.origin),
+            direction: rows(ray.direction),
+        }
+    }
+
+    /// The smallest root above 0 that is not beyond `t_max`, and its triangle.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let ray = self.to_object(ray);
+        let shear = Shear::new(&ray);
+        let mut best = (t_max, u32::MAX);
+        self.mesh.hierarchy()?.walk::<true>(&ray, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&ray, &shear)
+                && (t < best.0 || (t == best.0 && item < best.1))
+            {
+                best = (t, item);
+            }
+            best.0
+        });
+        (best.1 != u32::MAX).then_some(best)
+    }
+
+    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first
+    /// triangle.
+    #[must_use]
+    pub(in crate::render) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let mut nearest = Nearest::up_to(t_max, u32::MAX);
+        self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                nearest.add(t, item);
+            }
+            nearest.t
+        });
+        match nearest.key {
+            u32::MAX => None,
+            _ if nearest.is_tied() => self.settle(ray, nearest.t),
+            part => Some((nearest.t, part)),
+        }
+    }
+
+    /// The first of the roots as near as one at `t`.
+    #[cold]
+    fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
+        let mut tie = Tie::new();
+        self.visit_roots(ray, t, &mut |t, part| {
+            tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part)
+        });
+        tie.first()
+    }
+
+    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little
+    /// farther.
+    pub(in crate::render) fn visit_roots(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        visit: &mut dyn FnMut(f64, u32),
+    ) {
+        let local = self.to_object(ray);
+        let shear = Shear::new(&local);
+        let Some(hierarchy) = self.mesh.hierarchy() else {
+            return;
+        };
+        hierarchy.walk::<true>(&local, t_max, |item| {
+            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+                visit(t, item);
+            }
+            t_max
+        });
+    }
+
+    /// The root above 0 of triangle `part`.
+    #[inline]
+    pub(in crate::render) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+        let ray = self.to_object(ray);
+        self.mesh.triangles[part as usize].intersect(&ray, &Shear::new(&ray))
+    }
+
+    /// The point at `t` on triangle `part`.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        let local_ray = self.to_object(ray);
+        let local = self.mesh.triangles[part as usize].interaction(&local_ray, t);
+        let point = self.to_world(local.point);
+        let reach = local_ray.origin.abs() + local.point.abs();
+        let extent = 2.0 * self.sizes.dot(reach);
+        Interaction::new(
+            ray,
+            point,
+            self.normal_to_world(local.normal),
+            self.origin,
+            extent,
+        )
+    }
+
+    /// Whether the mesh has texture coordinates.
+    pub(in crate::render) fn has_uv(&self) -> bool {
+        !self.mesh.mesh.uvs.is_empty()
+    }
+
+    /// How many triangles it has.
+    pub(in crate::render) fn parts(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// The corners of triangle `part` in the world.
+    pub(in crate::render) fn corners(&self, part: u32) -> [Vec3; 3] {
+        self.mesh.triangles[part as usize]
+            .vertices()
+            .map(|corner| self.to_world(corner))
+    }
+
+    /// Whether the mesh has normals of its own.
+    pub(in crate::render) fn has_shading_normals(&self) -> bool {
+        !self.mesh.mesh.normals.is_empty()
+    }
+
+    /// What the mesh says about a point of triangle `part`, as far as that is asked.
+    pub(in crate::render) fn details(&self, point: Vec3, part: u32, asked: Asked) -> Details {
+        let triangle = &self.mesh.triangles[part as usize];
+        let mesh = &self.mesh.mesh;
+        let corners = self.mesh.corners[part as usize];
+        let normals = at(&mesh.normals, corners);
+        let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
+        let has_no_coordinates =
+            mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
+        let is_plain = mesh.colors.is_empty() && (asked == Asked::NONE || has_no_coordinates);
+        let weights = match is_even && is_plain {
+            true => [1.0, 0.0, 0.0],
+            false => triangle.weights(
+                self.to_object(&Ray {
+                    origin: point,
+                    direction: Vec3::ZERO,
+                })
+                .origin,
+            ),
+        };
+        let unit = |normal| unit(Vec3::from_array(normal)).unwrap_or(Vec3::ZERO);
+        let normal = normals.map(|[a, b, c]| {
+            let even = unit(a);
+            let mean = || even * weights[0] + unit(b) * weights[1] + unit(c) * weights[2];
+            self.normal_to_world(if is_even { even } else { mean() })
+        });
+        let uvs = if asked == Asked::NONE {
+            None
+        } else {
+            at(&mesh.uvs, corners)
+        };
+        let (tangent, side) = if asked.tangent {
+            self.tangent(triangle, corners, uvs, weights)
+        } else {
+            (None, 1.0)
+        };
+        let second_uvs = if asked.uv {
+            at(&mesh.second_uvs, corners)
+        } else {
+            None
+        };
+        Details {
+            normal: normal.filter(|normal| *normal != Vec3::ZERO),
+            uv: uvs.map(|uvs| interpolate(uvs, weights)),
+            tangent,
+            side,
+            second_uv: second_uvs.map(|uvs| interpolate(uvs, weights)),
+            color: at(&mesh.colors, corners).map(|colors| blend(colors, weights)),
+        }
+    }
+
+    /// The direction in which u grows, and the side on which v does.
+    fn tangent(
+        &self,
+        triangle: &Triangle,
+        corners: [u32; 3],
+        uvs: Option<[[f64; 2]; 3]>,
+        weights: [f64; 3],
+    ) -> (Option<Vec3>, f64) {
+        let (tangent, side) = match at(&self.mesh.mesh.tangents, corners) {
+            None => (
+                uvs.and_then(|uvs| triangle.tangent(uvs)),
+                uvs.map_or(1.0, handedness),
+            ),
+            Some(tangents) => {
+                let [x, y, z, w] = blend(tangents, weights);
+                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
+            }
+        };
+        let side = if self.mirrors { -side } else { side };
+        (tangent.map(|tangent| self.vector_to_world(tangent)), side)
+    }
+
+    /// A box around it.
+    pub(in crate::render) fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// How far rounding may have moved its corners.
+    pub(in crate::render) fn blur(&self) -> f64 {
+        self.blur
+    }
+}
+
+/// What of the [`Details`] someone asks for beyond normal and colour; what is not may be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The texture coordinates.
+    pub uv: bool,
+    /// The tangent and its side.
+    pub tangent: bool,
+}
+
+impl Asked {
+    /// Nothing more.
+    pub const NONE: Self = Self {
+        uv: false,
+        tangent: false,
+    };
+
+    /// All there is.
+    pub const ALL: Self = Self {
+        uv: true,
+        tangent: true,
+    };
+}
+
+/// What a surface knows of a point beyond its geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct Details {
+    /// The unit shading normal, where it is not the geometric one.
+    pub normal: Option<Vec3>,
+    /// The texture coordinates.
+    pub uv: Option<[f64; 2]>,
+    /// A direction along the surface in which u grows and v stays.
+    pub tangent: Option<Vec3>,
+    /// ±1: the second axis of normal maps is `side·(normal × tangent)`.
+    pub side: f64,
+    /// The second set of texture coordinates.
+    pub second_uv: Option<[f64; 2]>,
+    /// The colour of the corners, with alpha.
+    pub color: Option<[f64; 4]>,
+}
+
+impl Default for Details {
+    fn default() -> Self {
+        Self {
+            normal: None,
+            uv: None,
+            tangent: None,
+            side: 1.0,
+            second_uv: None,
+            color: None,
+        }
+    }
+}
+
+/// The side on which the second axis of a normal map lies: against v, which glTF counts downwards.
+fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    -1.0_f64.copysign(area)
+}
+
+/// What a column, which may be empty, says of three corners.
+#[inline]
+fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
+    (!column.is_empty()).then(|| {
+        [
+            column.at(a as usize),
+            column.at(b as usize),
+            column.at(c as usize),
+        ]
+    })
+}
+
+/// The mean with these weights of the corners.
+#[inline]
+fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
+    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
+    [mean(0), mean(1), mean(2), mean(3)]
+}
+
+/// The uv at a point with these weights of the corners.
+#[inline]
+pub(in crate::render) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
+    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
+    [mean(0), mean(1)]
+}

@@ -1,0 +1,118 @@
+//! Stretches of a ray inside a convex region: solids as intersections have no crack between their
+//! sides and caps.
+
+use crate::math::{Vec3, dot};
+
+/// The parameters between which a ray is inside, with what it crosses at either end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::render) struct Interval<Part> {
+    pub(in crate::render) enter: (f64, Part),
+    pub(in crate::render) leave: (f64, Part),
+}
+
+impl<Part: Copy> Interval<Part> {
+    /// The part inside both; `None` where they do not meet. Where both end at the same parameter,
+    /// `self` wins.
+    pub(in crate::render) fn and(self, other: Self) -> Option<Self> {
+        let enter = if other.enter.0 > self.enter.0 {
+            other.enter
+        } else {
+            self.enter
+        };
+        let leave = if other.leave.0 < self.leave.0 {
+            other.leave
+        } else {
+            self.leave
+        };
+        (enter.0 <= leave.0).then_some(Self { enter, leave })
+    }
+
+    /// Both ends through `change`, which must be increasing.
+    pub(in crate::render) fn map(self, change: impl Fn(f64) -> f64) -> Self {
+        Self {
+            enter: (change(self.enter.0), self.enter.1),
+            leave: (change(self.leave.0), self.leave.1),
+        }
+    }
+
+    /// The first end in front of the ray's start.
+    pub(in crate::render) fn first_in_front(self) -> Option<(f64, Part)> {
+        [self.enter, self.leave]
+            .into_iter()
+            .find(|(t, _)| *t > 0.0 && t.is_finite())
+    }
+}
+
+/// The stretch of the ray from `f` along `d` between the planes through 0 and `height` on the axis,
+/// which is a unit vector, with the part at either plane.
+pub(in crate::render) fn between_planes<Part>(
+    axis: Vec3,
+    height: f64,
+    f: Vec3,
+    d: Vec3,
+    [base, top]: [Part; 2],
+) -> Option<Interval<Part>> {
+    let (above, rise) = (dot(axis, f), dot(axis, d));
+    if rise == 0.0 {
+        let everywhere = Interval {
+            enter: (f64::NEG_INFINITY, base),
+            leave: (f64::INFINITY, top),
+        };
+        return (0.0..=height).contains(&above).then_some(everywhere);
+    }
+    let (base, top) = ((-above / rise, base), ((height - above) / rise, top));
+    Some(if rise > 0.0 {
+        Interval {
+            enter: base,
+            leave: top,
+        }
+    } else {
+        Interval {
+            enter: top,
+            leave: base,
+        }
+    })
+}
+
+/// The roots of `a·t² − 2·b·t + c`, in order, from `discriminant = b² − a·c > 0` computed with
+/// care: neither cancels.
+pub(in crate::render) fn roots(a: f64, b: f64, c: f64, discriminant: f64) -> (f64, f64) {
+    let root = discriminant.max(0.0).sqrt();
+    let q = if b >= 0.0 { b + root } else { b - root };
+    let (first, second) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };
+    if first <= second {
+        (first, second)
+    } else {
+        (second, first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_meet_or_do_not() {
+        let interval = |enter, leave, part| Interval {
+            enter: (enter, part),
+            leave: (leave, part),
+        };
+        let (a, b) = (interval(1.0, 4.0, 'a'), interval(2.0, 9.0, 'b'));
+        assert_eq!(
+            a.and(b),
+            Some(Interval {
+                enter: (2.0, 'b'),
+                leave: (4.0, 'a')
+            })
+        );
+        assert_eq!(a.and(interval(5.0, 6.0, 'c')), None);
+        assert_eq!(interval(-3.0, 2.0, 'd').first_in_front(), Some((2.0, 'd')));
+        assert_eq!(interval(-3.0, -2.0, 'e').first_in_front(), None);
+    }
+
+    #[test]
+    fn roots_come_in_order_without_cancellation() {
+        assert_eq!(roots(1.0, 1e8, 1.0, 1e16 - 1.0).0, 5e-9);
+        assert_eq!(roots(1.0, -1.5, 2.0, 0.25), (-2.0, -1.0));
+    }
+}

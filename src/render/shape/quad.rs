@@ -1,0 +1,216 @@
+//! The quadrilateral: two triangles if it is flat, else the bilinear patch between its corners.
+//!
+//! The patch is that of Reshetov, "Cool patches: a geometric approach to ray/bilinear patch
+//! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
+//! quadratic in u vanishes.
+
+use crate::math::{Vec3, cross};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::triangle::{Shear, Triangle};
+use crate::valid;
+
+/// A quadrilateral ready to be hit.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "nearly all are flat")]
+pub enum Quad {
+    /// A flat one.
+    Flat {
+        /// The corners.
+        vertices: [Vec3; 4],
+        /// Two triangles that share a diagonal, each with the numbers of its corners; `None`
+        /// without an area.
+        halves: [Option<(Triangle, [usize; 3])>; 2],
+    },
+    /// A patch.
+    Patch(Patch),
+}
+
+impl Quad {
+    /// The quadrilateral of corners in order around it.
+    #[must_use]
+    pub fn new(vertices: [Vec3; 4]) -> Self {
+        if !(valid::Quad { vertices }).is_flat() {
+            return Self::Patch(Patch { vertices });
+        }
+        let normal = |t: [usize; 3]| {
+            cross(
+                vertices[t[1]] - vertices[t[0]],
+                vertices[t[2]] - vertices[t[0]],
+            )
+        };
+        // Split along the diagonal that lies inside: both halves then turn the same way.
+        let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
+        let inside = |split: &[[usize; 3]; 2]| normal(split[0]).dot(normal(split[1])) >= 0.0;
+        let split = splits.into_iter().find(inside).unwrap_or(splits[0]);
+        let half = |t: [usize; 3]| Some((Triangle::new(t.map(|k| vertices[k]))?, t));
+        Self::Flat {
+            vertices,
+            halves: split.map(half),
+        }
+    }
+
+    /// The smallest root above 0 and which half it is in.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<(f64, u32)> {
+        match self {
+            Self::Flat { halves, .. } => {
+                let hit =
+                    |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
+                // Both lie in one plane: where both are hit they tie.
+                hit(&halves[0])
+                    .map(|t| (t, 0))
+                    .or_else(|| hit(&halves[1]).map(|t| (t, 1)))
+            }
+            Self::Patch(patch) => patch.crossing(ray).map(|(t, _)| (t, 0)),
+        }
+    }
+
+    /// The point at `t` in half `part`, moved onto the surface.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+        match self {
+            Self::Flat { halves, .. } => match (&halves[part as usize & 1], &halves[0]) {
+                (Some((triangle, _)), _) | (None, Some((triangle, _))) => {
+                    triangle.interaction(ray, t)
+                }
+                (None, None) => Interaction::new(
+                    ray,
+                    ray.origin + ray.direction * t,
+                    Vec3::Z,
+                    Vec3::ZERO,
+                    0.0,
+                ),
+            },
+            Self::Patch(patch) => patch.interaction(ray, t),
+        }
+    }
+
+    /// The texture coordinates at a point hit in half `part`.
+    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, part: u32) -> [f64; 2] {
+        const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        match self {
+            Self::Flat { halves, .. } => {
+                halves[part as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
+                    let weights = triangle.weights(point);
+                    [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
+                })
+            }
+            Self::Patch(patch) => patch.crossing(ray).map_or([0.0; 2], |(_, uv)| uv),
+        }
+    }
+
+    /// A direction along the surface in which u grows, at this v.
+    pub(in crate::render) fn tangent(&self, v: f64) -> Option<Vec3> {
+        match self {
+            Self::Flat { vertices, .. } | Self::Patch(Patch { vertices }) => {
+                across(*vertices, v).try_normalize()
+            }
+        }
+    }
+
+    /// A box around it.
+    pub(in crate::render) fn bounds(&self) -> Bounds {
+        match self {
+            Self::Flat { halves, .. } => halves
+                .iter()
+                .flatten()
+                .fold(Bounds::EMPTY, |bounds, (triangle, _)| {
+                    bounds.union(Bounds::of(triangle.vertices()))
+                }),
+            Self::Patch(patch) => Bounds::of(&patch.vertices),
+        }
+    }
+}
+
+/// The derivative along u of what lies between the corners, at this v.
+fn across([q00, q10, q11, q01]: [Vec3; 4], v: f64) -> Vec3 {
+    (q10 - q00).lerp(q11 - q01, v)
+}
+
+/// A bilinear patch: `Q(u, v)` with corners Q(0,0), Q(1,0), Q(1,1), Q(0,1).
+#[derive(Clone, Copy, Debug)]
+pub struct Patch {
+    vertices: [Vec3; 4],
+}
+
+impl Patch {
+    /// The first crossing in front, with its u and v.
+    fn crossing(&self, ray: &Ray) -> Option<(f64, [f64; 2])> {
+        let [q00, q10, q11, q01] = self.vertices.map(|vertex| vertex - ray.origin);
+        let d = ray.direction;
+        let (left, right) = (q01 - q00, q11 - q10);
+        // Solve a + b·u + c·u² = 0 for the lines of constant u that the ray meets.
+        let a = cross(q00, d).dot(left);
+        let c = cross(q10 - q00, q01 - q11).dot(d);
+        let b = cross(q10, d).dot(right) - a - c;
+        let discriminant = b * b - 4.0 * a * c;
+        if discriminant < 0.0 || discriminant.is_nan() {
+            return None;
+        }
+        let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+        let candidates = [if c == 0.0 { f64::NAN } else { q / c }, a / q];
+        let along = |u: f64| {
+            if !(0.0..=1.0).contains(&u) {
+                return None;
+            }
+            // Meet the ray with the line at u.
+            let (from, line) = (q00.lerp(q10, u), left.lerp(right, u));
+            let normal = cross(d, line);
+            let v = cross(normal, from).dot(d) / normal.dot(normal);
+            // Meet it with the tangent plane there: t then errs by no more than rounding of a
+            // point, even where the ray runs along the line.
+            let tangent_plane = cross(across(self.vertices, v), line);
+            let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
+            (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
+        };
+        candidates
+            .into_iter()
+            .filter_map(along)
+            .min_by(|first, second| first.0.total_cmp(&second.0))
+    }
+
+    fn at(&self, [u, v]: [f64; 2]) -> Vec3 {
+        let [q00, q10, q11, q01] = self.vertices;
+        q00.lerp(q10, u).lerp(q01.lerp(q11, u), v)
+    }
+
+    /// The derivatives along u and v.
+    fn tangents(&self, [u, v]: [f64; 2]) -> [Vec3; 2] {
+        let [q00, q10, q11, q01] = self.vertices;
+        [across(self.vertices, v), (q01 - q00).lerp(q11 - q10, u)]
+    }
+
+    /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`.
+    /// Where a ray grazes, t is well known, but u and v err along the ray by the root of a
+    /// rounding error.
+    fn nearest(&self, point: Vec3, uv: [f64; 2]) -> [f64; 2] {
+        let rest = point - self.at(uv);
+        let [across, upward] = self.tangents(uv);
+        let normal = cross(across, upward);
+        let step = [cross(rest, upward), cross(across, rest)]
+            .map(|area| area.dot(normal) / normal.dot(normal));
+        let moved = [uv[0] + step[0], uv[1] + step[1]];
+        if moved.iter().all(|w| (0.0..=1.0).contains(w)) {
+            moved
+        } else {
+            uv
+        }
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let q00 = self.vertices[0];
+        let uv = self.crossing(ray).map_or([0.5; 2], |(_, uv)| uv);
+        let [u, v] = self.nearest(ray.origin + ray.direction * t, uv);
+        let point = self.at([u, v]);
+        let [across, upward] = self.tangents([u, v]);
+        let normal = cross(across, upward).normalize_or(-ray.direction.normalize());
+        let extent = self
+            .vertices
+            .iter()
+            .map(|vertex| vertex.abs().element_sum())
+            .sum::<f64>();
+        let reach = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
+        Interaction::new(ray, point, normal, q00, extent + reach)
+    }
+}

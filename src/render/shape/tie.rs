@@ -1,0 +1,156 @@
+//! Ties: where surfaces lie in one place to within rounding, the first of them is seen, in whatever
+//! order they are found.
+//!
+//! Each hit has an interval of t that rounding may have moved it in. Of all hits whose interval
+//! meets that of the hit with the least upper end, that of the lowest key counts: a set that no
+//! order changes.
+
+use crate::math::U;
+use crate::render::ray::{Interaction, Ray};
+
+/// The half of an interval at most, as a share of t: where a ray all but runs along a surface its
+/// error knows no bound.
+const WIDEST: f64 = 1.0 / 8_388_608.0;
+
+/// Intervals whose middles are farther apart, as a share, do not meet; walks of hierarchies look
+/// farther than that.
+pub(in crate::render) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
+
+/// How far rounding may have moved a root, to either side: as much as it may move the root of a
+/// plane, and by what it moves the surface along its normal, which is half of what rays keep off
+/// it.
+pub(in crate::render) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
+    const ROOT: f64 = 10.0 * U;
+    let slope = ray.direction.dot(at.normal).abs();
+    (ROOT * t + 0.5 * at.offset / slope).min(WIDEST * t)
+}
+
+/// The nearest of some hits, and whether another is as near.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Nearest<K> {
+    pub(in crate::render) t: f64,
+    pub(in crate::render) key: K,
+    /// The next one.
+    next: f64,
+}
+
+impl<K: Copy + Ord> Nearest<K> {
+    /// None yet, of those up to `t_max`; `none` is above all keys.
+    #[inline]
+    pub(in crate::render) fn up_to(t_max: f64, none: K) -> Self {
+        Self {
+            t: t_max,
+            key: none,
+            next: f64::INFINITY,
+        }
+    }
+
+    /// Adds a hit.
+    #[inline]
+    pub(in crate::render) fn add(&mut self, t: f64, key: K) {
+        if t < self.t || (t == self.t && key < self.key) {
+            *self = Self {
+                t,
+                key,
+                next: self.t,
+            };
+        } else if t < self.next {
+            self.next = t;
+        }
+    }
+
+    /// The t beyond which no hit is as near.
+    #[inline]
+    pub(in crate::render) fn reach(&self) -> f64 {
+        self.t * CLOSE
+    }
+
+    /// Whether another hit may be as near.
+    #[inline]
+    pub(in crate::render) fn is_tied(&self) -> bool {
+        self.next <= self.reach()
+    }
+}
+
+/// All hits that may be the nearest.
+pub(in crate::render) struct Tie<K> {
+    hits: Vec<(f64, f64, K)>,
+    /// The least upper end of their intervals.
+    bound: f64,
+}
+
+impl<K: Copy + Ord> Tie<K> {
+    /// None yet.
+    pub(in crate::render) fn new() -> Self {
+        Self {
+            hits: Vec::new(),
+            bound: f64::INFINITY,
+        }
+    }
+
+    /// Adds a hit with its error.
+    pub(in crate::render) fn add(&mut self, t: f64, error: f64, key: K) {
+        self.bound = self.bound.min(t + error);
+        self.hits.push((t, error, key));
+    }
+
+    /// The hit that counts.
+    pub(in crate::render) fn first(self) -> Option<(f64, K)> {
+        let near = self
+            .hits
+            .into_iter()
+            .filter(|(t, error, _)| t - error <= self.bound);
+        near.min_by_key(|(_, _, key)| *key)
+            .map(|(t, _, key)| (t, key))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All orders of some hits.
+    fn orders(hits: &[(f64, f64, u32)]) -> Vec<Vec<(f64, f64, u32)>> {
+        let Some((last, rest)) = hits.split_last() else {
+            return vec![Vec::new()];
+        };
+        let insert = |order: Vec<(f64, f64, u32)>| {
+            (0..=order.len()).map(move |place| {
+                let mut order = order.clone();
+                order.insert(place, *last);
+                order
+            })
+        };
+        orders(rest).into_iter().flat_map(insert).collect()
+    }
+
+    #[test]
+    fn the_first_of_those_that_meet_the_surely_nearest_wins_in_any_order() {
+        // The first meets the second, and the second the third, which is the surely nearest.
+        let hits = [(5.0, 1.0, 0), (4.0, 0.5, 1), (3.3, 0.3, 2), (4.2, 0.1, 3)];
+        for order in orders(&hits) {
+            let mut tie = Tie::new();
+            order
+                .iter()
+                .for_each(|(t, error, key)| tie.add(*t, *error, *key));
+            assert_eq!(tie.first(), Some((4.0, 1)), "{order:?}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_knows_of_a_tie_in_any_order() {
+        let next = 1.0 + 2.0 * WIDEST;
+        for (hits, tied) in [
+            ([1.0, next, 9.0], true),
+            ([1.0, 1.0 + 4.0 * WIDEST, 9.0], false),
+            ([9.0, 1.0, 1.0], true),
+        ] {
+            let hits = [(hits[0], 0.0, 0), (hits[1], 0.0, 1), (hits[2], 0.0, 2)];
+            for order in orders(&hits) {
+                let mut nearest = Nearest::up_to(f64::INFINITY, u32::MAX);
+                order.iter().for_each(|(t, _, key)| nearest.add(*t, *key));
+                assert_eq!((nearest.t, nearest.is_tied()), (1.0, tied), "{order:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! The torus: critical points of its quartic bracket the roots, and the signed distance decides and
+//! refines them.
+//!
+//! The ray is moved to the point nearest to the centre and measured in units of the torus, so the
+//! quartic never sees the distance of the eye. Between two critical points the quartic is monotone
+//! and has one root or none. Its value near a root is a difference of large terms; the signed
+//! distance √((ρ − R)² + z²) − r has the same sign and keeps its digits, so every decision is taken
+//! on it.
+
+use crate::math::{Vec3, cross, ldexp};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::plane::Normal;
+
+/// Steps of a bracketed search: bisection alone would need 60.
+const MAX_STEPS: usize = 100;
+
+/// What rounding does to a number about as large as a torus, in units of one.
+const ROUNDING: f64 = 0.5 * f64::EPSILON;
+
+/// A torus ready to be hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Torus {
+    center: Vec3,
+    /// A unit vector along the axis.
+    axis: Vec3,
+    /// From the centre to the middle of the tube.
+    major: f64,
+    /// Of the tube.
+    minor: f64,
+}
+
+/// A ray near the torus, in units of about its outer radius, as seen from the axis.
+struct Line {
+    /// Of the point nearest to the centre: the square of its distance, its height along the axis,
+    /// and its cross product with the axis, as long as it is off the axis.
+    square: f64,
+    height: f64,
+    off: Vec3,
+    /// The height and the cross product a step adds.
+    rise: f64,
+    turn: Vec3,
+    major: f64,
+    minor: f64,
+}
+
+impl Line {
+    /// The signed distance of the point at `s` from the surface, from the factored difference of
+    /// squares: its digits survive where the ray only grazes.
+    fn distance(&self, s: f64) -> f64 {
+        let z = (self.height + self.rise * s).abs();
+        let off = ((self.off + self.turn * s).length() - self.major).abs();
+        let (large, small) = if z > off { (z, off) } else { (off, z) };
+        let square = small * small + (large - self.minor) * (large + self.minor);
+        square / ((off * off + z * z).sqrt() + self.minor)
+    }
+
+    /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no
+    /// square term, as a step has length 1 and is at a right angle to the way from the centre.
+    fn derivative(&self) -> (f64, f64) {
+        // (|p|² + R² − r²)² − 4R²ρ², with |p|² = f² + s² and ρ² = |w + x·s|².
+        let (w, x) = (self.off, self.turn);
+        let k = self.square + (self.major - self.minor) * (self.major + self.minor);
+        let square = 2.0 * self.major * self.major;
+        (k - square * x.dot(x), -square * w.dot(x))
+    }
+
+    /// The first `s` in `(low, high)` at which the distance changes sign from that at `low`, in
+    /// brackets of the quartic's critical points.
+    fn first_root(&self, low: f64, high: f64) -> Option<f64> {
+        let (linear, constant) = self.derivative();
+        let borders = cubic_roots(linear, constant, low, high).chain(std::iter::once(high));
+        let mut before = (low, self.distance(low));
+        for border in borders {
+            let there = (border, self.distance(border));
+            if there.1 == 0.0 && border > low {
+                return Some(border);
+            }
+            if (there.1 < 0.0) != (before.1 < 0.0) {
+                return Some(self.root(before, there));
+            }
+            before = there;
+        }
+        None
+    }
+
+    /// The root between two points given with their distances, which have opposite signs: steps of
+    /// inverse quadratic interpolation where the last three points let it, else bisection.
+    /// Chandrupatla, "A new hybrid quadratic/bisection algorithm for finding the zero of a
+    /// nonlinear function without using derivatives" (Advances in Engineering Software
+    /// 28, 1997). It ends where the distance is no more than its rounding error, or the bracket has
+    /// no middle.
+    fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
+        let mut before;
+        let mut share = 0.5;
+        for _ in 0..MAX_STEPS {
+            let at = last.0 + share * (other.0 - last.0);
+            let there = (at, self.distance(at));
+            if (there.1 < 0.0) == (last.1 < 0.0) {
+                before = last;
+            } else {
+                (before, other) = (other, last);
+            }
+            last = there;
+            let best = if last.1.abs() < other.1.abs() {
+                last
+            } else {
+                other
+            };
+            let finest = ROUNDING / (other.0 - last.0).abs();
+            if best.1.abs() <= ROUNDING || finest > 0.5 {
+                return best.0;
+            }
+            share = share_of(last, other, before).clamp(finest, 1.0 - finest);
+        }
+        last.0
+    }
+}
+
+/// Where to look next between two points of opposite signs, as the share of the way from the last
+/// to the other: where the parabola through both and the point before has its root, if it is safe
+/// to ask, else in the middle.
+fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
+    let along = (last.0 - other.0) / (before.0 - other.0);
+    let up = (last.1 - other.1) / (before.1 - other.1);
+    let is_safe = up * up < along && (1.0 - up) * (1.0 - up) < 1.0 - along;
+    if !is_safe {
+        return 0.5;
+    }
+    let linear = last.1 / (other.1 - last.1) * before.1 / (other.1 - before.1);
+    let bend = (before.0 - last.0) / (other.0 - last.0) * last.1 / (before.1 - last.1) * other.1
+        / (before.1 - other.1);
+    linear + bend
+}
+
+/// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
+/// asked for.
+fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
+    // Bracket by the extremes of the cubic.
+    let spread = (-linear / 3.0).max(0.0).sqrt();
+    let borders = [
+        low,
+        (-spread).clamp(low, high),
+        spread.clamp(low, high),
+        high,
+    ];
+    (0..3).filter_map(move |k| cubic_root(linear, constant, borders[k], borders[k + 1]))
+}
+
+/// The root of the cubic between two points, if it changes sign there.
+fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64> {
+    let value = |s: f64| (s * s + linear) * s + constant;
+    let (first, last) = (value(a), value(b));
+    if a >= b || (first < 0.0) == (last < 0.0) {
+        return None;
+    }
+    let rises = last > first;
+    let mut at = 0.5 * (a + b);
+    for _ in 0..MAX_STEPS {
+        let height = value(at);
+        if (height > 0.0) == rises {
+            b = at
+        } else {
+            a = at
+        }
+        // A Newton step, or half the bracket where it leaves it.
+        let newton = at - height / (3.0 * at * at + linear);
+        let next = if newton > a && newton < b {
+            newton
+        } else {
+            0.5 * (a + b)
+        };
+        if next == at || next <= a || next >= b {
+            break;
+        }
+        at = next;
+    }
+    Some(at)
+}
+
+impl Torus {
+    /// The torus around the line through `center` along `axis`, which must not be zero.
+    #[must_use]
+    pub fn new(center: Vec3, axis: Vec3, major: f64, minor: f64) -> Self {
+        Self {
+            center,
+            axis: Normal::new(axis).unit(),
+            major,
+            minor,
+        }
+    }
+
+    /// The first root above 0.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+        let f = ray.origin - self.center;
+        let d = ray.direction;
+        let length2 = d.dot(d);
+        let nearest = -f.dot(d) / length2;
+        let foot = f + d * nearest;
+        let outer = self.major + self.minor;
+        let half2 = outer * outer * (1.0 + 1e-12) - foot.dot(foot);
+        if half2 < 0.0 || half2.is_nan() {
+            return None;
+        }
+        // Measure in a power of two near the outer radius: that rounds nothing.
+        let unit = ldexp(1.0, libm::ilogb(outer));
+        let length = length2.sqrt();
+        let (from, step) = (foot / unit, d / length);
+        let line = Line {
+            square: from.dot(from),
+            height: from.dot(self.axis),
+            off: cross(from, self.axis),
+            rise: step.dot(self.axis),
+            turn: cross(step, self.axis),
+            major: self.major / unit,
+            minor: self.minor / unit,
+        };
+        let half = half2.sqrt() / unit;
+        let start = -nearest * length / unit;
+        let low = if start > -half { start } else { -half };
+        if low >= half {
+            return None;
+        }
+        let t = nearest + line.first_root(low, half)? * (unit / length);
+        (t > 0.0).then_some(t)
+    }
+
+    /// The point at `t`, moved onto the tube in its own frame.
+    #[must_use]
+    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+        let local = (ray.origin - self.center) + ray.direction * t;
+        let z = local.dot(self.axis);
+        let ring = (local - self.axis * z).normalize_or_zero() * self.major;
+        let normal = ray.outward(local - ring);
+        let point = self.center + ring + normal * self.minor;
+        Interaction::new(ray, point, normal, self.center, self.major + self.minor)
+    }
+
+    /// A box around the torus.
+    #[must_use]
+    pub(in crate::render) fn bounds(&self) -> Bounds {
+        let disc = Bounds::around_disc(self.center, self.axis, self.major);
+        let tube = Vec3::splat(self.minor);
+        Bounds::around(disc.min - tube, 0.0).union(Bounds::around(disc.max + tube, 0.0))
+    }
+}

@@ -1,0 +1,147 @@
+//! Textures: values looked up by uv, and what maps do to the shading normal.
+
+use crate::math::{Vec3, cross};
+use crate::valid::{Bump, Image, Texture, ValidScene};
+
+/// What texture `index` shows at `uv`, each channel in [0, 1].
+pub(in crate::render) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
+    match &scene.textures()[index] {
+        Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
+        Texture::Image(image) => bilinear(&scene.images()[*image], uv),
+        Texture::Sampled(_) => Vec3::ONE,
+    }
+}
+
+/// The mean of the four texels around `uv`, weighted by nearness. The unit square spans from the
+/// middle of the first texel to that of the last in each direction, v = 1 at the top row, and
+/// repeats.
+fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
+    let (column, x) = split(repeated(u) * f64::from(image.width - 1), image.width);
+    let (row, y) = split(
+        (1.0 - repeated(v)) * f64::from(image.height - 1),
+        image.height,
+    );
+    let texel =
+        |column: usize, row: usize| image.texel(row * image.width as usize + column).color();
+    let (right, below) = (
+        (column + 1).min(image.width as usize - 1),
+        (row + 1).min(image.height as usize - 1),
+    );
+    let top = between(texel(column, row), texel(right, row), x);
+    let bottom = between(texel(column, below), texel(right, below), x);
+    between(top, bottom, y) / 255.0
+}
+
+/// a + (b − a)·s: exactly `a` where both are equal.
+fn between(a: Vec3, b: Vec3, s: f64) -> Vec3 {
+    a + (b - a) * s
+}
+
+/// The coordinate within [0, 1]; 1 stays 1, what is further repeats.
+fn repeated(coordinate: f64) -> f64 {
+    if (0.0..=1.0).contains(&coordinate) {
+        coordinate
+    } else {
+        coordinate - coordinate.floor()
+    }
+}
+
+/// The texel at or before a place, and how far towards the next the place is.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the place is within the image"
+)]
+fn split(place: f64, count: u32) -> (usize, f64) {
+    let texel = place.floor().clamp(0.0, f64::from(count - 1));
+    (texel as usize, place - texel)
+}
+
+/// A frame on a surface: directions of growing u and v, and the unit normal.
+pub(in crate::render) struct Frame {
+    pub(in crate::render) along_u: Vec3,
+    pub(in crate::render) along_v: Vec3,
+    pub(in crate::render) normal: Vec3,
+}
+
+impl Frame {
+    /// The frame around a unit normal with a direction of growing u; `None` if that runs along the
+    /// normal.
+    pub(in crate::render) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
+        let along_u = (tangent - normal * normal.dot(tangent)).try_normalize()?;
+        Some(Self {
+            along_u,
+            along_v: cross(normal, along_u),
+            normal,
+        })
+    }
+
+    /// The normal a normal map gives at `uv`.
+    pub(in crate::render) fn mapped(&self, scene: &ValidScene, map: usize, uv: [f64; 2]) -> Vec3 {
+        let local = look_up(scene, map, uv) * 2.0 - 1.0;
+        (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
+            .normalize_or(self.normal)
+    }
+
+    /// The normal of a height field: it leans away from where the height grows, by central
+    /// differences of a texel.
+    pub(in crate::render) fn bumped(
+        &self,
+        scene: &ValidScene,
+        bump: Bump,
+        [u, v]: [f64; 2],
+    ) -> Vec3 {
+        let [du, dv] = match &scene.textures()[bump.texture] {
+            Texture::Uv | Texture::Sampled(_) => [1e-3; 2],
+            Texture::Image(image) => {
+                let image = &scene.images()[*image];
+                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
+            }
+        };
+        let height = |u: f64, v: f64| look_up(scene, bump.texture, [u, v]).element_sum() / 3.0;
+        let slope_u = 0.5 * (height(u + du, v) - height(u - du, v)) * bump.height;
+        let slope_v = 0.5 * (height(u, v + dv) - height(u, v - dv)) * bump.height;
+        (self.normal - self.along_u * slope_u - self.along_v * slope_v).normalize_or(self.normal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::valid::Pixels;
+
+    #[test]
+    fn an_image_of_one_value_is_that_value_everywhere() {
+        let pixels = [1, 77, 254].repeat(9).into();
+        let image = Image {
+            width: 3,
+            height: 3,
+            kind: Pixels::Rgb8,
+            pixels,
+        };
+        let value = Vec3::new(1.0, 77.0, 254.0) / 255.0;
+        for k in 0..100 {
+            let uv = [f64::from(k) * 0.037, f64::from(k) * 0.0713];
+            assert_eq!(bilinear(&image, uv), value);
+        }
+    }
+
+    #[test]
+    fn the_corners_of_the_unit_square_are_the_middles_of_the_corner_texels() {
+        let pixels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]]
+            .concat()
+            .into();
+        let image = Image {
+            width: 2,
+            height: 2,
+            kind: Pixels::Rgb8,
+            pixels,
+        };
+        assert_eq!(bilinear(&image, [0.0, 1.0]), Vec3::X);
+        assert_eq!(bilinear(&image, [1.0, 1.0]), Vec3::Y);
+        assert_eq!(bilinear(&image, [0.0, 0.0]), Vec3::Z);
+        assert_eq!(bilinear(&image, [1.0, 0.0]), Vec3::ONE);
+        assert_eq!(bilinear(&image, [0.5, 1.0]), Vec3::new(0.5, 0.5, 0.0));
+        assert_eq!(bilinear(&image, [2.5, 1.0]), Vec3::new(0.5, 0.5, 0.0));
+    }
+}

@@ -1,0 +1,122 @@
+//! A world of whatever shapes, by whatever arithmetic: built once for all that is made of it.
+
+use crate::image::Layers;
+use crate::plan::{Arithmetic, Plan, Rules, Shapes};
+use crate::render::film::heartbeat::Proceed;
+use crate::render::film::{Crop, Film, Job};
+use crate::render::frame::progressive::Growing;
+use crate::render::integrator::aov::Aov;
+use crate::render::shape::Shape;
+use crate::render::shape::basic::Basic;
+use crate::render::shape::plain::PlainShape;
+use crate::render::world::World;
+use crate::valid::ValidScene;
+
+/// A scene prepared as planned. All is rendered on the threads of the current pool.
+pub enum AnyWorld {
+    /// Of the basic shapes alone.
+    Basic(World<Basic>),
+    /// Of all shapes.
+    All(World<Shape>),
+    /// By plain formulas.
+    Plain(World<PlainShape<f64>>),
+    /// By plain formulas in f32.
+    F32(World<PlainShape<f32>>),
+}
+
+/// Does the same with a world of any kind.
+macro_rules! each {
+    ($any:expr, $world:pat => $what:expr) => {
+        match $any {
+            Self::Basic($world) => $what,
+            Self::All($world) => $what,
+            Self::Plain($world) => $what,
+            Self::F32($world) => $what,
+        }
+    };
+}
+
+impl AnyWorld {
+    /// Prepares a scene.
+    #[must_use]
+    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
+        match (plan.arithmetic, plan.shapes) {
+            (Arithmetic::Robust, Shapes::Basic) => Self::Basic(World::prepare(scene, plan)),
+            (Arithmetic::Robust, Shapes::All) => Self::All(World::prepare(scene, plan)),
+            (Arithmetic::Plain, _) => Self::Plain(World::prepare(scene, plan)),
+            (Arithmetic::F32, _) => Self::F32(World::prepare(scene, plan)),
+        }
+    }
+
+    /// The scene it shows.
+    #[must_use]
+    pub fn scene(&self) -> &ValidScene {
+        each!(self, world => &world.scene)
+    }
+
+    /// Shows another scene, which differs from the one before in its camera and settings alone, by
+    /// the same rules. What was built stays where the new plan wants it too.
+    pub fn change(&mut self, scene: ValidScene) {
+        let old = each!(self, world => &world.plan);
+        let plan = Plan::by(old.arithmetic, &scene, old.rules);
+        let is_same = (plan.shapes, &plan.surfaces, &plan.constants)
+            == (old.shapes, &old.surfaces, &old.constants);
+        if is_same {
+            each!(self, world => (world.scene, world.plan) = (scene, plan));
+        } else {
+            *self = Self::prepare(&scene, &plan);
+        }
+    }
+
+    /// Renders a picture; `None` if `proceed` said stop.
+    ///
+    /// `proceed` is called from all threads, after each pixel and within long ones.
+    #[must_use]
+    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+        match self {
+            Self::Basic(world) => world.render(job, proceed),
+            Self::All(world) => world.render(job, proceed),
+            Self::Plain(world) => world.render_by_few(job, proceed),
+            Self::F32(world) => world.render_by_few(job, proceed),
+        }
+    }
+
+    /// Renders layers of a part of the picture; `None` if `proceed` said stop.
+    ///
+    /// `proceed` is called from all threads after each pixel.
+    #[must_use]
+    pub fn layers(
+        &self,
+        wanted: &[Aov],
+        crop: Crop,
+        proceed: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Layers> {
+        let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
+        if plan.rules == Rules::NONE {
+            return each!(self, world => world.layers(wanted, crop, proceed));
+        }
+        // Rules keep the colours; only a plan without them keeps all that a layer may show.
+        Self::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE))
+            .layers(wanted, crop, proceed)
+    }
+
+    /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many
+    /// each strand of the halves of pixel i is to have at least. False if `proceed` said stop;
+    /// the film is then of no use.
+    ///
+    /// `proceed` is called from all threads, after each pixel and within long ones.
+    pub fn grow(
+        &self,
+        film: &mut Growing,
+        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
+        proceed: &Proceed<'_>,
+    ) -> bool {
+        each!(self, world => world.grow(film, wanted, proceed))
+    }
+}
+
+/// Renders a scene as planned; see [`AnyWorld::render`].
+#[must_use]
+pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    AnyWorld::prepare(scene, plan).render(job, proceed)
+}

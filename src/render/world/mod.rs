@@ -1,0 +1,391 @@
+//! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of
+//! it.
+
+pub(in crate::render) mod any;
+
+use crate::math::Vec3;
+use crate::plan::Plan;
+use crate::render::accel::bvh::Bvh;
+use crate::render::accel::wide::Wide;
+use crate::render::frame::verify::Verify;
+use crate::render::material::phong::Materials;
+use crate::render::ray::Ray;
+use crate::render::shape::Shape;
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::tie::{CLOSE, Nearest, Tie};
+use crate::render::shape::triangle::Shear;
+use crate::valid::{self, Phong, ValidScene};
+use std::sync::Arc;
+
+/// The first hit of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where along the ray.
+    pub t: f64,
+    /// The surface: an index into [`World::surfaces`].
+    pub surface: usize,
+    /// Which part of the surface, for shapes of several.
+    pub part: u32,
+}
+
+/// A surface of the world.
+#[derive(Clone, Debug)]
+pub struct Surface<S = Shape> {
+    /// Its shape.
+    pub shape: S,
+    /// The index of its material in [`World::materials`].
+    pub material: usize,
+    /// Its index in the scene.
+    pub index: usize,
+}
+
+/// A scene prepared for tracing, of shapes `S`.
+pub struct World<S = Shape> {
+    /// The camera, settings, lights and materials as proven.
+    pub scene: ValidScene,
+    /// What the picture needs of it.
+    pub plan: Plan,
+    /// The materials, without maps that show one value.
+    pub materials: Vec<Phong>,
+    /// The surfaces that are planned, in the order of the scene.
+    pub surfaces: Vec<Surface<S>>,
+    /// The plan to be validated by a naive render.
+    pub(in crate::render) verify: Option<Verify>,
+    unbounded: Vec<u32>,
+    bounded: Vec<u32>,
+    bvh: Bvh,
+    merged: Option<Merged>,
+}
+
+/// The triangles of meshes that stand in the world one by one.
+struct Merged {
+    /// The surface of each, and the part of it.
+    parts: Vec<[u32; 2]>,
+    hierarchy: Wide,
+}
+
+/// The `t_max` that ends a walk.
+const OVER: f64 = -1.0;
+
+/// The part of no surface.
+pub(in crate::render) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
+
+/// A mesh that stands several times is merged into the world if all its triangles are no more than
+/// this.
+const MERGED: usize = 1 << 18;
+
+impl<S: Geometry> World<S> {
+    /// Prepares a scene: planes of shapes, the BVH.
+    #[must_use]
+    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
+        let meshes = scene
+            .meshes()
+            .iter()
+            .map(|mesh| Arc::new(S::prepare_mesh(mesh)))
+            .collect::<Vec<_>>();
+        let mut materials = Materials::new(scene, plan);
+        let surface = |(index, surface): (usize, &valid::Surface)| {
+            let shape = S::prepare(&surface.shape, &meshes)?;
+            Some(Surface {
+                material: materials.of(surface.material, shape.has_uv()),
+                shape,
+                index,
+            })
+        };
+        let planned = scene
+            .surfaces()
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| plan.surfaces[*index]);
+        let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
+        let (mut unbounded, mut bounded, mut boxes, mut apart) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let merges = merging(scene);
+        for (index, surface) in (0_u32..).zip(&surfaces) {
+            match surface.shape.bounds() {
+                _ if merges[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
+                Some(bounds) => {
+                    bounded.push(index);
+                    boxes.push(bounds);
+                }
+                None => unbounded.push(index),
+            }
+        }
+        let (bvh, merged) = (Bvh::build(&boxes), Merged::new(&surfaces, &apart));
+        let (scene, plan, materials) = (scene.clone(), plan.clone(), materials.all);
+        Self {
+            scene,
+            plan,
+            materials,
+            surfaces,
+            verify: None,
+            unbounded,
+            bounded,
+            bvh,
+            merged,
+        }
+    }
+
+    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first
+    /// surface and its first part. Rays that are none hit nothing.
+    #[must_use]
+    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        self.nearest_from(ray, NOWHERE)
+    }
+
+    /// As [`World::nearest`], for a ray that starts at a part of a surface: if that is a merged
+    /// triangle, it is flat, so the ray can't come back to it.
+    pub(in crate::render) fn nearest_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
+        // A NaN passes every slab test, so such a ray would visit all there is.
+        if !(ray.origin.is_finite() && ray.direction.is_finite()) {
+            return None;
+        }
+        let (ray, unit) = ray.tamed();
+        let mut nearest = self.nearest_apart(&ray);
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
+            hierarchy.walk::<true>(&ray, nearest.t, |item| {
+                let [surface, part] = parts[item as usize];
+                let key = (surface as usize, part);
+                if key != from
+                    && let Some(t) = self.surfaces[key.0].shape.intersect_part(&ray, part)
+                {
+                    nearest.add(t, key);
+                }
+                nearest.t
+            });
+        }
+        let (t, (surface, part)) = match nearest.key {
+            NOWHERE => return None,
+            _ if nearest.is_tied() => self.settle(&ray, from, nearest.t)?,
+            key => (nearest.t, key),
+        };
+        Some(Hit {
+            t: t * unit,
+            surface,
+            part,
+        })
+    }
+
+    /// The nearest hit on what is not merged; beyond all if there is none.
+    #[inline]
+    fn nearest_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
+        let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
+        if self.is_all_merged() {
+            return nearest;
+        }
+        let shear = Shear::new(ray);
+        let mut visit = |surface: u32| {
+            let surface = surface as usize;
+            if let Some((t, part)) =
+                self.surfaces[surface]
+                    .shape
+                    .nearest(ray, &shear, nearest.reach())
+            {
+                nearest.add(t, (surface, part));
+            }
+            nearest.t
+        };
+        for surface in &self.unbounded {
+            visit(*surface);
+        }
+        self.bvh.walk(ray, f64::INFINITY, |item, _| {
+            visit(self.bounded[item as usize])
+        });
+        nearest
+    }
+
+    /// The first of the hits as near as one at `t`.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
+        let (mut tie, shear) = (Tie::new(), Shear::new(ray));
+        let mut add = |t: f64, surface: usize, part: u32| {
+            tie.add(
+                t,
+                self.surfaces[surface].shape.error(ray, t, part),
+                (surface, part),
+            );
+        };
+        let mut visit = |surface: u32| {
+            let surface = surface as usize;
+            let shape = &self.surfaces[surface].shape;
+            shape.visit_roots(ray, &shear, t * CLOSE, &mut |t, part| add(t, surface, part));
+        };
+        self.unbounded.iter().for_each(|surface| visit(*surface));
+        self.bvh.walk(ray, t, |item, _| {
+            visit(self.bounded[item as usize]);
+            t
+        });
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
+            hierarchy.walk::<true>(ray, t, |item| {
+                let [surface, part] = parts[item as usize];
+                let surface = surface as usize;
+                if (surface, part) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(ray, part)
+                {
+                    add(t, surface, part);
+                }
+                t
+            });
+        }
+        tie.first()
+    }
+
+    /// Whether no surface stands apart from the triangles of meshes.
+    #[inline]
+    fn is_all_merged(&self) -> bool {
+        self.unbounded.is_empty() && self.bounded.is_empty()
+    }
+
+    /// Whether anything lies strictly between `from` and `to`; both ends may lie on surfaces.
+    ///
+    /// `from` should be a start of rays, off its own surface. What lies within the rounding error
+    /// of `to` does not count: a light on a surface is not hidden by it.
+    #[must_use]
+    pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
+        segment(from, to).is_some_and(|(ray, t_max)| self.any(&ray, t_max))
+    }
+
+    /// Whether anything is hit with 0 < t < `t_max`.
+    pub(in crate::render) fn any(&self, ray: &Ray, t_max: f64) -> bool {
+        self.passing(ray, t_max, NOWHERE, |_| 0.0) == 0.0
+    }
+
+    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no
+    /// more is asked once that is 0. Only triangles of meshes that are [`World::is_merged`] are
+    /// asked about: all else lets nothing pass. The ray starts at the part of a surface given.
+    pub(in crate::render) fn passing(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        from: (usize, u32),
+        mut pass: impl FnMut(Hit) -> f64,
+    ) -> f64 {
+        let (ray, unit) = ray.tamed();
+        let t_max = t_max / unit;
+        if self.is_blocked_apart(&ray, t_max) {
+            return 0.0;
+        }
+        let mut share = 1.0;
+        if let Some(Merged { parts, hierarchy }) = &self.merged {
+            hierarchy.walk::<true>(&ray, t_max, |item| {
+                let [surface, part] = parts[item as usize];
+                let surface = surface as usize;
+                if (surface, part) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
+                    && t < t_max
+                {
+                    share *= pass(Hit {
+                        t: t * unit,
+                        surface,
+                        part,
+                    });
+                }
+                if share > 0.0 { t_max } else { OVER }
+            });
+        }
+        share
+    }
+
+    /// Whether anything that is not merged is hit with 0 < t < `t_max`.
+    fn is_blocked_apart(&self, ray: &Ray, t_max: f64) -> bool {
+        if self.is_all_merged() {
+            return false;
+        }
+        let shear = Shear::new(ray);
+        let hits = |surface: u32| {
+            let hit = self.surfaces[surface as usize]
+                .shape
+                .intersect(ray, &shear, t_max);
+            hit.is_some_and(|(t, _)| t < t_max)
+        };
+        if self.unbounded.iter().any(|surface| hits(*surface)) {
+            return true;
+        }
+        let mut blocked = false;
+        self.bvh.walk(ray, t_max, |item, t_max| {
+            blocked = blocked || hits(self.bounded[item as usize]);
+            if blocked { OVER } else { t_max }
+        });
+        blocked
+    }
+
+    /// Whether the triangles of a surface stand in the world one by one.
+    pub(in crate::render) fn is_merged(&self, surface: usize) -> bool {
+        let parts = self.merged.as_ref().map_or(&[][..], |merged| &merged.parts);
+        let first = parts.partition_point(|[other, _]| (*other as usize) < surface);
+        parts
+            .get(first)
+            .is_some_and(|[other, _]| *other as usize == surface)
+    }
+}
+
+/// The ray from one point to another, and the t before which nothing belongs to the other; `None`
+/// if they are as good as one.
+pub(in crate::render) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
+    /// The end of the segment is known to this many units of its size.
+    const END: f64 = 16.0 * crate::math::U;
+    let direction = to - from;
+    let size = (from.abs() + to.abs()).element_sum();
+    let length = direction.length();
+    let t_max = 1.0 - END * (1.0 + size / length);
+    (t_max > 0.0).then_some((
+        Ray {
+            origin: from,
+            direction,
+        },
+        t_max,
+    ))
+}
+
+impl Merged {
+    /// Those of the surfaces with these indices.
+    fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
+        let shape = |surface: u32| &surfaces[surface as usize].shape;
+        let parts_of = |surface: u32| {
+            (0..)
+                .take(shape(surface).triangles())
+                .map(move |part| [surface, part])
+        };
+        let parts = indices
+            .iter()
+            .copied()
+            .flat_map(parts_of)
+            .collect::<Vec<_>>();
+        let blur = indices
+            .iter()
+            .map(|surface| shape(*surface).blur())
+            .fold(0.0, f64::max);
+        let corners = |item: u32| {
+            let [surface, part] = parts[item as usize];
+            shape(surface).corners(part).unwrap_or_default()
+        };
+        let hierarchy = Wide::build(parts.len(), blur, corners)?;
+        Some(Self { parts, hierarchy })
+    }
+}
+
+/// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
+fn merging(scene: &ValidScene) -> Vec<bool> {
+    let mut uses = vec![0_usize; scene.meshes().len()];
+    let mesh = |surface: &valid::Surface| {
+        if let valid::Shape::Instance(instance) = &surface.shape {
+            Some(instance.mesh)
+        } else {
+            None
+        }
+    };
+    scene
+        .surfaces()
+        .iter()
+        .filter_map(mesh)
+        .for_each(|mesh| uses[mesh] += 1);
+    let merges = |mesh: usize| {
+        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED
+    };
+    scene
+        .surfaces()
+        .iter()
+        .map(|surface| mesh(surface).is_some_and(merges))
+        .collect()
+}
