@@ -192,7 +192,7 @@ impl Renderer {
         proceed: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         self.pool
-            .install(|| self.world.layers(wanted, crop, proceed))
+            .install(|| self.world.layers(wanted, crop, &|_| proceed()))
     }
 }
 

@@ -8,25 +8,80 @@ use super::Failure;
 use super::args::Explanation;
 use super::input::{Input, Proven};
 use crate::pipeline;
-use crate::plan::{Effect, Plan, Rule, Rules, State, Verdict};
-use crate::render::{Counts, Job, KERNELS, Stride, choose};
-use crate::valid::ValidScene;
+use crate::plan::{Plan, Rule, Rules, State, Verdict};
+use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
+use crate::valid::{Mode, ValidScene};
 use serde_json::{Value, json};
+use std::num::NonZeroU32;
 
 /// About the most rays of one pass.
 const MAX_RAYS: u64 = 200_000;
+
+/// The fewest pixels and paths of one pass where paths are traced, if the picture has so many.
+const MIN_PIXELS: u64 = 4_096;
+const MIN_PATHS: u64 = 20_480;
 
 /// Columns of the table.
 const WIDTH: usize = 80;
 
 /// What is said of a plan.
 pub(super) struct Report {
-    kernel: &'static str,
-    stride: Stride,
+    /// The integrator, and out of how many it was chosen.
+    kernel: (&'static str, usize),
+    counter: Sampled,
     planned: u64,
     unpruned: u64,
-    samples: u64,
     rows: Vec<Row>,
+}
+
+/// Of which samples of the picture rays were counted.
+#[derive(Clone, Copy)]
+struct Sampled {
+    stride: Stride,
+    /// Samples of each of those pixels.
+    samples: u64,
+    /// All of them.
+    paths: u64,
+    /// Those of the whole picture.
+    all: u64,
+}
+
+impl Sampled {
+    fn is_whole(&self) -> bool {
+        self.paths == self.all
+    }
+}
+
+/// The integrator that renders as planned.
+fn kernel(plan: &Plan) -> (&'static str, usize) {
+    match &plan.paths {
+        Some(paths) => (
+            PATH_KERNELS[choose_for_paths(paths.features)].name,
+            PATH_KERNELS.len(),
+        ),
+        None => (KERNELS[choose(plan.features)].name, KERNELS.len()),
+    }
+}
+
+/// The rays or evaluations that a rule saves: of traced paths those of its effect, else all rays of
+/// the picture without the rule, less those as planned.
+fn saved(
+    verdict: &Verdict,
+    counter: &Counter<'_>,
+    planned: &Counts,
+    unpruned: &Counts,
+) -> Result<u64, Failure> {
+    let is_path = matches!(counter.scene.settings().mode, Mode::Path(_));
+    match verdict.rule.filter(|_| verdict.state == State::Pruned) {
+        None => Ok(0),
+        Some(_) if is_path => Ok(unpruned
+            .of(verdict.effect)
+            .saturating_sub(planned.of(verdict.effect))),
+        Some(rule) => {
+            let without = counter.count(Rules::ALL.without(rule))?;
+            Ok(without.rays().saturating_sub(planned.rays()))
+        }
+    }
 }
 
 /// One verdict, with what the effect costs.
@@ -46,53 +101,45 @@ impl Report {
     /// Plans the picture and counts rays.
     pub(super) fn new(proven: &Proven, input: &Input) -> Result<Self, Failure> {
         let plan = Plan::new(&proven.scene, Rules::ALL);
-        let mut counter = Counter::new(&proven.scene);
+        let counter = Counter::new(&proven.scene);
         let planned = counter.count(Rules::ALL)?;
-        let unpruned = counter.count(Rules::NONE)?.rays();
-        let mut rows = Vec::new();
-        for verdict in &plan.verdicts {
-            let mut saves = 0;
-            if let Some(rule) = verdict
-                .rule
-                .filter(|_| verdict.of.is_none() && verdict.state == State::Pruned)
-            {
-                saves = counter
-                    .count(Rules::ALL.without(rule))?
-                    .rays()
-                    .saturating_sub(planned.rays());
-            }
+        let unpruned = counter.count(Rules::NONE)?;
+        let row = |verdict: &Verdict| {
+            let is_whole = verdict.of.is_none();
+            let saves = if is_whole {
+                saved(verdict, &counter, &planned, &unpruned)?
+            } else {
+                0
+            };
             let spans = verdict
                 .facts
                 .iter()
                 .filter_map(|place| proven.lowered.origins.span(*place));
-            let mut places = spans
-                .map(|span| input.line(span))
-                .map(|(file, line)| at(file, line))
-                .collect::<Vec<_>>();
+            let lines = spans.map(|span| input.line(span));
+            let mut places: Vec<_> = lines.map(|(file, line)| at(file, line)).collect();
             places.dedup();
-            let costs = if verdict.of.is_none() {
-                cost(verdict.effect, &planned)
-            } else {
-                0
-            };
-            let of = verdict.of.map(|place| place.to_string());
-            rows.push(Row {
+            Ok(Row {
                 verdict: verdict.clone(),
                 places,
-                of,
-                costs,
+                of: verdict.of.map(|place| place.to_string()),
+                costs: if is_whole {
+                    planned.of(verdict.effect)
+                } else {
+                    0
+                },
                 saves,
-            });
-        }
-        let (kernel, stride) = (KERNELS[choose(plan.features)].name, counter.stride);
-        let samples = counter.samples();
+            })
+        };
         Ok(Self {
-            kernel,
-            stride,
+            kernel: kernel(&plan),
             planned: planned.rays(),
-            unpruned,
-            samples,
-            rows,
+            unpruned: unpruned.rays(),
+            rows: plan
+                .verdicts
+                .iter()
+                .map(row)
+                .collect::<Result<_, Failure>>()?,
+            counter: counter.sampled,
         })
     }
 
@@ -109,11 +156,7 @@ impl Report {
             "{:<15} {:<7} {:<15} {:>12} {:>12}\n",
             "effect", "verdict", "rule", "rays", "rays saved"
         );
-        let about = if self.stride == Stride::EVERY {
-            ""
-        } else {
-            "≈"
-        };
+        let about = if self.counter.is_whole() { "" } else { "≈" };
         let rays = |count: u64| {
             if count == 0 {
                 String::new()
@@ -148,14 +191,29 @@ impl Report {
             };
             text += &folded(&format!("{whose}{}{places}", verdict.because));
         }
-        let per_sample = |rays: u64| rays as f64 / self.samples.max(1) as f64;
-        text + &format!(
+        let Sampled {
+            stride,
+            samples,
+            paths,
+            all,
+        } = self.counter;
+        let per_sample = |rays: u64| rays as f64 / all.max(1) as f64;
+        text += &format!(
             "kernel: {} (of {})\nrays a sample: {about}{:.2}, without the rules {about}{:.2}\n",
-            self.kernel,
-            KERNELS.len(),
+            self.kernel.0,
+            self.kernel.1,
             per_sample(self.planned),
             per_sample(self.unpruned)
-        )
+        );
+        if !self.counter.is_whole() {
+            text += &format!(
+                "counted on {} of {} samples: {samples} of each pixel in each {} of a row and column\n",
+                grouped(paths),
+                grouped(all),
+                ordinal(stride.get())
+            );
+        }
+        text
     }
 
     fn object(&self) -> Value {
@@ -174,115 +232,103 @@ impl Report {
         };
         json!({
             "effects": self.rows.iter().map(row).collect::<Vec<_>>(),
-            "kernel": self.kernel,
-            "kernels": KERNELS.len(),
-            "stride": self.stride.get(),
-            "samples": self.samples,
+            "kernel": self.kernel.0,
+            "kernels": self.kernel.1,
+            "stride": self.counter.stride.get(),
+            "samples": self.counter.all,
+            "samplesCounted": self.counter.paths,
             "rays": self.planned,
             "raysUnpruned": self.unpruned,
         })
     }
 }
 
-/// The rays that an effect takes of those counted.
-fn cost(effect: Effect, counts: &Counts) -> u64 {
-    match effect {
-        Effect::Surfaces => counts.camera,
-        Effect::Shadows => counts.shadow,
-        Effect::Mirror => counts.mirror,
-        Effect::Refraction => counts.refracted,
-        Effect::DepthBuffer
-        | Effect::NormalBuffer
-        | Effect::DirectLight
-        | Effect::SoftLight
-        | Effect::Highlight
-        | Effect::GlossyReflection
-        | Effect::Depth
-        | Effect::Textures
-        | Effect::NormalInterpolation
-        | Effect::NormalMapping
-        | Effect::Lens
-        | Effect::Supersampling => 0,
-    }
-}
-
-/// Counts the rays of a picture, on a part of its pixels that is quick.
+/// Counts the rays of a picture, on a part of its samples that is quick.
 struct Counter<'scene> {
     scene: &'scene ValidScene,
-    stride: Stride,
+    sampled: Sampled,
 }
 
 impl<'scene> Counter<'scene> {
     fn new(scene: &'scene ValidScene) -> Self {
-        let counter = Self {
-            scene,
-            stride: Stride::EVERY,
+        let pixel = samples_of_pixel(scene);
+        let [width, height] = [scene.camera().width.get(), scene.camera().height.get()];
+        let pixels = u64::from(width) * u64::from(height);
+        let all = pixels.saturating_mul(pixel);
+        let (samples, wanted) = match scene.settings().mode {
+            // Paths are long: some of each pixel say enough, and pixels that are far apart more.
+            Mode::Path(_) => (
+                pixel.min((MIN_PATHS / pixels.clamp(1, MIN_PIXELS)).max(1)),
+                MIN_PIXELS,
+            ),
+            Mode::Phong | Mode::Gooch(_) | Mode::Normal | Mode::Zbuffer => {
+                (pixel, (MAX_RAYS / 4 / pixel.max(1)).max(1))
+            }
         };
-        let wanted = counter.samples().saturating_mul(4);
         let mut k = 1;
-        while u64::from(k) * u64::from(k) * MAX_RAYS < wanted {
+        while u64::from(k + 1) * u64::from(k + 1) * wanted <= pixels {
             k += 1;
         }
-        Self {
-            stride: Stride::new(k),
-            ..counter
-        }
-    }
-
-    /// All samples of the picture.
-    fn samples(&self) -> u64 {
-        let (camera, factor) = (
-            self.scene.camera(),
-            u64::from(self.scene.settings().supersampling.get()),
-        );
-        let lens = if camera.lens.radius.get() > 0.0 {
-            u64::from(camera.lens.samples.get())
-        } else {
-            1
+        let stride = Stride::new(k);
+        let met = u64::from(stride.of(width)) * u64::from(stride.of(height));
+        let sampled = Sampled {
+            stride,
+            samples,
+            paths: met.saturating_mul(samples),
+            all,
         };
-        let pixels = u64::from(camera.width.get()) * u64::from(camera.height.get());
-        pixels.saturating_mul(factor * factor).saturating_mul(lens)
+        Self { scene, sampled }
     }
 
     /// The rays of the whole picture, scaled from those of a part.
-    fn count(&mut self, rules: Rules) -> Result<Counts, Failure> {
+    fn count(&self, rules: Rules) -> Result<Counts, Failure> {
+        let Sampled {
+            stride,
+            samples,
+            paths,
+            all,
+        } = self.sampled;
+        let samples = NonZeroU32::new(u32::try_from(samples).unwrap_or(u32::MAX));
         let job = Job {
-            stride: self.stride,
+            stride,
+            samples,
             ..Job::default()
         };
-        let film = pipeline::render(self.scene, &Plan::new(self.scene, rules), &job, 0, &|_| {
-            true
-        });
+        let plan = Plan::new(self.scene, rules);
+        let film = pipeline::render(self.scene, &plan, &job, 0, &|_| true);
         let film =
             film.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
-        let counts = film.ok_or(Failure::Interrupted)?.counts;
-        let (width, height) = (
-            self.scene.camera().width.get(),
-            self.scene.camera().height.get(),
-        );
-        let whole = u128::from(width) * u128::from(height);
-        let part = u128::from(self.stride.of(width)) * u128::from(self.stride.of(height));
-        let scaled =
-            |count: u64| u64::try_from(u128::from(count) * whole / part.max(1)).unwrap_or(u64::MAX);
-        let Counts {
-            camera,
-            shadow,
-            mirror,
-            refracted,
-            hits,
-            unnumbered,
-        } = counts;
-        let [camera, shadow, mirror, refracted] = [camera, shadow, mirror, refracted].map(scaled);
-        let [hits, unnumbered] = [hits, unnumbered].map(scaled);
-        Ok(Counts {
-            camera,
-            shadow,
-            mirror,
-            refracted,
-            hits,
-            unnumbered,
-        })
+        Ok(film.ok_or(Failure::Interrupted)?.counts.scaled(all, paths))
     }
+}
+
+/// The samples that a pixel takes.
+fn samples_of_pixel(scene: &ValidScene) -> u64 {
+    let (lens, settings) = (scene.camera().lens, scene.settings());
+    match settings.mode {
+        Mode::Path(path) => path.samples.get().into(),
+        Mode::Zbuffer => 1,
+        Mode::Phong | Mode::Gooch(_) | Mode::Normal => {
+            let factor = u64::from(settings.supersampling.get());
+            let points = if lens.radius.get() > 0.0 {
+                lens.samples.get()
+            } else {
+                1
+            };
+            (factor * factor).saturating_mul(points.into())
+        }
+    }
+}
+
+/// The number as an ordinal, as `1st` and `12th`.
+fn ordinal(number: u32) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, tens) if tens != 11 => "st",
+        (2, tens) if tens != 12 => "nd",
+        (3, tens) if tens != 13 => "rd",
+        _ => "th",
+    };
+    format!("{number}{ending}")
 }
 
 /// A line of a file, by the name of the file alone.

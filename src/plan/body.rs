@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// Where a surface is.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Extent {
+pub(in crate::plan) enum Extent {
     /// Inside a box.
     Within(Space),
     /// In an unbounded plane.
@@ -19,14 +19,14 @@ pub(super) enum Extent {
 
 /// The form and place of a surface, as far as the rules use it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Body {
-    pub(super) extent: Extent,
-    pub(super) form: Form,
+pub(in crate::plan) struct Body {
+    pub(in crate::plan) extent: Extent,
+    pub(in crate::plan) form: Form,
 }
 
 /// A form with a property that rules rest on.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Form {
+pub(in crate::plan) enum Form {
     /// A bounded piece of a plane.
     Flat(Flat),
     /// A ball.
@@ -38,7 +38,7 @@ pub(super) enum Form {
 }
 
 impl Body {
-    pub(super) fn of(shape: &Shape, meshes: &[Space]) -> Self {
+    pub(in crate::plan) fn of(shape: &Shape, meshes: &[Space]) -> Self {
         match shape {
             Shape::Sphere(Sphere { center, radius, .. }) => {
                 let radius = radius.get();
@@ -136,7 +136,7 @@ impl Body {
     }
 
     /// The box around it, if it has one.
-    pub(super) fn space(&self) -> Option<&Space> {
+    pub(in crate::plan) fn space(&self) -> Option<&Space> {
         match &self.extent {
             Extent::Within(space) => Some(space),
             Extent::Plane(_) | Extent::Anywhere => None,
@@ -144,7 +144,7 @@ impl Body {
     }
 
     /// From which sides things in a box, or anywhere, look at it.
-    pub(super) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
+    pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
             Form::Flat(flat) => flat.sides(from),
@@ -154,7 +154,7 @@ impl Body {
     }
 
     /// Whether a convex solid surely does not reach into a box.
-    pub(super) fn is_clear_of(&self, other: &Space) -> bool {
+    pub(in crate::plan) fn is_clear_of(&self, other: &Space) -> bool {
         let Some(space) = self.space() else {
             return false;
         };
@@ -169,7 +169,7 @@ impl Body {
 
 /// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and
 /// round by its coordinates.
-pub(super) fn bodies(scene: &ValidScene) -> Vec<Body> {
+pub(in crate::plan) fn bodies(scene: &ValidScene) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);

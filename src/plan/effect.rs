@@ -1,6 +1,6 @@
 //! The effects a picture may need, and what became of each.
 
-use super::rule::Rule;
+use super::rules::Rule;
 use crate::ir::Place;
 
 /// A part of the simulation that a scene may do without.
@@ -23,9 +23,54 @@ pub enum Effect {
     NormalMapping,
     Lens,
     Supersampling,
+    Environment,
+    Emission,
+    Unlit,
+    Alpha,
+    Mis,
+    Microfacets,
+    Compensation,
+    Clearcoat,
+    Sheen,
+    Anisotropy,
+    Iridescence,
+    Volume,
+    Dispersion,
+    VertexColors,
 }
 
 impl Effect {
+    /// How many effects there are.
+    pub const COUNT: usize = Self::VertexColors as usize + 1;
+
+    /// The effects that traced paths may have.
+    pub const OF_PATHS: [Self; 24] = [
+        Self::Surfaces,
+        Self::Environment,
+        Self::Emission,
+        Self::Unlit,
+        Self::Alpha,
+        Self::DirectLight,
+        Self::Shadows,
+        Self::Mis,
+        Self::Depth,
+        Self::Microfacets,
+        Self::Compensation,
+        Self::Clearcoat,
+        Self::Sheen,
+        Self::Anisotropy,
+        Self::Iridescence,
+        Self::Refraction,
+        Self::Volume,
+        Self::Dispersion,
+        Self::Textures,
+        Self::VertexColors,
+        Self::NormalInterpolation,
+        Self::NormalMapping,
+        Self::Lens,
+        Self::Supersampling,
+    ];
+
     /// The name, as in the books.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -46,6 +91,20 @@ impl Effect {
             Self::NormalMapping => "normal maps",
             Self::Lens => "lens",
             Self::Supersampling => "supersampling",
+            Self::Environment => "environment",
+            Self::Emission => "emission",
+            Self::Unlit => "unlit surfaces",
+            Self::Alpha => "alpha",
+            Self::Mis => "light weights",
+            Self::Microfacets => "microfacets",
+            Self::Compensation => "compensation",
+            Self::Clearcoat => "clearcoat",
+            Self::Sheen => "sheen",
+            Self::Anisotropy => "anisotropy",
+            Self::Iridescence => "iridescence",
+            Self::Volume => "absorption",
+            Self::Dispersion => "dispersion",
+            Self::VertexColors => "corner colours",
         }
     }
 }

@@ -49,6 +49,47 @@ impl Features {
     }
 }
 
+/// A set of features of the path integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathFeatures(pub u32);
+
+impl PathFeatures {
+    /// Diffuse surfaces that light finds by itself.
+    pub const NONE: Self = Self(0);
+    /// Surfaces that a ray goes through by chance, or where a texture says so.
+    pub const ALPHA: Self = Self(1);
+    /// Lights are aimed at.
+    pub const AIM: Self = Self(1 << 1);
+    /// Something may hide a light.
+    pub const SHADOWS: Self = Self(1 << 2);
+    /// Surfaces reflect at their boundary.
+    pub const MICROFACETS: Self = Self(1 << 3);
+    /// Light goes through surfaces.
+    pub const TRANSMISSION: Self = Self(1 << 4);
+    /// Clearcoat, sheen, anisotropy or iridescence.
+    pub const LAYERS: Self = Self(1 << 5);
+    /// All of them.
+    pub const EVERYTHING: Self = Self((1 << 6) - 1);
+
+    /// The set with those of another.
+    #[must_use]
+    pub const fn with(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether all of `others` are in the set.
+    #[must_use]
+    pub const fn contains(self, others: Self) -> bool {
+        self.0 & others.0 == others.0
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub const fn count(self) -> u32 {
+        self.0.count_ones()
+    }
+}
+
 /// A set of shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shapes {

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Extent, Form};
 use super::reach::Reach;
-use super::rule::Rule;
+use super::rules::Rule;
 use super::space::{Flat, ROOM, Sides, Space};
 use super::{Facts, LightPlan, MAX_PAIRS};
 use crate::math::Vec3;

@@ -12,25 +12,28 @@ mod effect;
 mod features;
 mod light;
 mod look;
+mod path;
 mod precision;
 mod reach;
 mod region;
-mod rule;
+mod rules;
 mod space;
 mod verdicts;
 mod window;
 
 pub use effect::{Effect, State, Verdict};
-pub use features::{Features, Shapes};
+pub use features::{Features, PathFeatures, Shapes};
+pub use path::{LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{Region, Sight};
-pub use rule::{Rule, Rules};
+pub use rules::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Projection, Shape, ValidScene};
+use crate::valid::{Mode, Path, Pattern, Projection, Shape, ValidScene};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
+use path::Planned;
 use reach::Reach;
 use serde::{Deserialize, Serialize};
 use window::{Shown, Window};
@@ -98,6 +101,8 @@ pub struct Plan {
     pub max_depth: u32,
     /// What each pixel may show.
     pub region: Region,
+    /// What traced paths need, where paths are traced.
+    pub paths: Option<PathPlan>,
     /// What became of each effect, and why.
     pub verdicts: Vec<Verdict>,
 }
@@ -106,16 +111,19 @@ impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
     pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+        let settings = scene.settings();
+        if let Mode::Path(path) = settings.mode {
+            return Self::of_paths(scene, path, rules);
+        }
         let rules = proven_for(scene, rules);
         let facts = Facts::new(scene, rules);
-        let settings = scene.settings();
         let window = Window::new(scene.camera(), facts.is_pinhole());
         let shown = facts
             .bodies
             .iter()
             .map(|body| window.shown(body))
             .collect::<Vec<_>>();
-        let asked = if let Mode::Phong | Mode::Path(_) = settings.mode {
+        let asked = if let Mode::Phong = settings.mode {
             settings.max_depth
         } else {
             0
@@ -157,6 +165,30 @@ impl Plan {
             region,
             lights: findings.lights.plans,
             constants: findings.facts.constants,
+            paths: None,
+        }
+    }
+
+    /// Plans traced paths.
+    fn of_paths(scene: &ValidScene, path: Path, rules: Rules) -> Self {
+        let Planned {
+            plan,
+            surfaces,
+            max_depth,
+            verdicts,
+        } = path::plan(scene, path, rules);
+        Self {
+            arithmetic: Arithmetic::Robust,
+            rules,
+            features: Features::EVERYTHING,
+            shapes: shapes(scene, &surfaces),
+            lights: Vec::new(),
+            surfaces,
+            constants: vec![None; scene.textures().len()],
+            max_depth,
+            region: Region::default(),
+            paths: Some(plan),
+            verdicts,
         }
     }
 
@@ -387,13 +419,11 @@ impl Findings<'_> {
     }
 }
 
-/// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from
-/// an eye.
+/// The rules whose proofs hold for a camera: they know rays from an eye.
 fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
-    match (scene.settings().mode, scene.camera().projection) {
-        (Mode::Path(_), _) => Rules::NONE,
-        (_, Projection::Orthographic) => rules.of(Rules::AT_HITS),
-        (_, Projection::Perspective) => rules,
+    match scene.camera().projection {
+        Projection::Orthographic => rules.of(Rules::AT_HITS),
+        Projection::Perspective => rules,
     }
 }
 

@@ -2,7 +2,7 @@
 //! mirrors.
 
 use super::body::{Body, Form};
-use super::rule::{Rule, Rules};
+use super::rules::{Rule, Rules};
 use super::space::Sides;
 use super::window::{Shown, Window};
 use super::{Facts, MAX_PAIRS};

@@ -5,7 +5,7 @@
 //! order or shape of the surfaces.
 
 use super::body::Form;
-use super::rule::Rule;
+use super::rules::Rule;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
 use super::{Facts, Findings};

@@ -8,18 +8,18 @@
 use crate::math::Vec3;
 
 /// The margin, as a share of the coordinates it is for: 2⁻³².
-pub(super) const ROOM: f64 = 1.0 / 4_294_967_296.0;
+pub(in crate::plan) const ROOM: f64 = 1.0 / 4_294_967_296.0;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Space {
-    pub(super) min: Vec3,
-    pub(super) max: Vec3,
+pub(in crate::plan) struct Space {
+    pub(in crate::plan) min: Vec3,
+    pub(in crate::plan) max: Vec3,
 }
 
 impl Space {
     /// The box that reaches so far from a point along each axis.
-    pub(super) fn around(center: Vec3, reach: Vec3) -> Self {
+    pub(in crate::plan) fn around(center: Vec3, reach: Vec3) -> Self {
         Self {
             min: center - reach,
             max: center + reach,
@@ -27,7 +27,7 @@ impl Space {
     }
 
     /// The box of some points; of none, one that nothing meets.
-    pub(super) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
+    pub(in crate::plan) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
         let nothing = Self {
             min: Vec3::INFINITY,
             max: Vec3::NEG_INFINITY,
@@ -40,7 +40,7 @@ impl Space {
         })
     }
 
-    pub(super) fn union(self, other: Self) -> Self {
+    pub(in crate::plan) fn union(self, other: Self) -> Self {
         Self {
             min: self.min.min(other.min),
             max: self.max.max(other.max),
@@ -48,19 +48,19 @@ impl Space {
     }
 
     /// The size of the largest coordinate.
-    pub(super) fn size(&self) -> f64 {
+    pub(in crate::plan) fn size(&self) -> f64 {
         self.min.abs().max(self.max.abs()).max_element()
     }
 
     /// The box with a margin on all sides.
-    pub(super) fn grown(self, by: f64) -> Self {
+    pub(in crate::plan) fn grown(self, by: f64) -> Self {
         Self {
             min: self.min - Vec3::splat(by),
             max: self.max + Vec3::splat(by),
         }
     }
 
-    pub(super) fn corners(&self) -> [Vec3; 8] {
+    pub(in crate::plan) fn corners(&self) -> [Vec3; 8] {
         let pick = |bit: usize, axis: usize| {
             if bit == 0 {
                 self.min[axis]
@@ -72,7 +72,7 @@ impl Space {
     }
 
     /// Whether the two surely have no point in common.
-    pub(super) fn is_apart_from(&self, other: &Self) -> bool {
+    pub(in crate::plan) fn is_apart_from(&self, other: &Self) -> bool {
         let room = ROOM * (self.size() + other.size());
         (self.min - other.max)
             .max(other.min - self.max)
@@ -81,7 +81,7 @@ impl Space {
     }
 
     /// The distance from a point to the nearest of the box.
-    pub(super) fn distance(&self, point: Vec3) -> f64 {
+    pub(in crate::plan) fn distance(&self, point: Vec3) -> f64 {
         (self.min - point)
             .max(point - self.max)
             .max(Vec3::ZERO)
@@ -92,7 +92,7 @@ impl Space {
     ///
     /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
     /// `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
-    pub(super) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
+    pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = ROOM;
         let near = ROOM * (self.size() + other.size());
@@ -128,42 +128,42 @@ impl Space {
 
 /// A plane, by a point of it and its unit normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Flat {
-    pub(super) point: Vec3,
-    pub(super) normal: Vec3,
+pub(in crate::plan) struct Flat {
+    pub(in crate::plan) point: Vec3,
+    pub(in crate::plan) normal: Vec3,
 }
 
 /// The sides of a surface from which something looks at it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Sides {
+pub(in crate::plan) struct Sides {
     /// From where the normal points to: outside, for a closed shape.
-    pub(super) front: bool,
+    pub(in crate::plan) front: bool,
     /// From the other side.
-    pub(super) back: bool,
+    pub(in crate::plan) back: bool,
 }
 
 impl Sides {
-    pub(super) const BOTH: Self = Self {
+    pub(in crate::plan) const BOTH: Self = Self {
         front: true,
         back: true,
     };
-    pub(super) const FRONT: Self = Self {
+    pub(in crate::plan) const FRONT: Self = Self {
         front: true,
         back: false,
     };
-    pub(super) const BACK: Self = Self {
+    pub(in crate::plan) const BACK: Self = Self {
         front: false,
         back: true,
     };
 
-    pub(super) fn opposite(self) -> Self {
+    pub(in crate::plan) fn opposite(self) -> Self {
         Self {
             front: self.back,
             back: self.front,
         }
     }
 
-    pub(super) fn with(self, other: Self) -> Self {
+    pub(in crate::plan) fn with(self, other: Self) -> Self {
         Self {
             front: self.front || other.front,
             back: self.back || other.back,
@@ -173,7 +173,7 @@ impl Sides {
 
 impl Flat {
     /// On which sides of the plane a box lies; both if that is in doubt.
-    pub(super) fn sides(&self, space: &Space) -> Sides {
+    pub(in crate::plan) fn sides(&self, space: &Space) -> Sides {
         let room = 4.0 * ROOM * (space.size() + self.point.abs().max_element());
         let heights = space
             .corners()
@@ -191,7 +191,7 @@ impl Flat {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in crate::plan) mod tests {
     use super::*;
 
     /// Something that is surely so, seen from a margin on, is not yet so a little before it.

@@ -11,14 +11,14 @@ const DOUBT: f64 = 0.25;
 
 /// A rectangle of pixels: columns and rows, each from the first to before the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rect {
-    pub(super) x: [u32; 2],
-    pub(super) y: [u32; 2],
+pub(in crate::plan) struct Rect {
+    pub(in crate::plan) x: [u32; 2],
+    pub(in crate::plan) y: [u32; 2],
 }
 
 /// Where a surface may show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shown {
+pub(in crate::plan) enum Shown {
     /// Nowhere: no camera ray meets it.
     Nowhere,
     /// In these pixels alone.
@@ -28,7 +28,7 @@ pub(super) enum Shown {
 }
 
 /// The camera, seen as a map from the world to the picture.
-pub(super) struct Window {
+pub(in crate::plan) struct Window {
     camera: Camera,
     /// A direction at a right angle to the image plane, in which that plane is 1 from the eye.
     depth: Vec3,
@@ -49,7 +49,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    pub(super) fn new(camera: &Camera, pinhole: bool) -> Self {
+    pub(in crate::plan) fn new(camera: &Camera, pinhole: bool) -> Self {
         let (right, up) = (camera.right.length(), camera.up.length());
         let normal = cross(camera.right / right, camera.up / up);
         let forward = camera.center - camera.eye;
@@ -90,12 +90,12 @@ impl Window {
     }
 
     /// The box of all points of the lens.
-    pub(super) fn lens(&self) -> Space {
+    pub(in crate::plan) fn lens(&self) -> Space {
         self.lens_box
     }
 
     /// Where a surface may show.
-    pub(super) fn shown(&self, body: &Body) -> Shown {
+    pub(in crate::plan) fn shown(&self, body: &Body) -> Shown {
         match &body.extent {
             Extent::Within(space) if !self.blurred => self.project(space),
             Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
@@ -103,7 +103,7 @@ impl Window {
     }
 
     /// Where a point shows from the middle of the lens, in pixels; `None` where that is in doubt.
-    pub(super) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
+    pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.size();
         let depth = (point - self.camera.eye).dot(self.depth);
         let doubt = 64.0 * U * size * self.steepness;

@@ -1,12 +1,12 @@
 //! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
 
-use crate::plan::Features;
+use crate::plan::{Features, PathFeatures};
 use crate::render::film::heartbeat::Proceed;
 use crate::render::film::{Film, Job};
 use crate::render::integrator::path::Strategy;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::Mode;
+use crate::valid::{Mode, Path};
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,12 +85,63 @@ macro_rules! dispatch {
 }
 pub(in crate::render) use dispatch;
 
+/// The sets of features that the path integrator is compiled for: diffuse surfaces, opaque ones
+/// without layers, and all.
+pub const PATH_KERNELS: [PathKernel; 3] = [
+    path_kernel("paths, diffuse", AIMED),
+    path_kernel("paths, opaque", AIMED.with(PathFeatures::MICROFACETS)),
+    path_kernel("paths", PathFeatures::EVERYTHING),
+];
+
+/// A path integrator compiled for a set of features.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathKernel {
+    /// Its name.
+    pub name: &'static str,
+    /// What it can do.
+    pub features: PathFeatures,
+}
+
+const AIMED: PathFeatures = PathFeatures::AIM.with(PathFeatures::SHADOWS);
+
+const fn path_kernel(name: &'static str, features: PathFeatures) -> PathKernel {
+    PathKernel { name, features }
+}
+
+/// The index of the path integrator with the fewest features that has all of `needed`.
+#[must_use]
+pub fn choose_for_paths(needed: PathFeatures) -> usize {
+    let able = |kernel: &PathKernel| kernel.features.contains(needed);
+    PATH_KERNELS
+        .iter()
+        .position(able)
+        .unwrap_or(PATH_KERNELS.len() - 1)
+}
+
+/// Calls a method of a world with the features of the path integrator chosen, by its index.
+macro_rules! dispatch_paths {
+    ($world:ident.$method:ident $arguments:tt) => {{
+        use $crate::render::kernel::{PATH_KERNELS, choose_for_paths};
+        let everything = $crate::plan::PathFeatures::EVERYTHING;
+        let needed = $world.plan.paths.as_ref().map_or(everything, |plan| plan.features);
+        match choose_for_paths(needed) {
+            0 => $crate::render::kernel::dispatch_paths!(@ 0 $world.$method $arguments),
+            1 => $crate::render::kernel::dispatch_paths!(@ 1 $world.$method $arguments),
+            _ => $crate::render::kernel::dispatch_paths!(@ 2 $world.$method $arguments),
+        }
+    }};
+    (@ $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
+        $world.$method::<{ PATH_KERNELS[$index].features.0 }>($($argument),*)
+    };
+}
+pub(super) use dispatch_paths;
+
 impl<S: Geometry> World<S> {
-    /// Renders on the threads of the current pool; see [`crate::render::AnyWorld::render`].
+    /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
     pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Both, job, proceed);
+            return self.render_paths(path, Strategy::Mis, job, proceed);
         }
         dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.render_with(job, proceed))
     }
@@ -99,15 +150,38 @@ impl<S: Geometry> World<S> {
     #[must_use]
     pub fn render_by_few(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Both, job, proceed);
+            return self.render_paths(path, Strategy::Mis, job, proceed);
         }
         dispatch!(choose_of_few(self.plan.features); 1 4 10; self.render_with(job, proceed))
+    }
+
+    /// Renders by tracing paths; `None` if `proceed` said stop.
+    #[must_use]
+    pub fn render_paths(
+        &self,
+        path: Path,
+        strategy: Strategy,
+        job: &Job,
+        proceed: &Proceed<'_>,
+    ) -> Option<Film> {
+        dispatch_paths!(self.render_paths_with(path, strategy, job, proceed))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_path_kernel_chosen_can_do_all_that_is_needed() {
+        for needed in 0..=PathFeatures::EVERYTHING.0 {
+            let chosen = choose_for_paths(PathFeatures(needed));
+            let features = PATH_KERNELS[chosen].features;
+            assert!(features.contains(PathFeatures(needed)), "{needed:b}");
+            let mut smaller = PATH_KERNELS.iter().take(chosen);
+            assert!(!smaller.any(|kernel| kernel.features.contains(PathFeatures(needed))));
+        }
+    }
 
     #[test]
     fn the_kernel_chosen_can_do_all_that_is_needed_and_no_smaller_one_can() {

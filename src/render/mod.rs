@@ -19,16 +19,16 @@ mod world;
 pub use accel::bounds::Bounds;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::{
-    Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Sample, Sheen, Standard, dispersed,
+    Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Lobes, Sample, Sheen, Standard, dispersed,
 };
 pub use camera::{camera_ray, image_point, vogel};
 pub use film::heartbeat::{Proceed, Step};
+pub use film::progressive::{ProgressiveFilm, Strands};
 pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
-pub use frame::progressive::{Growing, Strands};
 pub use frame::verify::{Fault, verify};
 pub use integrator::aov::Aov;
 pub use integrator::path::Strategy;
-pub use kernel::{KERNELS, Kernel, choose};
+pub use kernel::{KERNELS, Kernel, PATH_KERNELS, PathKernel, choose, choose_for_paths};
 pub use ray::{Interaction, Ray};
 pub use shape::Shape;
 pub use shape::basic::Basic;

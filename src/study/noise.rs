@@ -2,7 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use crate::render::{Growing, Strands};
+use crate::render::{ProgressiveFilm, Strands};
 
 /// The noise of a whole film.
 #[derive(Clone, Copy, Debug)]
@@ -15,12 +15,12 @@ pub(super) struct Noise {
 
 impl Noise {
     /// That of a film with samples everywhere.
-    pub(super) fn of(film: &Growing) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm) -> Self {
         // The variance of the mean of two independent halves.
         let variance =
             |pixel: &Strands| 0.25 * (pixel.variance_of_half(0) + pixel.variance_of_half(1));
         let (mut sum, mut squares) = (0.0, 0.0);
-        for variance in film.pixels.iter().map(variance) {
+        for variance in film.pixels().map(variance) {
             sum += variance;
             squares += variance * variance;
         }
@@ -37,7 +37,7 @@ impl Noise {
             f64::INFINITY
         };
         Self {
-            square: sum / film.pixels.len().max(1) as f64,
+            square: sum / film.len().max(1) as f64,
             freedom,
         }
     }
@@ -78,7 +78,7 @@ pub(super) struct Allotment {
 
 impl Allotment {
     /// That of a film with samples everywhere.
-    pub(super) fn of(film: &Growing, noise: &Noise) -> Self {
+    pub(super) fn of(film: &ProgressiveFilm, noise: &Noise) -> Self {
         let seen = [0, 1].map(|half| smoothed(film, half));
         let deviations: Vec<_> = seen[1]
             .iter()
@@ -90,13 +90,7 @@ impl Allotment {
         let independent = |(pixel, [a, b]): (&Strands, &[f64; 2])| {
             0.125 * (a * a / f64::from(pixel.count(0)) + b * b / f64::from(pixel.count(1)))
         };
-        let square = film
-            .pixels
-            .iter()
-            .zip(&deviations)
-            .map(independent)
-            .sum::<f64>()
-            / pixels;
+        let square = film.pixels().zip(&deviations).map(independent).sum::<f64>() / pixels;
         Self {
             deviations,
             mean,
@@ -112,10 +106,10 @@ impl Allotment {
     /// error becomes `square`: the least work is samples in proportion to the deviation
     /// (Neyman, Journal of the Royal Statistical Society 97 (1934)). At most twice as many as
     /// there are; a power of two, of which strands are stratified.
-    pub(super) fn wanted(&self, film: &Growing, index: usize, square: f64) -> [u32; 2] {
+    pub(super) fn wanted(&self, film: &ProgressiveFilm, index: usize, square: f64) -> [u32; 2] {
         let scale = self.gain * self.mean / (4.0 * square);
         [0, 1].map(|half: usize| {
-            let count = film.pixels[index].count(half);
+            let count = film.pixel(index).count(half);
             let best = scale * self.deviations[index][half];
             if best >= 2.0 * f64::from(count) && count < LONGEST {
                 2 * count
@@ -129,13 +123,12 @@ impl Allotment {
 /// The variance of single samples, of one half of each pixel: its own, and as long as it has few
 /// samples also that of its neighbours and of the whole picture, so that an edge missed by chance
 /// is found.
-fn smoothed(film: &Growing, half: usize) -> Vec<f64> {
+fn smoothed(film: &ProgressiveFilm, half: usize) -> Vec<f64> {
     /// How many samples the neighbours stand for, and the whole picture.
     const NEAR: f64 = 2.0;
     const FAR: f64 = 0.25;
     let own: Vec<_> = film
-        .pixels
-        .iter()
+        .pixels()
         .map(|pixel| pixel.variance_of_samples(half))
         .collect();
     let far = own.iter().sum::<f64>() / own.len().max(1) as f64;
@@ -148,7 +141,7 @@ fn smoothed(film: &Growing, half: usize) -> Vec<f64> {
             (sum + variance, count + 1.0)
         });
         let near = (sum - own[index]).max(0.0) / f64::max(count - 1.0, 1.0);
-        let freedom = 2.0 * f64::from(film.pixels[index].count(half)) - 1.0;
+        let freedom = 2.0 * f64::from(film.pixel(index).count(half)) - 1.0;
         (freedom * own[index] + NEAR * near + FAR * far) / (freedom + NEAR + FAR)
     };
     (0..own.len()).map(of).collect()

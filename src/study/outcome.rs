@@ -95,6 +95,7 @@ impl From<Counts> for Rays {
             refracted,
             hits: _,
             unnumbered: _,
+            ..
         } = counts;
         Self {
             camera,

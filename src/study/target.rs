@@ -13,7 +13,8 @@ use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
-    AnyWorld, Behind, Counts, Crop, Film, Growing, Job, Proceed, Step, Strands, Tiles, Values,
+    AnyWorld, Behind, Counts, Crop, Film, Job, Proceed, ProgressiveFilm, Step, Strands, Tiles,
+    Values,
 };
 use std::time::Duration;
 
@@ -133,10 +134,10 @@ fn in_rounds(
 ) -> Result<Reached, Stopped> {
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
     spread(world, scene, light_samples);
-    let mut film = Growing::new(order.crop, order.seed);
+    let mut film = ProgressiveFilm::new(order.crop, order.seed);
     film.behind = order.behind;
     (watch.round)(Progress {
-        pixels: film.pixels.len() as u64,
+        pixels: film.len() as u64,
         error: None,
     });
     let least = if idle(Knob::Paths, scene).is_none() {
@@ -145,7 +146,7 @@ fn in_rounds(
         1
     };
     let first = FIRST
-        .div_ceil(film.pixels.len().max(1))
+        .div_ceil(film.len().max(1))
         .max(least)
         .next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
@@ -170,7 +171,7 @@ fn in_rounds(
             return Ok(reached);
         };
         (watch.round)(Progress {
-            pixels: film.pixels.len() as u64,
+            pixels: film.len() as u64,
             error: Some(error),
         });
         let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
@@ -267,7 +268,7 @@ fn light_samples(
         .map(|pixel| [if some.contain(pixel) { LENGTH } else { 0 }; 2])
         .collect();
     for count in [2, 4, 8, 16, 32] {
-        let mut film = Growing::new(order.crop, order.seed);
+        let mut film = ProgressiveFilm::new(order.crop, order.seed);
         spread(world, scene, count);
         if !world.grow(&mut film, &|index| wanted[index], &|_| {
             (watch.proceed)(Step::default())
@@ -284,11 +285,11 @@ fn light_samples(
     Ok((best.0, tried))
 }
 
-fn samples_of(film: &Growing) -> Samples {
-    let counts = || film.pixels.iter().map(Strands::samples);
+fn samples_of(film: &ProgressiveFilm) -> Samples {
+    let counts = || film.pixels().map(Strands::samples);
     Samples {
         least: counts().min().unwrap_or(0),
-        mean: film.samples() as f64 / film.pixels.len().max(1) as f64,
+        mean: film.samples() as f64 / film.len().max(1) as f64,
         most: counts().max().unwrap_or(0),
     }
 }
@@ -296,7 +297,7 @@ fn samples_of(film: &Growing) -> Samples {
 /// The length of all strands after the next round; none if the goal is reached, or no further round
 /// fits into the time.
 fn next_round(
-    film: &Growing,
+    film: &ProgressiveFilm,
     noise: &Noise,
     tail: f64,
     goal: &Goal,
@@ -316,7 +317,7 @@ fn next_round(
     let samples = film.samples() as f64;
     let most = samples * left.as_secs_f64() / elapsed.as_secs_f64().max(1e-9);
     let round = |square: f64| {
-        let wanted: Vec<_> = (0..film.pixels.len())
+        let wanted: Vec<_> = (0..film.len())
             .map(|index| allotment.wanted(film, index, square))
             .collect();
         let more = wanted

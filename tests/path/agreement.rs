@@ -75,8 +75,8 @@ fn bright_spot() -> Image {
 }
 
 fn assert_agree(scene: &Scene, tolerance: f64) {
-    let both = mean(&render_by(scene, Strategy::Both));
-    for strategy in [Strategy::Lights, Strategy::Scattering] {
+    let both = mean(&render_by(scene, Strategy::Mis));
+    for strategy in [Strategy::Nee, Strategy::BsdfSampling] {
         let found = mean(&render_by(scene, strategy));
         let error = ((found - both) / both).abs().max_element();
         assert!(error < tolerance, "{strategy:?}: {found}, both: {both}");

@@ -181,7 +181,7 @@ fn a_world_that_shows_another_view_is_as_one_made_for_it() {
     let seen = |world: &AnyWorld| {
         (
             world.render(&JOB, &|_| true).unwrap().image,
-            world.layers(&ALL, WHOLE, &|| true).unwrap(),
+            world.layers(&ALL, WHOLE, &|_| true).unwrap(),
         )
     };
     let [first, second] = proofs

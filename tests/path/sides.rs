@@ -81,7 +81,7 @@ fn coverage_and_layers_go_by_what_is_seen() {
     };
     let wanted = [Aov::Instance, Aov::Depth];
     let world = AnyWorld::prepare(&proof, &Plan::new(&proof, Rules::ALL));
-    let layers = world.layers(&wanted, crop, &|| true).unwrap();
+    let layers = world.layers(&wanted, crop, &|_| true).unwrap();
     assert!(
         layers
             .values

@@ -4,7 +4,7 @@ use super::{MAX_DETAILS, few, light, settings};
 use crate::ir::{Field, Place};
 use crate::plan::effect::{Effect, Verdict};
 use crate::plan::light::Shadow;
-use crate::plan::rule::Rule;
+use crate::plan::rules::Rule;
 use crate::plan::{Findings, Look};
 use crate::valid::Mode;
 

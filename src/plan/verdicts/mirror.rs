@@ -3,7 +3,7 @@
 use super::{MAX_DETAILS, few, settings};
 use crate::ir::Field;
 use crate::plan::effect::{Effect, Verdict};
-use crate::plan::rule::Rule;
+use crate::plan::rules::Rule;
 use crate::plan::{Findings, Look};
 use crate::valid::Phong;
 

@@ -7,7 +7,7 @@ mod picture;
 
 use super::effect::{Effect, State, Verdict};
 use super::region::Region;
-use super::rule::Rule;
+use super::rules::Rule;
 use super::{Findings, Look};
 use crate::ir::{Field, Noun, Place};
 use crate::valid::Mode;

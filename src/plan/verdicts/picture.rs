@@ -4,7 +4,7 @@ use super::{camera, few, settings};
 use crate::ir::Field;
 use crate::plan::effect::{Effect, Verdict};
 use crate::plan::region::Region;
-use crate::plan::rule::Rule;
+use crate::plan::rules::Rule;
 use crate::plan::{Findings, Look};
 use crate::valid::{Mode, Pattern};
 

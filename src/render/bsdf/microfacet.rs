@@ -1,17 +1,17 @@
 //! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let
 //! through.
 
-use super::Evaluation;
 use super::compensation::Compensation;
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
 use super::standard::Standard;
 use super::thin_film::ThinFilm;
+use super::{Evaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::math::Vec3;
 
 /// The boundary seen from one side, with z towards that side.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Microfacet {
+pub(super) struct Microfacet<const F: u32> {
     ggx: Ggx,
     smooth: bool,
     dark: bool,
@@ -72,7 +72,7 @@ pub(super) enum Way {
     Single(Vec3, Vec3, f64),
 }
 
-impl Microfacet {
+impl<const F: u32> Microfacet<F> {
     /// The boundary of a material, seen from within the body if `inside`.
     #[inline]
     pub(super) fn new(standard: &Standard, inside: bool) -> Self {
@@ -80,7 +80,9 @@ impl Microfacet {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
         };
-        let film = standard.iridescence.filter(|film| film.thickness > 0.0);
+        let film = standard
+            .iridescence
+            .filter(|film| can::<F>(LAYERS) && film.thickness > 0.0);
         let film = film.map(|film| {
             (
                 ThinFilm {
@@ -117,12 +119,18 @@ impl Microfacet {
         }
     }
 
+    /// The film; known at compile time to be none where there are no layers.
+    #[inline]
+    fn film(&self) -> Option<(ThinFilm, f64)> {
+        if can::<F>(LAYERS) { self.film } else { None }
+    }
+
     #[inline]
     fn dielectric(&self) -> Fresnel {
         Fresnel {
             f0: self.f0,
             f90: Vec3::splat(self.f90),
-            film: self.film,
+            film: self.film(),
         }
     }
 
@@ -131,7 +139,7 @@ impl Microfacet {
         Fresnel {
             f0: self.metal,
             f90: Vec3::ONE,
-            film: self.film,
+            film: self.film(),
         }
     }
 
@@ -153,12 +161,12 @@ impl Microfacet {
 
     /// Whether it reflects nothing.
     pub(super) fn is_dark(&self) -> bool {
-        self.dark
+        !can::<F>(MICROFACETS) || self.dark
     }
 
     /// What a microfacet that meets light at the cosine given does with it.
     pub(super) fn shares(&self, cosine: f64) -> Shares {
-        if self.dark {
+        if self.is_dark() {
             return Shares {
                 reflected: Vec3::ZERO,
                 entering: 1.0,
@@ -202,7 +210,7 @@ impl Microfacet {
 
     /// `wi` below.
     pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> Evaluation {
-        if self.smooth || self.tint == Vec3::ZERO {
+        if !can::<F>(TRANSMISSION) || self.smooth || self.tint == Vec3::ZERO {
             return Evaluation::NONE;
         }
         match self.crossing {

@@ -21,6 +21,7 @@ pub use fresnel::dispersed;
 pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
 
 use crate::math::Vec3;
+use crate::plan::PathFeatures;
 use coat::Coat;
 use compensation::Compensation;
 use microfacet::{Microfacet, Shares, Way};
@@ -28,6 +29,15 @@ use sheen::Fibres;
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
+
+const LAYERS: PathFeatures = PathFeatures::LAYERS;
+const MICROFACETS: PathFeatures = PathFeatures::MICROFACETS;
+const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
+
+/// Whether the features `F` hold one: known at compile time.
+const fn can<const F: u32>(feature: PathFeatures) -> bool {
+    PathFeatures(F).contains(feature)
+}
 
 /// The BSDF for one pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,12 +68,16 @@ pub struct Sample {
     pub delta: bool,
 }
 
-/// The material at a point as seen from one direction.
+/// The BSDF with all that a material may have.
+pub type Bsdf = Lobes<{ PathFeatures::EVERYTHING.0 }>;
+
+/// The material at a point as seen from one direction, compiled for the [`PathFeatures`] `F`: a
+/// material with more than those must not be given.
 #[derive(Clone, Copy, Debug)]
-pub struct Bsdf {
+pub struct Lobes<const F: u32> {
     side: Side,
     wo: Vec3,
-    microfacet: Microfacet,
+    microfacet: Microfacet<F>,
     /// The albedo of the base where no microfacet reflects.
     diffuse: Vec3,
     compensation: Option<Compensation>,
@@ -102,7 +116,7 @@ impl Chances {
     }
 }
 
-impl Bsdf {
+impl<const F: u32> Lobes<F> {
     /// The material seen from `wo`.
     #[must_use]
     #[inline]
@@ -115,10 +129,11 @@ impl Bsdf {
             along,
         };
         let wo = side.enter(wo);
-        let inside = side.below && !standard.thin_walled && standard.transmission > 0.0;
+        let transmits = can::<F>(TRANSMISSION) && standard.transmission > 0.0;
+        let inside = side.below && !standard.thin_walled && transmits;
         let microfacet = Microfacet::new(standard, inside);
         // What lies on a body is not seen from within.
-        let (sheen, clearcoat) = if inside {
+        let (sheen, clearcoat) = if inside || !can::<F>(LAYERS) {
             (None, None)
         } else {
             (standard.sheen, standard.clearcoat)
@@ -159,10 +174,38 @@ impl Bsdf {
         }
     }
 
+    /// The clearcoat; known at compile time to be none where there are no layers.
+    #[inline]
+    fn coat(&self) -> Option<&Coat> {
+        self.coat.as_ref().filter(|_| can::<F>(LAYERS))
+    }
+
+    /// The sheen, as [`Self::coat`].
+    #[inline]
+    fn sheen(&self) -> Option<&Fibres> {
+        self.sheen.as_ref().filter(|_| can::<F>(LAYERS))
+    }
+
+    /// What bounces between microfacets, where there are any.
+    #[inline]
+    fn compensation(&self) -> Option<&Compensation> {
+        self.compensation.as_ref().filter(|_| can::<F>(MICROFACETS))
+    }
+
+    /// Whether the boundary reflects.
+    pub(super) fn reflects(&self) -> bool {
+        !self.microfacet.is_dark()
+    }
+
+    /// Whether light that bounces between microfacets is added.
+    pub(super) fn compensates(&self) -> bool {
+        self.compensation().is_some()
+    }
+
     /// Whether all light is scattered into single directions, so that a light can't be aimed at.
     #[must_use]
     pub fn is_delta(&self) -> bool {
-        let coat = self.coat.as_ref().is_none_or(Coat::is_smooth);
+        let coat = self.coat().is_none_or(Coat::is_smooth);
         self.chances.cosine == 0.0 && self.microfacet.is_smooth() && coat
     }
 
@@ -186,10 +229,10 @@ impl Bsdf {
         if above {
             sum.pdf += self.chances.cosine * cosine_density(wi);
         }
-        if let Some(sheen) = &self.sheen {
+        if let Some(sheen) = self.sheen() {
             sum.f = sheen.over(sum.f, self.wo, wi);
         }
-        if let Some(coat) = &self.coat {
+        if let Some(coat) = self.coat() {
             let (f, pdf) = if above { coat.evaluate(wi) } else { (0.0, 0.0) };
             sum.f = sum.f.lerp(Vec3::splat(f), coat.share);
             sum.pdf += self.chances.coat * pdf;
@@ -209,7 +252,7 @@ impl Bsdf {
         let h = (self.wo + wi).normalize();
         let shares = self.microfacet.shares(self.wo.dot(h));
         let mut sum = self.microfacet.reflected(self.wo, wi, h, &shares);
-        sum.f += match &self.compensation {
+        sum.f += match self.compensation() {
             None => self.diffuse * (shares.entering * FRAC_1_PI),
             Some(compensation) => compensation.f(self.diffuse, wi.z),
         };
@@ -233,13 +276,13 @@ impl Bsdf {
             return match self.microfacet.sample(self.wo, left / microfacet, rest)? {
                 Way::Lobe(wi) => self.in_lobe(wi),
                 Way::Single(wi, share, chance) => {
-                    let left = self.sheen.as_ref().map_or(1.0, |sheen| sheen.left_for(wi));
-                    let covered = self.coat.as_ref().map_or(0.0, |coat| coat.share);
+                    let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
+                    let covered = self.coat().map_or(0.0, |coat| coat.share);
                     self.single(wi, share * (left * (1.0 - covered)), microfacet * chance)
                 }
             };
         }
-        let layer = self.coat.as_ref()?;
+        let layer = self.coat()?;
         let wi = layer.sample(rest);
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,

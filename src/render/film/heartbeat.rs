@@ -108,10 +108,8 @@ mod tests {
             !(step.pixel == [1, 0] && step.rays > 0)
         };
         let mut heartbeat = Heartbeat::new(&proceed);
-        let mut counts = Counts {
-            camera: 3,
-            ..Counts::default()
-        };
+        let mut counts = Counts::default();
+        counts.camera = 3;
         assert!(heartbeat.goes_on(&counts) && heartbeat.done(&counts));
         heartbeat.begin([1, 0]);
         assert!((1..EVERY).all(|_| heartbeat.goes_on(&counts)));

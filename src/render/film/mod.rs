@@ -1,11 +1,17 @@
 //! The film: a picture, and the rays it took.
 
+mod counts;
 pub(in crate::render) mod heartbeat;
+pub(in crate::render) mod pixel;
+pub(in crate::render) mod progressive;
+pub(in crate::render) mod tile;
+pub(in crate::render) mod tiled;
+
+pub use counts::Counts;
 
 use crate::image::Image;
 use crate::render::sampler::mix;
 use std::num::NonZeroU32;
-use std::ops::Range;
 
 /// What to render of a world.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,21 +28,8 @@ pub struct Job {
     pub stride: Stride,
     /// What is seen past all surfaces.
     pub behind: Behind,
-}
-
-impl Job {
-    /// The columns out of `xs` that are rendered of a row.
-    pub(in crate::render) fn columns(&self, y: u32, xs: Range<u32>) -> impl Iterator<Item = u32> {
-        let (tiles, stride, from) = (self.tiles, self.stride.get(), xs.start);
-        let wanted =
-            move |tile: &u32| tiles.is_none_or(|tiles| tiles.contain([tile * Tiles::SIDE, y]));
-        let runs = (xs.start / Tiles::SIDE..xs.end.div_ceil(Tiles::SIDE)).filter(wanted);
-        let run = move |tile: u32| {
-            (tile * Tiles::SIDE).max(xs.start)..((tile + 1) * Tiles::SIDE).min(xs.end)
-        };
-        runs.flat_map(run)
-            .filter(move |x| (x - from).is_multiple_of(stride))
-    }
+    /// At most so many samples a pixel, the first of those that the scene asks for.
+    pub samples: Option<NonZeroU32>,
 }
 
 /// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
@@ -167,57 +160,6 @@ pub enum Values {
     Display,
     /// The plain mean of the sub-samples.
     Linear,
-}
-
-/// How many rays were traced, by kind.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts {
-    /// From the eye.
-    pub camera: u64,
-    /// To a light.
-    pub shadow: u64,
-    /// Mirrored, glossy ones too.
-    pub mirror: u64,
-    /// Refracted.
-    pub refracted: u64,
-    /// Camera rays that hit something.
-    pub hits: u64,
-    /// Camera rays of Whitted's integrator whose colour is no number; a display clamps it to 0.
-    pub unnumbered: u64,
-}
-
-impl Counts {
-    /// All rays.
-    #[must_use]
-    pub fn rays(&self) -> u64 {
-        self.camera + self.shadow + self.secondary()
-    }
-
-    /// Mirrored and refracted rays.
-    #[must_use]
-    pub fn secondary(&self) -> u64 {
-        self.mirror + self.refracted
-    }
-
-    /// The share of the camera rays since an earlier count that hit something; 0 if there were
-    /// none.
-    #[must_use]
-    pub(in crate::render) fn coverage_since(&self, before: &Self) -> f32 {
-        coverage(self.hits - before.hits, self.camera - before.camera)
-    }
-
-    /// Both together.
-    #[must_use]
-    pub fn plus(self, other: Self) -> Self {
-        Self {
-            camera: self.camera + other.camera,
-            shadow: self.shadow + other.shadow,
-            mirror: self.mirror + other.mirror,
-            refracted: self.refracted + other.refracted,
-            hits: self.hits + other.hits,
-            unnumbered: self.unnumbered + other.unnumbered,
-        }
-    }
 }
 
 /// The share of rays that hit something; 0 of none.

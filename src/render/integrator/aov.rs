@@ -2,18 +2,12 @@
 //! first, in the mean over those that meet something. They are the very rays that the colours are
 //! made of.
 
-use crate::image::Layers;
+use super::Integrator;
 use crate::math::Vec3;
-use crate::plan::Features;
-use crate::render::film::Crop;
-use crate::render::frame::camera_rays;
-use crate::render::integrator::whitted::Tracer;
-use crate::render::sampler::Key;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Asked;
-use crate::render::world::World;
-use crate::valid::{Camera, Mode};
-use rayon::prelude::*;
+use crate::render::film::Counts;
+use crate::render::film::heartbeat::Heartbeat;
+use crate::render::film::pixel::{Accumulator, SampleId};
+use crate::valid::Camera;
 
 /// A layer. All are zero where nothing is met, but for the depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,9 +58,92 @@ pub(in crate::render) struct First {
     pub(in crate::render) surface: usize,
 }
 
+/// The first hit of a camera ray.
+pub(in crate::render) struct Seen {
+    /// The direction of the ray.
+    pub(in crate::render) direction: Vec3,
+    /// What it meets, if it meets anything.
+    pub(in crate::render) first: Option<First>,
+}
+
+/// An integrator that can tell what a camera ray meets first, without following it further.
+pub(in crate::render) trait FirstHit<'run>: Integrator<'run> {
+    /// What the camera ray of a sample meets.
+    fn first_hit(&mut self, id: &SampleId) -> Seen;
+}
+
+/// Finds nothing but first hits, along the camera rays of another integrator.
+pub(in crate::render) struct FirstHits<I>(pub(in crate::render) I);
+
+impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
+    type Sample = Seen;
+
+    fn sample(&mut self, id: &SampleId) -> Seen {
+        self.0.first_hit(id)
+    }
+
+    fn counts(&self) -> &Counts {
+        self.0.counts()
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run> {
+        self.0.heartbeat()
+    }
+
+    fn goes_on(&mut self) -> bool {
+        self.0.goes_on()
+    }
+}
+
+/// The most channels that all layers have together.
+pub(in crate::render) const CHANNELS: usize = 16;
+
+/// Adds up layers of a pixel.
+pub(in crate::render) struct LayerSums<'run> {
+    wanted: &'run [Aov],
+    camera: &'run Camera,
+    sums: Sums,
+}
+
+impl<'run> LayerSums<'run> {
+    pub(in crate::render) fn new(wanted: &'run [Aov], camera: &'run Camera) -> Self {
+        Self {
+            wanted,
+            camera,
+            sums: Sums::default(),
+        }
+    }
+}
+
+impl Accumulator for LayerSums<'_> {
+    type Sample = Seen;
+    type Kept = arrayvec::ArrayVec<f32, CHANNELS>;
+
+    fn add(&mut self, _: &SampleId, Seen { direction, first }: Seen) {
+        self.sums.add(direction, first);
+    }
+
+    /// The values of all channels wanted, one after the other.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float, or to infinity"
+    )]
+    fn close(self) -> Self::Kept {
+        let values = |aov: &Aov| {
+            let values = self.sums.values(*aov, self.camera);
+            values.into_iter().take(aov.channels().len())
+        };
+        self.wanted
+            .iter()
+            .flat_map(values)
+            .map(|value| value as f32)
+            .collect()
+    }
+}
+
 /// The sums over the rays of a pixel.
 #[derive(Default)]
-pub(in crate::render) struct Sums {
+struct Sums {
     rays: u32,
     hits: u32,
     albedo: Vec3,
@@ -80,7 +157,7 @@ pub(in crate::render) struct Sums {
 
 impl Sums {
     /// Adds what a ray in this direction met.
-    pub(in crate::render) fn add(&mut self, direction: Vec3, first: Option<First>) {
+    fn add(&mut self, direction: Vec3, first: Option<First>) {
         self.rays += 1;
         let Some(First {
             albedo,
@@ -134,99 +211,4 @@ fn depth(camera: &Camera, point: Vec3) -> f64 {
         normal
     };
     (point - camera.eye).dot(forward)
-}
-
-/// Who follows the camera rays of a pixel to what they meet first.
-pub(in crate::render) trait See {
-    /// Adds what a pixel sees; false if the observer said stop.
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool;
-}
-
-impl<S: Geometry, const F: u32> See for Tracer<'_, S, F> {
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool {
-        for ray in camera_rays(self.scene(), pixel) {
-            if !self.goes_on() {
-                return false;
-            }
-            let first = self.world.nearest(&ray).map(|hit| {
-                let view = self.view_of(&ray, hit, Key::new(pixel, 0));
-                let shape = &self.world.surfaces[hit.surface].shape;
-                let details = shape.details(&ray, &view.interaction, hit.part, Asked::ALL);
-                let albedo = view.color * view.material.kd.get();
-                First {
-                    albedo,
-                    normal: view.normal,
-                    point: view.interaction.point,
-                    uv: details.uv,
-                    surface: view.surface,
-                }
-            });
-            sums.add(ray.direction, first);
-        }
-        self.heartbeat.done(&self.counts)
-    }
-}
-
-impl<S: Geometry> World<S> {
-    /// As [`crate::render::AnyWorld::layers`], of what this world holds.
-    pub(in crate::render) fn layers(
-        &self,
-        wanted: &[Aov],
-        crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Layers> {
-        match self.scene.settings().mode {
-            Mode::Path(path) => self.layers_of_paths(path, wanted, crop, proceed),
-            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-                let proceed = |_| proceed();
-                let tracer = || Tracer::<'_, S, { Features::EVERYTHING.0 }>::new(self, &proceed);
-                self.layers_by(tracer, wanted, crop)
-            }
-        }
-    }
-
-    /// Renders layers by what `eye` makes for each row.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "rounds to the nearest float, or to infinity"
-    )]
-    pub(in crate::render) fn layers_by<E: See>(
-        &self,
-        eye: impl Fn() -> E + Sync,
-        wanted: &[Aov],
-        crop: Crop,
-    ) -> Option<Layers> {
-        let camera = self.scene.camera();
-        let crop = crop.within(camera.width.get(), camera.height.get());
-        let names: Vec<_> = wanted
-            .iter()
-            .flat_map(|aov| aov.channels())
-            .copied()
-            .collect();
-        let width = crop.width as usize * names.len();
-        let mut values = vec![0.0_f32; width * crop.height as usize];
-        let row = |(y, row): (u32, &mut [f32])| {
-            let mut eye = eye();
-            for (x, pixel) in (crop.x..).zip(row.chunks_mut(names.len())) {
-                let mut sums = Sums::default();
-                if !eye.see([x, y], &mut sums) {
-                    return None;
-                }
-                let means = wanted
-                    .iter()
-                    .map(|aov| (sums.values(*aov, camera), aov.channels().len()));
-                let means = means.flat_map(|(values, count)| values.into_iter().take(count));
-                pixel
-                    .iter_mut()
-                    .zip(means)
-                    .for_each(|(value, mean)| *value = mean as f32);
-            }
-            Some(())
-        };
-        let rows = (crop.y..crop.y + crop.height)
-            .into_par_iter()
-            .zip(values.par_chunks_mut(width.max(1)));
-        rows.map(row).try_reduce(|| (), |(), ()| Some(()))?;
-        Some(Layers { names, values })
-    }
 }

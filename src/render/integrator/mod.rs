@@ -1,6 +1,58 @@
-//! The integrators: each is a way to find what a pixel shows.
+//! The integrators: each is a way to find what a sample of a pixel shows.
 
 pub(in crate::render) mod aov;
+pub(in crate::render) mod first_hit;
 pub(in crate::render) mod path;
-pub(in crate::render) mod shade;
 pub(in crate::render) mod whitted;
+
+use super::film::Counts;
+use super::film::heartbeat::Heartbeat;
+use super::film::pixel::{Accumulator, SampleId};
+use super::film::tile::Tile;
+
+/// A way to find what samples of pixels show. Each thread has its own, which keeps its memory from
+/// pixel to pixel; what it finds depends on the world and the [`SampleId`] alone.
+pub(in crate::render) trait Integrator<'run>: Sized {
+    /// What a sample is.
+    type Sample;
+
+    /// What one sample shows.
+    fn sample(&mut self, id: &SampleId) -> Self::Sample;
+
+    /// The rays traced so far.
+    fn counts(&self) -> &Counts;
+
+    /// Tells the observer how far the work is, and whether to go on.
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run>;
+
+    /// Whether to go on: to be asked before each sample.
+    fn goes_on(&mut self) -> bool;
+
+    /// Takes the samples that a tile is to have; false if the observer said stop. In which order
+    /// rays are traced is the integrator's own affair: a pixel gets its samples in theirs.
+    fn render<A: Accumulator<Sample = Self::Sample>>(&mut self, tile: &mut Tile<'_, A>) -> bool {
+        while let Some(mut pixel) = tile.next_pixel() {
+            self.heartbeat().begin(pixel.at);
+            for (stream, samples) in pixel.asked.take() {
+                for index in samples {
+                    if !self.goes_on() {
+                        return false;
+                    }
+                    let id = SampleId {
+                        pixel: pixel.at,
+                        stream,
+                        index,
+                    };
+                    let sample = self.sample(&id);
+                    pixel.sums.add(&id, sample);
+                }
+            }
+            tile.close(pixel);
+            let counts = *self.counts();
+            if !self.heartbeat().done(&counts) {
+                return false;
+            }
+        }
+        true
+    }
+}

@@ -6,6 +6,7 @@
 pub(in crate::render) mod environment;
 
 use crate::math::Vec3;
+use crate::plan::LightLeft;
 use crate::render::accel::bounds::Bounds;
 use crate::render::integrator::path::Strategy;
 use crate::render::light::environment::{Environment, Seen};
@@ -29,7 +30,7 @@ pub(in crate::render) struct Lights<'world, S> {
 }
 
 enum Light {
-    Punctual(Punctual),
+    Punctual(Punctual, LightLeft),
     Triangle {
         surface: usize,
         part: u32,
@@ -54,17 +55,19 @@ impl<'world, S: Geometry> Lights<'world, S> {
     /// The lights of a world.
     pub(in crate::render) fn new(world: &'world World<S>, strategy: Strategy) -> Self {
         let environment = Environment::new(&world.scene);
-        let mut lights = world
-            .scene
-            .punctual()
-            .iter()
-            .map(|light| Light::Punctual(*light))
+        let left = |index: usize| {
+            let plan = world.plan.paths.as_ref();
+            plan.map_or(LightLeft::All, |plan| plan.lights[index])
+        };
+        let punctual = world.scene.punctual().iter().enumerate();
+        let mut lights = punctual
+            .filter(|(index, _)| left(*index) != LightLeft::Nothing)
+            .map(|(index, light)| Light::Punctual(*light, left(index)))
             .collect::<Vec<_>>();
         let mut firsts = vec![None; world.surfaces.len()];
         for (index, surface) in world.surfaces.iter().enumerate() {
-            if world.scene.standards()[surface.material].emissive != [0.0; 3]
-                && surface.shape.triangles() > 0
-            {
+            let material = &world.standards[surface.material];
+            if !material.unlit && material.emissive != [0.0; 3] && surface.shape.triangles() > 0 {
                 firsts[index] = Some(lights.len());
                 let parts = u32::try_from(surface.shape.triangles()).unwrap_or(u32::MAX);
                 let corners =
@@ -112,8 +115,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
     /// About the power that a light sends to the scene, whose silhouette is `disc`.
     fn weight(&self, light: &Light, disc: f64, strategy: Strategy) -> f64 {
         match light {
-            _ if strategy == Strategy::Scattering && !matches!(light, Light::Punctual(_)) => 0.0,
-            Light::Punctual(light) => {
+            _ if strategy == Strategy::BsdfSampling && !matches!(light, Light::Punctual(..)) => 0.0,
+            Light::Punctual(light, _) => {
                 let solid_angle = match light.emitter {
                     Emitter::Sun(_) => disc,
                     Emitter::Point(_, Falloff::Square(_)) => 4.0 * PI,
@@ -137,9 +140,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 2.0 * PI * area * self.mean_emission(*surface, *part, *corners).max_element()
             }
             // What is the same everywhere is found best by scattering.
-            Light::Environment if self.environment.is_uniform() && strategy != Strategy::Lights => {
-                0.0
-            }
+            Light::Environment if self.environment.is_uniform() && strategy != Strategy::Nee => 0.0,
             Light::Environment => PI * self.environment.mean() * disc,
         }
     }
@@ -152,7 +153,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             [0.1, 0.8, 0.1],
             [0.1, 0.1, 0.8],
         ];
-        let material = &self.world.scene.standards()[self.world.surfaces[surface].material];
+        let material = &self.world.standards[self.world.surfaces[surface].material];
         if material.emissive_map.is_none() {
             return Vec3::from_array(material.emissive);
         }
@@ -167,7 +168,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
     /// The radiance of a point of a triangle.
     fn emission(&self, surface: usize, part: u32, point: Vec3, [a, b, c]: [Vec3; 3]) -> Vec3 {
         let surface = &self.world.surfaces[surface];
-        let material = &self.world.scene.standards()[surface.material];
+        let material = &self.world.standards[surface.material];
         if material.emissive_map.is_none() {
             return Vec3::from_array(material.emissive);
         }
@@ -191,7 +192,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 tangent: false,
             },
         );
-        Point::new(&self.world.scene, surface.material, &details).emission()
+        Point::new(&self.world.scene, material, &details).emission()
     }
 
     /// Light for a point, from a light chosen by `choice` and a place on it, if it has several, by
@@ -205,7 +206,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let (index, _) = self.choice.choose(choice)?;
         let probability = self.choice.probability(index);
         match &self.lights[index] {
-            Light::Punctual(light) => punctual(light, from, probability),
+            Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
+            Light::Punctual(light, LightLeft::All) => punctual(light, from, probability),
             Light::Triangle {
                 surface,
                 part,
@@ -252,7 +254,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             Light::Triangle { corners, .. } => {
                 self.choice.probability(index) * pdf_of_triangle(corners, wi, distance_squared)
             }
-            Light::Punctual(_) | Light::Environment => 0.0,
+            Light::Punctual(..) | Light::Environment => 0.0,
         }
     }
 

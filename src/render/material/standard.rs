@@ -39,10 +39,9 @@ pub(in crate::render) fn asked(material: &Material) -> Asked {
 impl<'world> Point<'world> {
     pub(in crate::render) fn new(
         scene: &'world ValidScene,
-        material: usize,
+        material: &'world Material,
         details: &Details,
     ) -> Self {
-        let material = &scene.standards()[material];
         let places = [details.uv, details.second_uv];
         let mut point = Self {
             scene,
@@ -78,8 +77,8 @@ impl<'world> Point<'world> {
         Vec3::new(r, g, b)
     }
 
-    /// The share of the surface that is there.
-    pub(in crate::render) fn coverage(&self) -> f64 {
+    /// The probability that a ray meets the surface.
+    pub(in crate::render) fn opacity(&self) -> f64 {
         match self.material.alpha {
             Alpha::Opaque => 1.0,
             Alpha::Mask(cutoff) => f64::from(u8::from(self.base[3] >= cutoff)),
@@ -150,30 +149,34 @@ impl<'world> Point<'world> {
             let factor = m.clearcoat * self.linear(m.clearcoat_map.as_ref())[0];
             let roughness =
                 m.clearcoat_roughness * self.linear(m.clearcoat_roughness_map.as_ref())[1];
-            standard.clearcoat = Some(Clearcoat {
+            let coat = Clearcoat {
                 factor,
                 roughness,
                 normal: frame.to_local(clearcoat),
-            });
+            };
+            standard.clearcoat = Some(coat).filter(|coat| coat.factor > 0.0);
         }
         if m.sheen_color != [0.0; 3] {
             let color = Vec3::from_array(m.sheen_color) * self.color(m.sheen_color_map.as_ref());
             let roughness = m.sheen_roughness * self.linear(m.sheen_roughness_map.as_ref())[3];
-            standard.sheen = Some(Sheen { color, roughness });
+            let sheen = Sheen { color, roughness };
+            standard.sheen = Some(sheen).filter(|sheen| sheen.color != Vec3::ZERO);
         }
         if m.anisotropy > 0.0 {
-            standard.anisotropy = Some(self.anisotropy(frame.side));
+            let anisotropy = self.anisotropy(frame.side);
+            standard.anisotropy = Some(anisotropy).filter(|turned| turned.strength > 0.0);
         }
         if m.iridescence > 0.0 {
             let factor = m.iridescence * self.linear(m.iridescence_map.as_ref())[0];
             let [least, greatest] = m.iridescence_thickness;
             let thickness =
                 least + (greatest - least) * self.linear(m.iridescence_thickness_map.as_ref())[1];
-            standard.iridescence = Some(Iridescence {
+            let film = Iridescence {
                 factor,
                 ior: m.iridescence_ior,
                 thickness,
-            });
+            };
+            standard.iridescence = Some(film).filter(|film| film.factor > 0.0);
         }
     }
 
@@ -194,6 +197,30 @@ impl<'world> Point<'world> {
             strength: m.anisotropy * share,
             direction,
         }
+    }
+
+    /// Whether light goes through at the point.
+    pub(in crate::render) fn transmits(&self) -> bool {
+        let m = self.material;
+        m.transmission > 0.0 && self.linear(m.transmission_map.as_ref())[0] > 0.0
+    }
+
+    /// Whether a map bends its normals.
+    pub(in crate::render) fn has_normal_map(&self) -> bool {
+        self.material.normal_map.is_some() || self.material.clearcoat_normal_map.is_some()
+    }
+
+    /// Whether a map says how it scatters light.
+    pub(in crate::render) fn has_shading_map(&self) -> bool {
+        let m = self.material;
+        let others = [
+            &m.base_color_map,
+            &m.normal_map,
+            &m.clearcoat_normal_map,
+            &m.emissive_map,
+        ];
+        let others = others.into_iter().flatten().count();
+        m.maps().count() > others
     }
 
     /// Whether there is a medium behind the surface.

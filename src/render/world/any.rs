@@ -3,8 +3,8 @@
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
 use crate::render::film::heartbeat::Proceed;
+use crate::render::film::progressive::ProgressiveFilm;
 use crate::render::film::{Crop, Film, Job};
-use crate::render::frame::progressive::Growing;
 use crate::render::integrator::aov::Aov;
 use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
@@ -85,12 +85,7 @@ impl AnyWorld {
     ///
     /// `proceed` is called from all threads after each pixel.
     #[must_use]
-    pub fn layers(
-        &self,
-        wanted: &[Aov],
-        crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Layers> {
+    pub fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &Proceed<'_>) -> Option<Layers> {
         let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
         if plan.rules == Rules::NONE {
             return each!(self, world => world.layers(wanted, crop, proceed));
@@ -107,7 +102,7 @@ impl AnyWorld {
     /// `proceed` is called from all threads, after each pixel and within long ones.
     pub fn grow(
         &self,
-        film: &mut Growing,
+        film: &mut ProgressiveFilm,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
         proceed: &Proceed<'_>,
     ) -> bool {

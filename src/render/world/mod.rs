@@ -14,7 +14,7 @@ use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
-use crate::valid::{self, Phong, ValidScene};
+use crate::valid::{self, Phong, Standard, ValidScene};
 use std::sync::Arc;
 
 /// The first hit of a ray.
@@ -47,6 +47,8 @@ pub struct World<S = Shape> {
     pub plan: Plan,
     /// The materials, without maps that show one value.
     pub materials: Vec<Phong>,
+    /// The materials as paths see them, without what is planned away.
+    pub(in crate::render) standards: Vec<Standard>,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
     /// The plan to be validated by a naive render.
@@ -112,11 +114,13 @@ impl<S: Geometry> World<S> {
             }
         }
         let (bvh, merged) = (Bvh::build(&boxes), Merged::new(&surfaces, &apart));
+        let standards = plan.paths.as_ref().map(|paths| paths.materials.clone());
         let (scene, plan, materials) = (scene.clone(), plan.clone(), materials.all);
         Self {
             scene,
             plan,
             materials,
+            standards: standards.unwrap_or_default(),
             surfaces,
             verify: None,
             unbounded,

@@ -1,50 +1,32 @@
-//! Layers of scenes whose paths are traced: where each path has its first corner.
+//! The first vertex of a path.
 
-use crate::image::Layers;
+use super::PathTracer;
+use super::state::PathState;
 use crate::math::Vec3;
-use crate::render::film::{Crop, Seeds};
-use crate::render::integrator::aov::{Aov, First, See, Sums};
-use crate::render::integrator::path::Strategy;
-use crate::render::integrator::path::tracer::{Tracer, Walk};
-use crate::render::light::Lights;
+use crate::render::film::Seeds;
+use crate::render::film::pixel::SampleId;
+use crate::render::integrator::aov::{First, FirstHit, Seen};
 use crate::render::sampler::sobol::Sobol;
 use crate::render::shape::geometry::Geometry;
-use crate::render::world::World;
-use crate::valid::Path;
 
-impl<S: Geometry> World<S> {
-    /// Renders layers; `None` if `proceed` said stop.
-    pub(in crate::render) fn layers_of_paths(
-        &self,
-        path: Path,
-        wanted: &[Aov],
-        crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Layers> {
-        let lights = Lights::new(self, Strategy::Both);
-        let proceed = |_| proceed();
-        let tracer = || Tracer::new(self, &lights, path, Strategy::Both, &proceed).knowing_all();
-        self.layers_by(tracer, wanted, crop)
-    }
-}
-
-impl<S: Geometry> See for Tracer<'_, S> {
-    fn see(&mut self, pixel: [u32; 2], sums: &mut Sums) -> bool {
-        for index in 0..self.path.samples.get() {
-            if !self.heartbeat.goes_on(&self.counts) {
-                return false;
+impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
+    fn first_hit(&mut self, id: &SampleId) -> Seen {
+        let sobol = Sobol::new(id.pixel, id.index, Seeds::NONE);
+        let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
+        let first = self.closest_hit(&mut state).map(|vertex| {
+            let wo = -state.ray.direction;
+            let (frame, _) = vertex.point.frame(&vertex.at, &vertex.details, wo);
+            First {
+                albedo: vertex.point.base_color(),
+                normal: frame.to_world(Vec3::Z),
+                point: vertex.at.point,
+                uv: vertex.point.uv(),
+                surface: self.world.surfaces[vertex.hit.surface].index,
             }
-            let sobol = Sobol::new(pixel, index, Seeds::NONE);
-            let mut walk = Walk::new(self.camera_ray(pixel, &sobol), sobol);
-            let first = self.meet(&mut walk).map(|corner| First {
-                albedo: corner.point.base_color(),
-                normal: corner.frame.to_world(Vec3::Z),
-                point: corner.at.point,
-                uv: corner.point.uv(),
-                surface: self.world.surfaces[corner.hit.surface].index,
-            });
-            sums.add(walk.ray.direction, first);
+        });
+        Seen {
+            direction: state.ray.direction,
+            first,
         }
-        self.heartbeat.done(&self.counts)
     }
 }

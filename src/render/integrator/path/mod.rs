@@ -1,108 +1,199 @@
 //! The path integrator: the light that arrives along all paths, by next-event estimation and
-//! scattering together.
+//! scattering together (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., §13.4).
 //!
-//! A pixel is a function of the scene and its coordinates alone, whatever the number of threads. No
-//! path goes on, and no light is taken, on another side of the surface itself than its kind
+//! No path goes on, and no light is taken, on another side of the surface itself than its kind
 //! demands: closed meshes let no light in, whatever the normals of their corners.
 
 mod aov;
-mod tracer;
+mod scatter;
+mod state;
+mod vertex;
+mod visibility;
 
-use crate::image::Image;
-use crate::render::film::heartbeat::Proceed;
-use crate::render::film::{Counts, Crop, Film, Job, Values};
-use crate::render::frame::progressive::Growing;
+use super::Integrator;
+use crate::math::{Vec3, cos_sin_turns};
+use crate::plan::{Effect, PathFeatures};
+use crate::render::camera::{image_point, ray_through};
+use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::pixel::{Sample, SampleId, Stream};
+use crate::render::film::{Behind, Counts, Seeds};
 use crate::render::light::Lights;
+use crate::render::material::standard::asked;
+use crate::render::ray::Ray;
+use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
+use crate::render::shape::instance::Asked;
 use crate::render::world::World;
 use crate::valid::Path;
-use rayon::prelude::*;
-use tracer::Tracer;
+use state::PathState;
+use visibility::AlphaTested;
 
-/// How light is looked for. All find the same; only the noise differs.
+/// How light is looked for. All strategies find the same light; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// Both ways, weighted by the power heuristic (Veach, Guibas, 1995).
+    /// By both, weighted by the power heuristic (Veach, Guibas, 1995).
     #[default]
-    Both,
-    /// By aiming at lights, wherever a surface scatters widely enough for that.
-    Lights,
-    /// By scattering, but for lights without extent.
-    Scattering,
+    Mis,
+    /// By next-event estimation, wherever a surface scatters widely enough for that.
+    Nee,
+    /// By sampling the BSDF, but for lights without extent.
+    BsdfSampling,
 }
 
-impl<S: Geometry> World<S> {
-    /// Renders by tracing paths; `None` if `proceed` said stop.
-    #[must_use]
-    pub fn render_paths(
-        &self,
+/// Follows paths through a world, with the [`PathFeatures`] `F`.
+pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
+    world: &'world World<S>,
+    lights: &'world Lights<'world, S>,
+    path: Path,
+    strategy: Strategy,
+    alpha_tested: AlphaTested,
+    /// What each material needs to know of a surface.
+    asked: Vec<Asked>,
+    /// What a ray of the camera that meets nothing shows.
+    behind: Behind,
+    /// Whether anything arrives from where no surface stands.
+    has_environment: bool,
+    /// How often a path may go on.
+    max_bounces: u32,
+    /// What is planned; this tracer may be able to do more.
+    planned: PathFeatures,
+    /// Tells of the pixel under way, and whether to go on with it.
+    heartbeat: Heartbeat<'world>,
+    counts: Counts,
+}
+
+impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+    pub(in crate::render) fn new(
+        world: &'world World<S>,
+        lights: &'world Lights<'world, S>,
         path: Path,
         strategy: Strategy,
-        job: &Job,
-        proceed: &Proceed<'_>,
-    ) -> Option<Film> {
-        let camera = self.scene.camera();
-        let (width, height) = (camera.width.get(), camera.height.get());
-        let whole = Crop {
-            x: 0,
-            y: 0,
-            width,
-            height,
-        };
-        let crop = job.crop.map_or(whole, |crop| crop.within(width, height));
-        let lights = Lights::new(self, strategy);
-        let count = crop.width as usize * crop.height as usize;
-        let (mut pixels, mut coverage) = (vec![[0.0; 3]; count], vec![0.0; count]);
-        let tone = self.scene.settings().mode.tone();
-        let row = |((y, row), shares): ((u32, &mut [[f64; 3]]), &mut [f32])| {
-            let mut tracer = Tracer::new(self, &lights, path, strategy, proceed).before(job.behind);
-            for x in job.columns(y, crop.x..crop.x + crop.width) {
-                let (before, place) = (tracer.counts, (x - crop.x) as usize);
-                tracer.heartbeat.begin([x, y]);
-                let radiance = tracer.pixel([x, y], job.seeds).to_array();
-                row[place] = if job.values == Values::Display {
-                    tone.display(radiance)
-                } else {
-                    radiance
-                };
-                shares[place] = tracer.counts.coverage_since(&before);
-                if !tracer.heartbeat.done(&tracer.counts) {
-                    return None;
-                }
-            }
-            Some(tracer.counts)
-        };
-        let rows = (crop.y..crop.y + crop.height).into_par_iter();
-        let width = (crop.width as usize).max(1);
-        let rows = rows
-            .zip(pixels.par_chunks_mut(width))
-            .zip(coverage.par_chunks_mut(width));
-        let rows = rows.step_by(job.stride.get() as usize);
-        let counts = rows
-            .map(row)
-            .try_reduce(Counts::default, |a, b| Some(a.plus(b)))?;
-        Some(Film {
-            image: Image {
-                width: crop.width,
-                height: crop.height,
-                pixels,
-            },
-            coverage,
-            counts,
-        })
+        proceed: &'world Proceed<'world>,
+    ) -> Self {
+        let plan = world.plan.paths.as_ref();
+        let useless = u32::from(plan.is_some_and(|plan| !plan.last_ray));
+        Self {
+            world,
+            lights,
+            path,
+            strategy,
+            alpha_tested: AlphaTested::of(world),
+            asked: world.standards.iter().map(asked).collect(),
+            behind: Behind::default(),
+            has_environment: plan.is_none_or(|plan| plan.environment),
+            max_bounces: world.plan.max_depth.saturating_sub(useless),
+            planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
+            heartbeat: Heartbeat::new(proceed),
+            counts: Counts::default(),
+        }
     }
 
-    /// Grows a film by tracing paths; see [`crate::render::AnyWorld::grow`].
-    pub(in crate::render) fn grow_paths(
-        &self,
-        path: Path,
-        film: &mut Growing,
-        wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &Proceed<'_>,
-    ) -> bool {
-        let lights = Lights::new(self, Strategy::Both);
-        let behind = film.behind;
-        let tracer = || Tracer::new(self, &lights, path, Strategy::Both, proceed).before(behind);
-        film.lengthen(tracer, wanted)
+    /// The same, with something else behind all surfaces.
+    pub(in crate::render) fn before(self, behind: Behind) -> Self {
+        Self { behind, ..self }
     }
+
+    /// The same, with all that surfaces know at the vertices of its paths.
+    pub(in crate::render) fn knowing_all(self) -> Self {
+        let asked = vec![Asked::ALL; self.asked.len()];
+        Self { asked, ..self }
+    }
+
+    /// Whether this tracer can do it: known at compile time.
+    #[inline]
+    const fn can(feature: PathFeatures) -> bool {
+        PathFeatures(F).contains(feature)
+    }
+
+    /// Whether it is to be done: known at compile time where this tracer cannot.
+    #[inline]
+    fn does(&self, feature: PathFeatures) -> bool {
+        Self::can(feature) && self.planned.contains(feature)
+    }
+
+    /// The ray from the camera that a path of a pixel begins with.
+    fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
+        let camera = self.world.scene.camera();
+        let target = image_point(camera, pixel, sobol.pair(FILM));
+        let radius = camera.lens.radius.get();
+        if radius == 0.0 {
+            return ray_through(camera, camera.eye, target);
+        }
+        // Sample a point of the lens.
+        self.counts.add(Effect::Lens);
+        let [u, turn] = sobol.pair(LENS);
+        let (x, y) = cos_sin_turns(turns(turn));
+        let r = radius * u.sqrt() / camera.up.length();
+        let origin = camera.eye + camera.right * (r * x) + camera.up * (r * y);
+        ray_through(camera, origin, target)
+    }
+
+    /// The radiance along one path.
+    fn radiance(&mut self, ray: Ray, sobol: Sobol) -> Vec3 {
+        self.counts.camera += 1;
+        let mut state = PathState::new(ray, sobol);
+        loop {
+            let Some(vertex) = self.closest_hit(&mut state) else {
+                self.add_escaped_radiance(&mut state);
+                return state.radiance;
+            };
+            self.counts.hits += u64::from(state.bounces == 0);
+            if !self.heartbeat.goes_on(&self.counts) || !self.scatter(&mut state, &vertex) {
+                return state.radiance;
+            }
+            state.bounces += 1;
+        }
+    }
+}
+
+impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world, S, F> {
+    type Sample = Sample;
+
+    fn sample(&mut self, id: &SampleId) -> Sample {
+        let seeds = match id.stream {
+            Stream::Picture(seeds) => seeds,
+            Stream::Strand { number, .. } => Seeds {
+                pixel: number,
+                lens: number,
+                path: number,
+            },
+        };
+        if id.index > 0 {
+            self.counts.add(Effect::Supersampling);
+        }
+        let sobol = Sobol::new(id.pixel, id.index, seeds);
+        let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
+        let radiance = self.radiance(ray, sobol);
+        let hit = self.counts.hits > hits;
+        let is_shown = self.behind == Behind::Surroundings || hit;
+        // A number that overflowed says nothing.
+        let is_shown = is_shown && radiance.is_finite();
+        Sample {
+            radiance: if is_shown { radiance } else { Vec3::ZERO },
+            hit,
+        }
+    }
+
+    fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'world> {
+        &mut self.heartbeat
+    }
+
+    #[inline]
+    fn goes_on(&mut self) -> bool {
+        self.heartbeat.goes_on(&self.counts)
+    }
+}
+
+/// A fraction of a turn in units of 2⁻⁶⁴ turns.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a fraction; the cast saturates"
+)]
+fn turns(fraction: f64) -> u64 {
+    (fraction * 18_446_744_073_709_551_616.0) as u64
 }

@@ -1,9 +1,10 @@
 //! Local shading: the light that reaches a point directly, by Phong's and by Gooch's model.
 
+use super::Tracer;
 use crate::math::{Basis, Vec3};
 use crate::plan::{Effect, Features, Rule};
 use crate::render::bsdf::optics::highlight;
-use crate::render::integrator::whitted::Tracer;
+use crate::render::integrator::Integrator;
 use crate::render::ray::Interaction;
 use crate::render::sampler::{DiscPoints, Key};
 use crate::render::shape::geometry::Geometry;
@@ -117,6 +118,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     let points = DiscPoints::new(samples, key, self.spread);
                     let points = on_soft_light(light, view.interaction.point, samples, points);
                     let direct = points.map_while(|point| {
+                        self.counts.add(Effect::SoftLight);
                         self.goes_on().then(|| self.direct(view, point, shadowed))
                     });
                     term += direct.sum::<Vec3>() / f64::from(samples);
@@ -140,6 +142,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
             return Vec3::ZERO;
         }
+        self.counts.add(Effect::DirectLight);
         let Some(incidence) = view.incidence(light) else {
             return Vec3::ZERO;
         };
@@ -149,6 +152,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         }
         let mut term = view.color * (view.material.kd.get() * incidence.n_dot_l.max(0.0));
         if shines {
+            self.counts.add(Effect::Highlight);
             term += Vec3::splat(view.ks * highlight(incidence.r_dot_v, view.material.n.get()));
         }
         term

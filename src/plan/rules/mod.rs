@@ -1,8 +1,10 @@
 //! The rules: each proves that something adds exactly nothing.
 
+use super::path;
+
 /// A rule, known to users by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
+#[repr(u64)]
 #[expect(missing_docs, reason = "each is described by its text")]
 pub enum Rule {
     Mode,
@@ -31,11 +33,25 @@ pub enum Rule {
     PixelMiss,
     PixelFlat,
     Cull,
+    PathLightBlack,
+    PathDarkSky,
+    PathZero,
+    PathUnlitMaterial,
+    PathMapUnseen,
+    PathMapConstant,
+    PathOpaque,
+    PathLightReach,
+    PathDark,
+    PathUnlit,
+    PathLast,
+    PathDelta,
+    PathShadowAlone,
+    PathCull,
 }
 
 impl Rule {
     /// All rules, those by light first.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 40] = [
         Self::Mode,
         Self::LightBlack,
         Self::LightUnreached,
@@ -62,6 +78,20 @@ impl Rule {
         Self::PixelMiss,
         Self::PixelFlat,
         Self::Cull,
+        Self::PathLightBlack,
+        Self::PathDarkSky,
+        Self::PathZero,
+        Self::PathUnlitMaterial,
+        Self::PathMapUnseen,
+        Self::PathMapConstant,
+        Self::PathOpaque,
+        Self::PathLightReach,
+        Self::PathDark,
+        Self::PathUnlit,
+        Self::PathLast,
+        Self::PathDelta,
+        Self::PathShadowAlone,
+        Self::PathCull,
     ];
 
     /// The name, as `E-SPEC`.
@@ -86,6 +116,9 @@ impl Rule {
 
     #[expect(clippy::too_many_lines, reason = "a table, one row a rule")]
     fn row(self) -> (&'static str, &'static str) {
+        if let Some(item) = path::rules::find(self) {
+            return (item.name, item.text);
+        }
         match self {
             Self::Mode => (
                 "E-MODE",
@@ -191,19 +224,33 @@ impl Rule {
                 "E-CULL",
                 "A surface that no camera, shadow or mirror ray can meet is left out of the world.",
             ),
+            Self::PathLightBlack
+            | Self::PathDarkSky
+            | Self::PathZero
+            | Self::PathUnlitMaterial
+            | Self::PathMapUnseen
+            | Self::PathMapConstant
+            | Self::PathOpaque
+            | Self::PathLightReach
+            | Self::PathDark
+            | Self::PathUnlit
+            | Self::PathLast
+            | Self::PathDelta
+            | Self::PathShadowAlone
+            | Self::PathCull => unreachable!("rules for paths are items of `plan::path::rules`"),
         }
     }
 }
 
 /// A set of rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Rules(u32);
+pub struct Rules(u64);
 
 impl Rules {
     /// No rule: everything a scene could ask for is simulated.
     pub const NONE: Self = Self(0);
     /// Every rule that changes no bit.
-    pub const ALL: Self = Self(u32::MAX).without(Rule::Cut);
+    pub const ALL: Self = Self(u64::MAX).without(Rule::Cut);
     /// The rules that decide hit by hit.
     pub const AT_HITS: Self = Self::NONE
         .with(Rule::ShadowFacing)
@@ -214,13 +261,13 @@ impl Rules {
     /// The set with a rule more.
     #[must_use]
     pub const fn with(self, rule: Rule) -> Self {
-        Self(self.0 | 1 << rule as u32)
+        Self(self.0 | 1 << rule as u64)
     }
 
     /// The set with a rule less.
     #[must_use]
     pub const fn without(self, rule: Rule) -> Self {
-        Self(self.0 & !(1 << rule as u32))
+        Self(self.0 & !(1 << rule as u64))
     }
 
     /// The rules that are in both sets.

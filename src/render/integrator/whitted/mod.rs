@@ -2,12 +2,17 @@
 //! improved illumination model for shaded display", CACM 23 (1980)), as a loop with a throughput: a
 //! long path takes no call stack.
 
+mod aov;
+mod pixel;
+mod shade;
+
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Plan, Rule};
 use crate::render::bsdf::optics::{reflect, refract};
+use crate::render::camera::grid::Grid;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::{Heartbeat, Proceed};
-use crate::render::integrator::shade::View;
+use crate::render::integrator::Integrator;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::{Key, Lobe, is_above};
 use crate::render::shape::geometry::Geometry;
@@ -15,6 +20,8 @@ use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{Frame, look_up};
 use crate::render::world::{Hit, World};
 use crate::valid::{Mode, Phong, ValidScene};
+use pixel::PixelState;
+use shade::View;
 
 /// One path under way.
 #[derive(Clone, Copy)]
@@ -65,6 +72,8 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
     pub(in crate::render) weightless: bool,
     /// Whether points of soft lights are spread without bias, however few they are.
     pub(in crate::render) spread: bool,
+    grid: Grid,
+    pixel: PixelState,
     /// The rays traced so far.
     pub(in crate::render) counts: Counts,
 }
@@ -83,15 +92,18 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             heartbeat,
             weightless: false,
             spread: false,
+            grid: Grid::of(&world.scene),
+            pixel: PixelState::default(),
             counts,
         }
     }
 
-    /// Whether to go on: false from when the observer said stop, and nothing counts any more.
-    #[inline]
-    pub(in crate::render) fn goes_on(&mut self) -> bool {
-        self.heartbeat.put_off(self.pending.len());
-        self.heartbeat.goes_on(&self.counts)
+    /// The same, with points of soft lights spread without bias.
+    pub(in crate::render) fn spread(self) -> Self {
+        Self {
+            spread: true,
+            ..self
+        }
     }
 
     /// The scene traced.
@@ -178,23 +190,14 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         );
     }
 
-    /// The distance along a camera ray to what it sees.
-    pub(in crate::render) fn distance(&mut self, ray: &Ray) -> Option<f64> {
-        self.counts.camera += 1;
-        let hit = self.world.nearest(ray)?;
-        self.counts.hits += 1;
-        Some(hit.t)
-    }
-
     /// What a ray sees, with the maps of its material applied.
-    fn view(&self, ray: &Ray, key: Key) -> Option<View<'world>> {
-        self.world
-            .nearest(ray)
-            .map(|hit| self.view_of(ray, hit, key))
+    fn view(&mut self, ray: &Ray, key: Key) -> Option<View<'world>> {
+        let hit = self.world.nearest(ray)?;
+        Some(self.view_of(ray, hit, key))
     }
 
     /// What a ray sees at a hit.
-    pub(in crate::render) fn view_of(&self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
+    pub(in crate::render) fn view_of(&mut self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
         let material = &self.world.materials[surface.material];
@@ -224,12 +227,18 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
     /// its own.
-    fn apply_maps(&self, view: &mut View<'_>, details: &Details) {
+    fn apply_maps(&mut self, view: &mut View<'_>, details: &Details) {
         let scene = self.scene();
+        if details.normal.is_some() {
+            self.counts.add(Effect::NormalInterpolation);
+        }
         view.normal = details.normal.unwrap_or(view.normal);
         let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else {
             return;
         };
+        if maps.color.is_some() || maps.specular.is_some() {
+            self.counts.add(Effect::Textures);
+        }
         if let Some(map) = maps.color {
             view.color = self.texture(map, uv);
         }
@@ -242,6 +251,9 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         else {
             return;
         };
+        if maps.normal.is_some() || maps.bump.is_some() {
+            self.counts.add(Effect::NormalMapping);
+        }
         if let Some(map) = maps.normal {
             view.normal = frame.mapped(scene, map, uv);
         } else if let Some(bump) = maps.bump {
@@ -258,7 +270,10 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         match &self.scene().settings().mode {
             Mode::Gooch(parameters) if Self::can(Features::GOOCH) => self.gooch(view, parameters),
             Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(view),
-            Mode::Normal | Mode::Zbuffer => (view.normal + Vec3::ONE) * 0.5,
+            Mode::Normal | Mode::Zbuffer => {
+                self.counts.add(Effect::NormalBuffer);
+                (view.normal + Vec3::ONE) * 0.5
+            }
         }
     }
 
@@ -361,6 +376,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
                     let Some(path) = fan.take(|| self.goes_on()) else {
                         continue;
                     };
+                    self.counts.add(Effect::GlossyReflection);
                     self.pending.push(Pending::Lobe(fan));
                     break path;
                 }

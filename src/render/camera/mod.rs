@@ -1,5 +1,7 @@
 //! Rays of the camera: sub-samples of pixels, and points of the lens.
 
+pub(in crate::render) mod grid;
+
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;

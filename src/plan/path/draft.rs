@@ -1,0 +1,281 @@
+//! The plan of traced paths as it is drawn up: what the scene asks for, less what each rule proves
+//! to add nothing.
+
+use super::facts::{Presence, Uses};
+use super::rules::PathRule;
+use super::texture::is_even;
+use crate::ir::Place;
+use crate::plan::body::Body;
+use crate::plan::effect::Effect;
+use crate::plan::window::Shown;
+use crate::valid::{Alpha, Map, Mesh, Path, Shape, Standard, ValidScene};
+
+/// What is left of a scene.
+#[derive(Clone)]
+pub(super) struct Draft<'scene> {
+    pub(super) scene: &'scene ValidScene,
+    pub(super) path: Path,
+    /// Per material, its surfaces.
+    pub(super) uses: &'scene [Uses],
+    /// Per surface, where it is.
+    pub(super) bodies: &'scene [Body],
+    /// Per surface, where the camera sees it.
+    pub(super) shown: &'scene [Shown],
+    /// Per material of the scene, what is left of it.
+    pub(super) materials: Vec<Standard>,
+    /// Per texture, whether maps of it are folded into the factors.
+    pub(super) folded: Vec<bool>,
+    /// Per light without extent.
+    pub(super) lights: Vec<LightLeft>,
+    /// Whether anything arrives from where no surface stands.
+    pub(super) environment: bool,
+    /// Per surface, whether it is in the world.
+    pub(super) surfaces: Vec<bool>,
+    /// How often a path may go on.
+    pub(super) max_depth: u32,
+    /// Whether a path that went on so often may still find light where it arrives.
+    pub(super) last_ray: bool,
+    /// Whether lights are aimed at.
+    pub(super) aims: bool,
+    /// Whether anything may hide a light from a surface.
+    pub(super) shadows: bool,
+}
+
+/// What is left of a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightLeft {
+    /// Nothing: it is no light.
+    Nothing,
+    /// Its place in the choice of lights; it reaches no surface.
+    Place,
+    /// All of it.
+    All,
+}
+
+/// A rule that was applied.
+pub(super) struct Applied {
+    pub(super) rule: &'static PathRule,
+    /// The effects that the picture can do without from then on.
+    pub(super) spared: Vec<Effect>,
+    /// The values that decided.
+    pub(super) places: Vec<Place>,
+}
+
+impl Draft<'_> {
+    /// Applies a rule; `None` if it changes nothing.
+    pub(super) fn apply(&mut self, rule: &'static PathRule) -> Option<Applied> {
+        let before = Effect::OF_PATHS.map(|effect| self.asks(effect));
+        let places = (rule.apply)(self);
+        if places.is_empty() {
+            return None;
+        }
+        let gone =
+            |(effect, before): (Effect, bool)| (before && !self.asks(effect)).then_some(effect);
+        let spared = Effect::OF_PATHS
+            .into_iter()
+            .zip(before)
+            .filter_map(gone)
+            .collect();
+        Some(Applied {
+            rule,
+            spared,
+            places,
+        })
+    }
+
+    /// The materials of which something is in the world, each with its index.
+    pub(super) fn used(&self) -> impl Iterator<Item = (usize, &Standard)> {
+        let is_used = |material: &usize| {
+            self.uses[*material]
+                .surfaces
+                .iter()
+                .any(|surface| self.surfaces[*surface])
+        };
+        (0..self.materials.len())
+            .filter(is_used)
+            .map(|index| (index, &self.materials[index]))
+    }
+
+    /// Whether a material that scatters light has something.
+    fn any(&self, has: impl Fn(&Standard) -> bool) -> bool {
+        self.max_depth > 0
+            && self
+                .used()
+                .any(|(_, material)| !material.unlit && has(material))
+    }
+
+    /// Whether a path may follow a scattered ray.
+    pub(super) fn bounces(&self) -> bool {
+        self.max_depth > u32::from(!self.last_ray) && self.used().next().is_some()
+    }
+
+    /// Whether what is left asks for an effect.
+    pub(super) fn asks(&self, effect: Effect) -> bool {
+        match effect {
+            Effect::Surfaces => self.surfaces.contains(&true),
+            Effect::Supersampling => self.path.samples.get() > 1,
+            Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
+            Effect::Environment => self.environment,
+            Effect::Emission | Effect::Unlit | Effect::Alpha => self
+                .used()
+                .any(|(_, material)| is_asked_by(material, effect)),
+            Effect::DirectLight => self.aims_at_lights(),
+            Effect::Shadows => self.shadows && self.aims_at_lights(),
+            Effect::Mis => self.aims_at_lights() && self.has_extended_light(),
+            Effect::Depth => self.bounces(),
+            Effect::Refraction | Effect::Volume => {
+                self.bounces() && self.any(|material| is_asked_by(material, effect))
+            }
+            Effect::Dispersion
+            | Effect::Microfacets
+            | Effect::Clearcoat
+            | Effect::Sheen
+            | Effect::Anisotropy
+            | Effect::Iridescence => self.any(|material| is_asked_by(material, effect)),
+            Effect::Compensation => {
+                self.path.multiple_scattering
+                    && self.any(|material| is_asked_by(material, Effect::Microfacets))
+            }
+            Effect::Textures => self.any_map(false),
+            Effect::NormalMapping => self.any_map(true),
+            Effect::NormalInterpolation => self.any_mesh(|mesh| !mesh.normals.is_empty()),
+            Effect::VertexColors => self.used_meshes().any(|mesh| !mesh.colors.is_empty()),
+            Effect::DepthBuffer
+            | Effect::NormalBuffer
+            | Effect::SoftLight
+            | Effect::Highlight
+            | Effect::Mirror
+            | Effect::GlossyReflection => false,
+        }
+    }
+
+    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+        let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
+        surfaces
+            .filter(|(_, is_left)| **is_left)
+            .filter_map(|(surface, _)| {
+                if let Shape::Instance(instance) = &surface.shape {
+                    Some(&*self.scene.meshes()[instance.mesh])
+                } else {
+                    None
+                }
+            })
+    }
+
+    fn any_mesh(&self, has: impl Fn(&Mesh) -> bool) -> bool {
+        self.any(|_| true) && self.used_meshes().any(has)
+    }
+
+    /// Whether any map is looked up: of normals, or of all else.
+    fn any_map(&self, of_normals: bool) -> bool {
+        let is_of_normals = |material: &Standard, map: &Map| {
+            let normals = [&material.normal_map, &material.clearcoat_normal_map];
+            normals
+                .into_iter()
+                .flatten()
+                .any(|normal| std::ptr::eq(normal, map))
+        };
+        let is_looked_up = |index: usize, map: &Map| !self.is_folded(index, map);
+        self.used().any(|(index, material)| {
+            let mut maps = material.maps();
+            maps.any(|map| is_of_normals(material, map) == of_normals && is_looked_up(index, map))
+        })
+    }
+
+    /// Whether a map of a material is a value, known when the world is made.
+    pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
+        let has_places = self.uses[material].sets[map.set as usize] == Presence::Everywhere;
+        has_places && self.folded[map.texture.0 as usize]
+    }
+
+    /// Whether a map could be folded.
+    pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
+        let has_places = self.uses[material].sets[map.set as usize] == Presence::Everywhere;
+        has_places && is_even(map, self.scene)
+    }
+
+    /// The least and the greatest of a channel of a map; ones where there is none.
+    pub(super) fn channel(&self, material: usize, map: Option<&Map>, channel: usize) -> [f64; 2] {
+        map.map_or([1.0; 2], |map| {
+            self.uses[material].range(map, self.scene)[channel]
+        })
+    }
+
+    /// Whether there is a light to aim at, and a surface that scatters so widely that aiming helps.
+    fn aims_at_lights(&self) -> bool {
+        self.aims && self.max_depth > 0 && self.any(|_| true) && self.has_light_to_aim_at()
+    }
+
+    /// Whether the choice of lights holds one that may reach a surface.
+    fn has_light_to_aim_at(&self) -> bool {
+        self.lights.contains(&LightLeft::All) || self.has_extended_light()
+    }
+
+    /// Whether there is a light that aiming and scattering both find: an image of the surroundings,
+    /// or triangles that shine.
+    fn has_extended_light(&self) -> bool {
+        let has_image = self
+            .scene
+            .environment()
+            .is_some_and(|around| around.image.is_some());
+        (self.environment && has_image) || self.shines_somewhere()
+    }
+
+    /// Whether a mesh shines.
+    fn shines_somewhere(&self) -> bool {
+        let shines = |material: usize| {
+            let material = &self.materials[material];
+            !material.unlit && material.emissive != [0.0; 3]
+        };
+        let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
+        let mut left = surfaces
+            .filter(|(_, is_left)| **is_left)
+            .map(|(surface, _)| surface);
+        left.any(|surface| {
+            let has_triangles = matches!(surface.shape, Shape::Instance(_) | Shape::Triangle(_));
+            shines(surface.material) && has_triangles
+        })
+    }
+}
+
+/// Whether a material asks for an effect; of effects that are not of a material, no.
+pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
+    match effect {
+        Effect::Emission => !m.unlit && m.emissive != [0.0; 3],
+        Effect::Unlit => m.unlit,
+        Effect::Alpha => m.alpha != Alpha::Opaque,
+        Effect::Microfacets => {
+            let is_dielectric = m.specular > 0.0 || m.specular_glossiness.is_some();
+            is_dielectric || m.metallic > 0.0 || m.iridescence > 0.0 || m.transmission > 0.0
+        }
+        Effect::Refraction => m.transmission > 0.0,
+        Effect::Volume => {
+            let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != [1.0; 3];
+            m.transmission > 0.0 && m.thickness > 0.0 && absorbs
+        }
+        Effect::Dispersion => m.dispersion > 0.0 && m.transmission > 0.0,
+        Effect::Clearcoat => m.clearcoat > 0.0,
+        Effect::Sheen => m.sheen_color != [0.0; 3],
+        Effect::Anisotropy => m.anisotropy > 0.0,
+        Effect::Iridescence => m.iridescence > 0.0,
+        Effect::DepthBuffer
+        | Effect::NormalBuffer
+        | Effect::Surfaces
+        | Effect::DirectLight
+        | Effect::Shadows
+        | Effect::SoftLight
+        | Effect::Highlight
+        | Effect::Mirror
+        | Effect::GlossyReflection
+        | Effect::Depth
+        | Effect::Textures
+        | Effect::NormalInterpolation
+        | Effect::NormalMapping
+        | Effect::Lens
+        | Effect::Supersampling
+        | Effect::Environment
+        | Effect::Mis
+        | Effect::Compensation
+        | Effect::VertexColors => false,
+    }
+}

@@ -1,0 +1,123 @@
+//! What is known of a scene before any rule: which surfaces are made of which material, where on
+//! their textures they lie, and what those textures show there.
+
+use super::texture::{Area, show};
+use crate::valid::{Map, Shape, Standard, ValidScene};
+
+/// What the surfaces of one material have in common.
+#[derive(Clone, Debug)]
+pub(super) struct Uses {
+    /// The surfaces, as indices into those of the scene.
+    pub(super) surfaces: Vec<usize>,
+    /// Of each set of texture coordinates, on which of them it exists.
+    pub(super) sets: [Presence; 2],
+    /// Of each set, the rectangle that all coordinates lie in.
+    areas: [Area; 2],
+    /// The least alpha of colours at corners.
+    pub(super) least_alpha: f64,
+}
+
+/// On which surfaces of a material something exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Presence {
+    Never,
+    Somewhere,
+    Everywhere,
+}
+
+impl Presence {
+    fn and(self, exists: bool, is_first: bool) -> Self {
+        match (self, exists) {
+            (_, true) if is_first => Self::Everywhere,
+            (_, false) if is_first => Self::Never,
+            (Self::Everywhere, true) => Self::Everywhere,
+            (Self::Never, false) => Self::Never,
+            (Self::Never | Self::Somewhere | Self::Everywhere, _) => Self::Somewhere,
+        }
+    }
+}
+
+impl Uses {
+    /// The uses of each material of a scene.
+    pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
+        let unused = Self {
+            surfaces: Vec::new(),
+            sets: [Presence::Never; 2],
+            areas: [Area::NONE; 2],
+            least_alpha: 1.0,
+        };
+        let mut uses = vec![unused; scene.standards().len()];
+        for (index, surface) in scene.surfaces().iter().enumerate() {
+            uses[surface.material].add(index, &surface.shape, scene);
+        }
+        uses
+    }
+
+    fn add(&mut self, surface: usize, shape: &Shape, scene: &ValidScene) {
+        let is_first = self.surfaces.is_empty();
+        let areas = areas(shape, scene);
+        for set in 0..2 {
+            self.sets[set] = self.sets[set].and(areas[set].is_some(), is_first);
+            self.areas[set] = self.areas[set].around(areas[set].unwrap_or(Area::NONE));
+        }
+        if let Shape::Instance(instance) = shape {
+            let colors = scene.meshes()[instance.mesh].colors.iter();
+            let alpha = colors.map(|[_, _, _, alpha]| f64::from(alpha));
+            self.least_alpha = alpha.fold(self.least_alpha, f64::min);
+        }
+        self.surfaces.push(surface);
+    }
+
+    /// The least and the greatest that a map shows on these surfaces, channel by channel, each
+    /// colour channel as it is stored.
+    pub(super) fn range(&self, map: &Map, scene: &ValidScene) -> [[f64; 2]; 4] {
+        let set = map.set as usize;
+        let mut range = show(map, self.areas[set], scene);
+        if self.sets[set] != Presence::Everywhere {
+            // Without coordinates a map shows ones.
+            range = range.map(|[least, greatest]| [least.min(1.0), greatest.max(1.0)]);
+        }
+        range
+    }
+}
+
+/// Where the texture coordinates of a shape lie, of both sets.
+fn areas(shape: &Shape, scene: &ValidScene) -> [Option<Area>; 2] {
+    match shape {
+        Shape::Sphere(_) | Shape::Quad(_) => [Some(Area::UNIT), None],
+        Shape::Triangle(triangle) => {
+            let corners = triangle
+                .uvs
+                .as_ref()
+                .map(|uvs| Area::of(uvs.iter().copied()));
+            [corners, None]
+        }
+        Shape::Instance(instance) => {
+            let mesh = &scene.meshes()[instance.mesh];
+            [&mesh.uvs, &mesh.second_uvs].map(|uvs| {
+                let places = uvs.iter().map(|uv| uv.map(f64::from));
+                (!uvs.is_empty()).then(|| Area::of(places))
+            })
+        }
+        Shape::Plane(_)
+        | Shape::Disc(_)
+        | Shape::Cylinder(_)
+        | Shape::Cone(_)
+        | Shape::Torus(_) => [None; 2],
+    }
+}
+
+/// Whether a material scatters all light into single directions, so that no light can be aimed at:
+/// smooth, and without a base below the boundary.
+///
+/// Not where light that bounces between microfacets is added, which is never a single direction.
+pub(super) fn is_delta(material: &Standard, multiple_scattering: bool) -> bool {
+    let m = material;
+    let is_smooth = m.roughness == 0.0 && m.anisotropy == 0.0 && m.specular_glossiness.is_none();
+    let is_metal = m.metallic == 1.0 && m.metallic_roughness_map.is_none();
+    let is_glass = m.transmission == 1.0 && m.transmission_map.is_none();
+    let is_black = m.base_color[..3] == [0.0; 3];
+    let has_smooth_coat = m.clearcoat == 0.0 || m.clearcoat_roughness == 0.0;
+    let has_base = !(is_metal || is_glass || is_black);
+    !multiple_scattering && is_smooth && !has_base && has_smooth_coat && m.sheen_color == [0.0; 3]
+}

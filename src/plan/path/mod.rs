@@ -1,0 +1,153 @@
+//! The plan of traced paths: what of its materials, lights and steps a picture needs.
+//!
+//! Rules work on a draft, which starts as all that the scene asks for. An effect that the scene
+//! never asked for is absent; one that it asked for until a rule was applied is pruned by that rule;
+//! all others are needed. So no verdict can say other than what the integrator is given.
+
+mod draft;
+mod facts;
+pub(in crate::plan) mod rules;
+mod texture;
+mod verdicts;
+
+pub use draft::LightLeft;
+
+use super::body::bodies;
+use super::effect::{Effect, Verdict};
+use super::features::PathFeatures;
+use super::rules::Rules;
+use super::window::{Shown, Window};
+use crate::valid::{Map, Path, Projection, Standard, ValidScene};
+use draft::{Applied, Draft};
+use facts::Uses;
+
+/// The work that traced paths need.
+#[derive(Clone, Debug)]
+pub struct PathPlan {
+    /// Per material of the scene, what is left of it.
+    pub materials: Vec<Standard>,
+    /// Per material, the textures whose maps are values, by their index.
+    folded: Vec<Vec<u32>>,
+    /// Per light without extent.
+    pub lights: Vec<LightLeft>,
+    /// Whether anything arrives from where no surface stands.
+    pub environment: bool,
+    /// Whether a path that went on as often as it may can still find light.
+    pub last_ray: bool,
+    /// What the integrator must be able to do.
+    pub features: PathFeatures,
+}
+
+impl PathPlan {
+    /// Whether a map of a material shows one value on all its surfaces, and is to be folded into
+    /// the factor when the scene is prepared.
+    #[must_use]
+    pub fn is_folded(&self, material: usize, map: &Map) -> bool {
+        self.folded[material].contains(&map.texture.0)
+    }
+}
+
+/// What the rules given leave of a scene.
+pub(super) struct Planned {
+    pub(super) plan: PathPlan,
+    /// Per surface, whether it is in the world.
+    pub(super) surfaces: Vec<bool>,
+    /// How often a path may go on.
+    pub(super) max_depth: u32,
+    pub(super) verdicts: Vec<Verdict>,
+}
+
+/// Plans the paths of a scene.
+pub(super) fn plan(scene: &ValidScene, path: Path, rules: Rules) -> Planned {
+    let (uses, bodies) = (Uses::of(scene), bodies(scene));
+    let camera = scene.camera();
+    let is_pinhole = camera.lens.radius.get() == 0.0;
+    let shown: Vec<_> = match camera.projection {
+        Projection::Perspective => {
+            let window = Window::new(camera, is_pinhole);
+            bodies.iter().map(|body| window.shown(body)).collect()
+        }
+        Projection::Orthographic => vec![Shown::Anywhere; bodies.len()],
+    };
+    let asked = Draft {
+        scene,
+        path,
+        uses: &uses,
+        bodies: &bodies,
+        shown: &shown,
+        materials: scene.standards().to_vec(),
+        folded: vec![false; scene.textures().len()],
+        lights: vec![LightLeft::All; scene.punctual().len()],
+        environment: scene.environment().is_some(),
+        surfaces: vec![true; bodies.len()],
+        max_depth: scene.settings().max_depth,
+        last_ray: true,
+        aims: true,
+        shadows: true,
+    };
+    let mut left = asked.clone();
+    let applied = apply(&mut left, rules);
+    let verdicts = verdicts::verdicts(&asked, &left, &applied);
+    let folded = |(index, material): (usize, &Standard)| {
+        let maps = material.maps().filter(|map| left.is_folded(index, map));
+        maps.map(|map| map.texture.0).collect()
+    };
+    let plan = PathPlan {
+        folded: left.materials.iter().enumerate().map(folded).collect(),
+        features: features(&left, rules),
+        lights: left.lights,
+        environment: left.environment,
+        last_ray: left.last_ray,
+        materials: left.materials,
+    };
+    Planned {
+        plan,
+        surfaces: left.surfaces,
+        max_depth: left.max_depth,
+        verdicts,
+    }
+}
+
+/// Applies the rules until none of them changes anything: each takes something out, so this ends.
+fn apply(draft: &mut Draft<'_>, rules: Rules) -> Vec<Applied> {
+    let mut applied = Vec::new();
+    loop {
+        let before = applied.len();
+        for item in rules::ALL {
+            if rules.contains(item.rule) {
+                applied.extend(draft.apply(item));
+            }
+        }
+        if applied.len() == before {
+            return applied;
+        }
+    }
+}
+
+/// What an integrator must be able to do for what is left.
+fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
+    if rules == Rules::NONE {
+        return PathFeatures::EVERYTHING;
+    }
+    let asks = |effects: &[Effect]| effects.iter().any(|effect| draft.asks(*effect));
+    let all = [
+        (PathFeatures::ALPHA, asks(&[Effect::Alpha])),
+        (PathFeatures::AIM, asks(&[Effect::DirectLight])),
+        (PathFeatures::MICROFACETS, asks(&[Effect::Microfacets])),
+        (PathFeatures::TRANSMISSION, asks(&[Effect::Refraction])),
+        (
+            PathFeatures::LAYERS,
+            asks(&[
+                Effect::Clearcoat,
+                Effect::Sheen,
+                Effect::Anisotropy,
+                Effect::Iridescence,
+            ]),
+        ),
+        (PathFeatures::SHADOWS, asks(&[Effect::Shadows])),
+    ];
+    let needed = all.into_iter().filter(|(_, is_asked)| *is_asked);
+    needed.fold(PathFeatures::NONE, |features, (feature, _)| {
+        features.with(feature)
+    })
+}

@@ -1,0 +1,197 @@
+//! Rules on lights, on aiming at them and on what hides them.
+
+use super::PathRule;
+use crate::ir::{Field, Noun, Place};
+use crate::math::Vec3;
+use crate::plan::body::{Body, Form};
+use crate::plan::path::draft::{Draft, LightLeft};
+use crate::plan::path::facts::is_delta;
+use crate::plan::rules::Rule;
+use crate::plan::space::{ROOM, Sides, Space};
+use crate::valid::{Emitter, Falloff, Pixels, Punctual};
+
+fn place(light: usize) -> Place {
+    Place::new(Noun::Light, light, Field::Whole)
+}
+
+pub(super) const BLACK: PathRule = PathRule {
+    rule: Rule::PathLightBlack,
+    name: "P-LIGHT-ZERO",
+    text: "A light of intensity 0 is chosen with probability 0: it leaves the choice of lights.",
+    because: "all lights have intensity 0",
+    apply: |draft| {
+        let lights = draft.scene.punctual();
+        let is_black = |light: &usize| lights[*light].intensity == Vec3::ZERO;
+        leave(draft, LightLeft::Nothing, is_black)
+    },
+};
+
+pub(super) const DARK_SKY: PathRule = PathRule {
+    rule: Rule::PathDarkSky,
+    name: "P-ENV-ZERO",
+    text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
+    because: "the environment is black",
+    apply: |draft| {
+        let Some(around) = draft.scene.environment().filter(|_| draft.environment) else {
+            return Vec::new();
+        };
+        let is_dark = |image: usize| {
+            let image = &draft.scene.images()[image];
+            let bytes = match image.kind {
+                Pixels::Rgb8 | Pixels::Rgb32f => 1,
+                Pixels::Rgba8 => 4,
+            };
+            // Alpha of a picture of all directions has no meaning.
+            let mut channels = image.pixels.iter().enumerate();
+            channels.all(|(index, byte)| *byte == 0 || (bytes == 4 && index % 4 == 3))
+        };
+        if around.radiance != Vec3::ZERO && !around.image.is_some_and(is_dark) {
+            return Vec::new();
+        }
+        draft.environment = false;
+        vec![Place::new(Noun::Environment, 0, Field::Whole)]
+    },
+};
+
+pub(super) const OUT_OF_REACH: PathRule = PathRule {
+    rule: Rule::PathLightReach,
+    name: "P-LIGHT-REACH",
+    text: "A light whose range, or whose cone, ends before the boxes of all surfaces sends nothing to \
+           them. It keeps its place in the choice of lights, so that no random number changes its \
+           meaning, and loses its evaluation and its shadow ray.",
+    because: "no surface is within the range or the cone of a light",
+    apply: |draft| {
+        let lights = draft.scene.punctual();
+        let (bodies, left) = (draft.bodies, draft.surfaces.clone());
+        let is_out = |light: &usize| {
+            let mut bodies = bodies.iter().zip(&left).filter(|(_, is_left)| **is_left);
+            bodies.all(|(body, _)| is_out_of_reach(&lights[*light], body))
+        };
+        leave(draft, LightLeft::Place, is_out)
+    },
+};
+
+pub(super) const MIRRORS_ONLY: PathRule = PathRule {
+    rule: Rule::PathDelta,
+    name: "P-DELTA",
+    text: "Where every material scatters light into single directions alone, a direction aimed at a \
+           light has value 0: no light is sampled, and no two ways of sampling need weights.",
+    because: "all materials are mirrors or clear glass",
+    apply: |draft| {
+        let multiple = draft.path.multiple_scattering;
+        let aims =
+            |material: &crate::valid::Standard| !material.unlit && !is_delta(material, multiple);
+        if !draft.aims || draft.used().any(|(_, material)| aims(material)) {
+            return Vec::new();
+        }
+        draft.aims = false;
+        draft
+            .used()
+            .map(|(material, _)| Place::new(Noun::Material, material, Field::Whole))
+            .collect()
+    },
+};
+
+pub(super) const ALONE: PathRule = PathRule {
+    rule: Rule::PathShadowAlone,
+    name: "P-SHADOW-ALONE",
+    text: "A convex opaque solid that stands alone, looked at from outside, lies behind the plane that \
+           touches it at any of its points, and a light before that plane is not hidden by it. A flat \
+           surface that stands alone hides no light that is off its plane.",
+    because: "one convex surface stands alone and does not hide its lights",
+    apply: |draft| {
+        let mut left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
+        let (Some(surface), None) = (left.next(), left.next()) else {
+            return Vec::new();
+        };
+        if !draft.shadows || !hides_nothing(draft, surface) {
+            return Vec::new();
+        }
+        draft.shadows = false;
+        let index = draft.scene.surfaces()[surface].index;
+        vec![Place::new(Noun::Surface, index, Field::Whole)]
+    },
+};
+
+/// Leaves so much of the lights that have more; their places.
+fn leave(draft: &mut Draft<'_>, rest: LightLeft, which: impl Fn(&usize) -> bool) -> Vec<Place> {
+    let left = |light: &usize| draft.lights[*light] == LightLeft::All;
+    let out: Vec<_> = (0..draft.lights.len()).filter(left).filter(which).collect();
+    out.iter().for_each(|light| draft.lights[*light] = rest);
+    out.into_iter().map(place).collect()
+}
+
+/// Whether the only surface of a scene surely hides no light from itself.
+fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
+    let (body, material) = (
+        &draft.bodies[surface],
+        &draft.materials[draft.scene.surfaces()[surface].material],
+    );
+    let eye = Space::around(
+        draft.scene.camera().eye,
+        Vec3::splat(draft.scene.camera().lens.radius.get()),
+    );
+    let mut places = draft.scene.punctual().iter().filter_map(position);
+    let is_plain = material.transmission == 0.0 && material.emissive == [0.0; 3];
+    let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
+    let spares = match body.form {
+        Form::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
+        Form::Ball(..) | Form::Convex => {
+            body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
+        }
+        Form::Other => false,
+    };
+    is_plain && is_perspective && spares
+}
+
+/// Where a light stands, unless it is infinitely far away.
+fn position(light: &Punctual) -> Option<Vec3> {
+    match light.emitter {
+        Emitter::Sun(_) => None,
+        Emitter::Point(position, _) | Emitter::Spot { position, .. } => Some(position),
+    }
+}
+
+fn point(at: Vec3) -> Space {
+    Space::around(at, Vec3::ZERO)
+}
+
+/// Whether a light surely sends nothing to a surface.
+fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
+    let Some(space) = body.space() else {
+        return false;
+    };
+    let is_beyond = |position: Vec3, falloff: Falloff| match falloff {
+        Falloff::Square(Some(range)) => {
+            let margin = 8.0 * ROOM * (space.size() + position.abs().max_element());
+            space.distance(position) > range * (1.0 + ROOM) + margin
+        }
+        Falloff::None | Falloff::Square(None) => false,
+    };
+    match light.emitter {
+        Emitter::Sun(_) => false,
+        Emitter::Point(position, falloff) => is_beyond(position, falloff),
+        Emitter::Spot {
+            position,
+            direction,
+            outer,
+            falloff,
+            ..
+        } => is_beyond(position, falloff) || is_beside(space, position, direction, outer),
+    }
+}
+
+/// Whether the ball around a box lies outside of a cone, given by its apex, its axis and the cosine
+/// of its half angle.
+fn is_beside(space: &Space, apex: Vec3, axis: Vec3, cosine: f64) -> bool {
+    /// Far more than rounding moves a cosine.
+    const MARGIN: f64 = 1e-9;
+    let center = space.min * 0.5 + space.max * 0.5;
+    let radius = (space.max - center).length() * (1.0 + MARGIN) + ROOM * space.size();
+    let (to, sine) = (center - apex, (1.0 - cosine * cosine).max(0.0).sqrt());
+    let along = to.dot(axis);
+    let across = (to.length_squared() - along * along).max(0.0).sqrt();
+    // The distance from the side of the cone, where that is the nearest of it; never more.
+    let outside = across * cosine - along * sine;
+    outside > radius + MARGIN * to.length()
+}

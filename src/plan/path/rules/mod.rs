@@ -1,0 +1,48 @@
+//! The rules for traced paths: each proves of a scene that something adds exactly nothing, and
+//! takes it out of the draft. They are tried in this order, until none changes anything.
+
+mod light;
+mod material;
+mod paths;
+mod texture;
+
+use super::draft::Draft;
+use crate::ir::Place;
+use crate::plan::rules::Rule;
+
+/// A rule: its name, what it says, and its proof.
+pub(in crate::plan) struct PathRule {
+    /// What switches it on and off.
+    pub(in crate::plan) rule: Rule,
+    /// The name that users know it by.
+    pub(in crate::plan) name: &'static str,
+    /// What it says, and why it is right.
+    pub(in crate::plan) text: &'static str,
+    /// Why an effect is not needed then: lower case, no full stop.
+    pub(in crate::plan) because: &'static str,
+    /// Takes out what is proven to add nothing; the values that decided, none if nothing changed.
+    pub(super) apply: fn(&mut Draft<'_>) -> Vec<Place>,
+}
+
+/// All rules for paths.
+pub(in crate::plan) const ALL: [&PathRule; 14] = [
+    &light::BLACK,
+    &light::DARK_SKY,
+    &material::ZERO,
+    &material::UNLIT,
+    &texture::UNSEEN,
+    &texture::CONSTANT,
+    &material::OPAQUE,
+    &light::OUT_OF_REACH,
+    &paths::NO_LIGHT,
+    &paths::UNLIT_ONLY,
+    &paths::LAST,
+    &light::MIRRORS_ONLY,
+    &light::ALONE,
+    &paths::CULL,
+];
+
+/// The item of a rule, if it is one for paths.
+pub(in crate::plan) fn find(rule: Rule) -> Option<&'static PathRule> {
+    ALL.into_iter().find(|item| item.rule == rule)
+}

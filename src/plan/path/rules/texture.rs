@@ -1,0 +1,111 @@
+//! Rules on maps: those that no surface can look up, that multiply 0, or that show one value.
+
+use super::PathRule;
+use crate::ir::{Field, Noun, Place};
+use crate::plan::path::draft::Draft;
+use crate::plan::path::facts::Presence;
+use crate::plan::rules::Rule;
+use crate::valid::{Map, Standard};
+
+pub(super) const UNSEEN: PathRule = PathRule {
+    rule: Rule::PathMapUnseen,
+    name: "P-TEX-UNSEEN",
+    text: "A map shows ones on surfaces without its texture coordinates, and a map that multiplies 0 \
+           does not show at all: neither is looked up. Nor are maps that only light needs, where no \
+           path goes on.",
+    because: "its maps multiply 0, or no surface has their texture coordinates",
+    apply: |draft| {
+        let used: Vec<_> = draft.used().map(|(index, _)| index).collect();
+        let mut changed = Vec::new();
+        for index in used {
+            let new = without_unseen(draft, index);
+            if new != draft.materials[index] {
+                draft.materials[index] = new;
+                changed.push(Place::new(Noun::Material, index, Field::Whole));
+            }
+        }
+        changed
+    },
+};
+
+fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
+    let mut new = draft.materials[index].clone();
+    let sets = draft.uses[index].sets;
+    let m = &draft.materials[index];
+    let is_shaded = draft.max_depth > 0 && !m.unlit;
+    let is_clear = m.transmission == 0.0;
+    let is_metal_or_rough = is_shaded && (m.metallic > 0.0 || m.roughness > 0.0);
+    let conditions: [(&mut Option<Map>, bool); 17] = [
+        (&mut new.base_color_map, true),
+        (
+            &mut new.metallic_roughness_map,
+            is_metal_or_rough && m.specular_glossiness.is_none(),
+        ),
+        (
+            &mut new.specular_glossiness_map,
+            is_shaded && m.specular_glossiness.is_some(),
+        ),
+        (&mut new.emissive_map, m.emissive != [0.0; 3]),
+        (&mut new.normal_map, is_shaded),
+        (&mut new.specular_map, is_shaded && m.specular > 0.0),
+        (
+            &mut new.specular_color_map,
+            is_shaded && m.specular_color != [0.0; 3],
+        ),
+        (&mut new.transmission_map, is_shaded && !is_clear),
+        // No renderer here looks at how thick a body is said to be: rays find that out.
+        (&mut new.thickness_map, false),
+        (&mut new.clearcoat_map, is_shaded && m.clearcoat > 0.0),
+        (
+            &mut new.clearcoat_roughness_map,
+            is_shaded && m.clearcoat > 0.0 && m.clearcoat_roughness > 0.0,
+        ),
+        (
+            &mut new.clearcoat_normal_map,
+            is_shaded && m.clearcoat > 0.0,
+        ),
+        (
+            &mut new.sheen_color_map,
+            is_shaded && m.sheen_color != [0.0; 3],
+        ),
+        (
+            &mut new.sheen_roughness_map,
+            is_shaded && m.sheen_color != [0.0; 3] && m.sheen_roughness > 0.0,
+        ),
+        (&mut new.anisotropy_map, is_shaded && m.anisotropy > 0.0),
+        (&mut new.iridescence_map, is_shaded && m.iridescence > 0.0),
+        (
+            &mut new.iridescence_thickness_map,
+            is_shaded && m.iridescence > 0.0,
+        ),
+    ];
+    for (map, shows) in conditions {
+        let has_places = |map: &Map| sets[map.set as usize] != Presence::Never;
+        if !(shows && map.as_ref().is_some_and(has_places)) {
+            *map = None;
+        }
+    }
+    new
+}
+
+pub(super) const CONSTANT: PathRule = PathRule {
+    rule: Rule::PathMapConstant,
+    name: "P-TEX-CONST",
+    text: "A texture whose texels are all equal shows that value everywhere: maps of it become factors, \
+           and a normal map one normal, when the scene is prepared.",
+    because: "all texels of each of its textures are equal",
+    apply: |draft| {
+        let mut changed = Vec::new();
+        let mut folded = draft.folded.clone();
+        for (index, material) in draft.used() {
+            let is_new = |map: &&Map| !draft.is_folded(index, map) && draft.is_even(index, map);
+            for map in material.maps().filter(is_new) {
+                folded[map.texture.0 as usize] = true;
+                changed.push(Place::new(Noun::Material, index, Field::Whole));
+            }
+        }
+        changed.dedup();
+        draft.folded = folded;
+        changed
+    },
+};

@@ -1,0 +1,102 @@
+//! The samples of a pixel that a scene of the course asks for: sub-samples in cells, and for each
+//! of them points of the lens.
+
+use super::{Twist, image_point, lens_point, lens_samples, ray_through};
+use crate::math::Vec3;
+use crate::render::film::Seeds;
+use crate::render::ray::Ray;
+use crate::render::sampler::Key;
+use crate::valid::{Camera, Mode, Pattern, ValidScene};
+
+/// How the samples of a pixel are laid out.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Grid {
+    /// Cells along each side of a pixel.
+    factor: u32,
+    /// Points of the lens for each cell.
+    points: u32,
+    pattern: Pattern,
+}
+
+/// A sub-sample: where its rays go through the image.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Cell {
+    target: Vec3,
+    twist: Twist,
+}
+
+impl Grid {
+    /// One ray through the middle of a pixel.
+    pub(in crate::render) const MIDDLE: Self = Self {
+        factor: 1,
+        points: 1,
+        pattern: Pattern::Grid,
+    };
+
+    /// The layout of a scene. A buffer of depths asks the middle of each pixel.
+    pub(in crate::render) fn of(scene: &ValidScene) -> Self {
+        let settings = scene.settings();
+        match settings.mode {
+            Mode::Zbuffer => Self::MIDDLE,
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => Self {
+                factor: settings.supersampling.get(),
+                points: lens_samples(&scene.camera().lens),
+                pattern: settings.pattern,
+            },
+        }
+    }
+
+    /// How many samples a pixel takes.
+    pub(in crate::render) fn samples(&self) -> u32 {
+        let cells = self.factor.saturating_mul(self.factor);
+        cells.saturating_mul(self.points)
+    }
+
+    /// The cell of a sample, and which point of the lens it takes.
+    pub(in crate::render) fn split(&self, sample: u32) -> (u32, u32) {
+        (sample / self.points, sample % self.points)
+    }
+
+    /// A cell of a pixel, counted row by row.
+    pub(in crate::render) fn cell(
+        &self,
+        camera: &Camera,
+        pixel: [u32; 2],
+        cell: u32,
+        seeds: Seeds,
+    ) -> Cell {
+        let key = Key::new(pixel, cell.into());
+        let place = self.place(
+            [cell % self.factor, cell / self.factor],
+            key.seeded(seeds.pixel),
+        );
+        Cell {
+            target: image_point(camera, pixel, place),
+            twist: Twist::new(seeds.lens, key),
+        }
+    }
+
+    /// Where in its pixel a sub-sample lies, each coordinate in [0, 1].
+    fn place(&self, cell: [u32; 2], key: Key) -> [f64; 2] {
+        let key = key.child(PATTERN);
+        let random = || [key.uniform(0), key.uniform(1)];
+        let within = |offset: [f64; 2]| {
+            [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(self.factor))
+        };
+        match self.pattern {
+            Pattern::Grid => within([0.5; 2]),
+            Pattern::Jitter => within(random()),
+            Pattern::Random => random(),
+        }
+    }
+}
+
+impl Cell {
+    /// The ray from point k of the lens.
+    pub(in crate::render) fn ray(&self, camera: &Camera, k: u32) -> Ray {
+        ray_through(camera, lens_point(camera, k, self.twist), self.target)
+    }
+}
+
+/// Keeps the numbers of sub-samples apart from those of the paths through them.
+const PATTERN: u64 = u64::MAX;

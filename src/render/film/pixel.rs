@@ -1,0 +1,264 @@
+//! What a pixel adds up from its samples, and in which order.
+//!
+//! The order is fixed for each kind of picture and depends on nothing but the numbers of the
+//! samples, so that a picture is the same bytes however its samples are shared out.
+
+use super::{Seeds, Values, coverage};
+use crate::color::Tone;
+use crate::math::Vec3;
+use std::ops::Range;
+
+/// One sample of a pixel. It is a function of these three alone.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct SampleId {
+    /// The pixel, from the upper left.
+    pub(in crate::render) pixel: [u32; 2],
+    /// To which sequence it belongs.
+    pub(in crate::render) stream: Stream,
+    /// Its place in that sequence.
+    pub(in crate::render) index: u32,
+}
+
+/// A sequence of samples of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) enum Stream {
+    /// The samples that the scene asks for.
+    Picture(Seeds),
+    /// One of four sequences without end that are independent of each other; strands of other
+    /// numbers are independent too.
+    Strand {
+        /// Which of the four.
+        strand: usize,
+        /// The number that its samples are keyed by.
+        number: u64,
+    },
+}
+
+/// What one sample of a pixel shows.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Sample {
+    /// The radiance, finite where paths are traced.
+    pub(in crate::render) radiance: Vec3,
+    /// Whether the camera ray met a surface.
+    pub(in crate::render) hit: bool,
+}
+
+/// Adds up the samples of one pixel.
+pub(in crate::render) trait Accumulator {
+    /// What a sample is.
+    type Sample;
+
+    /// What the film keeps of a pixel.
+    type Kept: Send;
+
+    /// Adds the next sample of a stream.
+    fn add(&mut self, id: &SampleId, sample: Self::Sample);
+
+    /// What is kept when all samples asked for are in.
+    fn close(self) -> Self::Kept;
+}
+
+/// The samples that a pixel is to take: of each stream a range.
+pub(in crate::render) type Asked = arrayvec::ArrayVec<(Stream, Range<u32>), 4>;
+
+/// What a film of a whole picture keeps of a pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::render) struct Shown {
+    /// The value, linear or as a display shows it.
+    pub(in crate::render) color: [f64; 3],
+    /// The fraction of the camera rays that met a surface.
+    pub(in crate::render) coverage: f32,
+}
+
+/// The mean of the samples, added one after the other: pictures of the course.
+pub(in crate::render) struct InOrder {
+    values: Values,
+    sum: Vec3,
+    hits: u64,
+    count: u64,
+}
+
+impl InOrder {
+    pub(in crate::render) fn new(values: Values) -> Self {
+        Self {
+            values,
+            sum: Vec3::ZERO,
+            hits: 0,
+            count: 0,
+        }
+    }
+}
+
+impl Accumulator for InOrder {
+    type Sample = Sample;
+    type Kept = Shown;
+
+    #[inline]
+    fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
+        self.sum += match self.values {
+            Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+            Values::Linear => radiance,
+        };
+        self.hits += u64::from(hit);
+        self.count += 1;
+    }
+
+    fn close(self) -> Shown {
+        if self.count == 0 {
+            return Shown::default();
+        }
+        Shown {
+            color: (self.sum / self.count as f64).to_array(),
+            coverage: coverage(self.hits, self.count),
+        }
+    }
+}
+
+/// Samples of a block, which are added one after the other.
+pub(in crate::render) const BLOCK: u32 = 16;
+
+/// The mean of the samples, added in aligned blocks of [`BLOCK`] along a binary tree over the
+/// blocks: pictures of traced paths. The sum of any 2^k aligned blocks is one node of the tree,
+/// whoever adds it.
+pub(in crate::render) struct InBlocks {
+    tone: Option<Tone>,
+    block: Vec3,
+    tree: Tree,
+    hits: u64,
+    count: u32,
+}
+
+/// Sums of blocks: of each level of the tree at most one node is open.
+#[derive(Clone, Debug, Default)]
+struct Tree {
+    /// The open nodes, those of more blocks first.
+    open: arrayvec::ArrayVec<Vec3, 32>,
+    blocks: u32,
+}
+
+impl InBlocks {
+    /// A pixel whose mean is coded by `tone`, if by any.
+    pub(in crate::render) fn new(tone: Option<Tone>) -> Self {
+        let tree = Tree::default();
+        Self {
+            tone,
+            block: Vec3::ZERO,
+            tree,
+            hits: 0,
+            count: 0,
+        }
+    }
+}
+
+impl Accumulator for InBlocks {
+    type Sample = Sample;
+    type Kept = Shown;
+
+    #[inline]
+    fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
+        self.block += radiance;
+        self.hits += u64::from(hit);
+        self.count += 1;
+        if self.count.is_multiple_of(BLOCK) {
+            self.tree.add(std::mem::take(&mut self.block));
+        }
+    }
+
+    fn close(mut self) -> Shown {
+        if !self.count.is_multiple_of(BLOCK) {
+            self.tree.add(self.block);
+        }
+        let mean = (self.tree.sum() / f64::from(self.count.max(1))).to_array();
+        Shown {
+            color: self.tone.map_or(mean, |tone| tone.display(mean)),
+            coverage: coverage(self.hits, self.count.into()),
+        }
+    }
+}
+
+impl Tree {
+    /// Adds the sum of the next block: two nodes of one level make a node of the next.
+    fn add(&mut self, block: Vec3) {
+        let mut node = block;
+        for _ in 0..self.blocks.trailing_ones() {
+            node = self.open.pop().unwrap_or_default() + node;
+        }
+        self.open.push(node);
+        self.blocks += 1;
+    }
+
+    /// The sum of all blocks: open nodes are added from the smallest on.
+    fn sum(self) -> Vec3 {
+        let smallest_first = self.open.into_iter().rev();
+        smallest_first
+            .reduce(|sum, node| node + sum)
+            .unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn id() -> SampleId {
+        SampleId {
+            pixel: [0; 2],
+            stream: Stream::Picture(Seeds::NONE),
+            index: 0,
+        }
+    }
+
+    fn radiance(index: u32) -> Vec3 {
+        Vec3::splat(1.0 / f64::from(3 + index))
+    }
+
+    /// The sum over aligned blocks, by recursion.
+    fn node(blocks: Range<u32>, samples: u32) -> Vec3 {
+        if blocks.len() == 1 {
+            let range = blocks.start * BLOCK..((blocks.start + 1) * BLOCK).min(samples);
+            return range.fold(Vec3::ZERO, |sum, index| sum + radiance(index));
+        }
+        let count = blocks.end - blocks.start;
+        let half = blocks.start + (count.next_power_of_two() / 2);
+        node(blocks.start..half, samples) + node(half..blocks.end, samples)
+    }
+
+    #[test]
+    fn blocks_are_added_along_a_binary_tree() {
+        for samples in [1, 15, 16, 17, 48, 49, 64, 112, 1000] {
+            let mut sums = InBlocks::new(None);
+            let sample = |index| Sample {
+                radiance: radiance(index),
+                hit: index % 2 == 0,
+            };
+            (0..samples).for_each(|index| sums.add(&id(), sample(index)));
+            let expected = node(0..samples.div_ceil(BLOCK), samples) / f64::from(samples);
+            let Shown { color, coverage } = sums.close();
+            assert_eq!(color, expected.to_array(), "{samples}");
+            assert!((f64::from(coverage) - 0.5).abs() <= 0.6 / f64::from(samples));
+        }
+    }
+
+    #[test]
+    fn a_pixel_without_samples_is_black() {
+        assert_eq!(InOrder::new(Values::Display).close().color, [0.0; 3]);
+        assert_eq!(InBlocks::new(None).close().color, [0.0; 3]);
+    }
+
+    #[test]
+    fn only_what_is_displayed_is_clamped_sample_by_sample() {
+        for (values, mean) in [(Values::Display, 0.5), (Values::Linear, 1.0)] {
+            let mut sums = InOrder::new(values);
+            for value in [3.0, -1.0] {
+                sums.add(
+                    &id(),
+                    Sample {
+                        radiance: Vec3::splat(value),
+                        hit: true,
+                    },
+                );
+            }
+            assert_eq!(sums.close().color, [mean; 3]);
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! A film that grows: in each pixel four strands of samples, independent of each other, two to each
+//! half of the pixel.
+//!
+//! The mean of the halves is the picture; how far the strands of a half are apart tells what that
+//! is worth. How many samples a half takes may hang on what the other half saw: neither is then
+//! biased by its own luck.
+
+use super::pixel::{Accumulator, Asked, Sample, SampleId, Stream};
+use super::tiled::Tiled;
+use super::{Behind, Counts, Crop, Values, coverage};
+use crate::color::Tone;
+use crate::image::Image;
+use crate::math::Vec3;
+
+/// The samples of a pixel so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Strands {
+    /// How the mean of the samples is shown; none where each is clamped to [0, 1].
+    tone: Option<Tone>,
+    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the
+    /// first half.
+    sums: [Vec3; 4],
+    /// Per half, the sum of the squared lengths of the same.
+    squares: [f64; 2],
+    /// Per half, the sum of its samples as they are.
+    linear: [Vec3; 2],
+    /// Per half, how many samples each of its strands has.
+    counts: [u32; 2],
+    /// Per half, how many of its samples met a surface.
+    hits: [u64; 2],
+}
+
+/// A part of a picture that grows, 192 bytes a pixel.
+#[derive(Clone, Debug)]
+pub struct ProgressiveFilm {
+    seed: u64,
+    /// What it shows behind all surfaces, where paths are traced.
+    pub behind: Behind,
+    pub(in crate::render) pixels: Tiled<Strands>,
+    /// The rays so far.
+    pub counts: Counts,
+}
+
+impl ProgressiveFilm {
+    /// A film without samples, of a part that lies within the picture. Another seed gives
+    /// independent samples.
+    #[must_use]
+    pub fn new(crop: Crop, seed: u64) -> Self {
+        Self {
+            seed,
+            behind: Behind::default(),
+            pixels: Tiled::new(crop, Strands::default()),
+            counts: Counts::default(),
+        }
+    }
+
+    /// The part of the picture that it holds.
+    #[must_use]
+    pub fn crop(&self) -> Crop {
+        self.pixels.crop()
+    }
+
+    /// How many pixels it has.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a picture has pixels")]
+    pub fn len(&self) -> usize {
+        self.pixels.len()
+    }
+
+    /// The pixels row by row.
+    pub fn pixels(&self) -> impl Iterator<Item = &Strands> {
+        self.pixels.iter()
+    }
+
+    /// A pixel, counted row by row.
+    #[must_use]
+    pub fn pixel(&self, index: usize) -> &Strands {
+        self.pixels.at(index)
+    }
+
+    /// The samples that a pixel lacks of those wanted: per half, how many each of its strands is
+    /// to have at least.
+    pub(in crate::render) fn lacking(seed: u64, pixel: &Strands, wanted: [u32; 2]) -> Asked {
+        let strand = |strand: usize| {
+            let number = (seed << 2 | strand as u64).wrapping_add(1);
+            let samples = pixel.counts[strand / 2]..wanted[strand / 2];
+            (Stream::Strand { strand, number }, samples)
+        };
+        (0..4).map(strand).collect()
+    }
+
+    /// The number that the samples are keyed by.
+    pub(in crate::render) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// All samples.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        self.pixels().map(Strands::samples).sum()
+    }
+
+    /// The picture so far; black where nothing was sampled.
+    #[must_use]
+    pub fn image(&self, values: Values) -> Image {
+        Image {
+            width: self.crop().width,
+            height: self.crop().height,
+            pixels: self
+                .pixels()
+                .map(|pixel| pixel.mean(values).to_array())
+                .collect(),
+        }
+    }
+
+    /// Of each pixel the share of the samples that met a surface.
+    #[must_use]
+    pub fn coverage(&self) -> Vec<f32> {
+        self.pixels().map(Strands::coverage).collect()
+    }
+}
+
+impl Strands {
+    /// All samples.
+    #[must_use]
+    pub fn samples(&self) -> u64 {
+        2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
+    }
+
+    /// How many samples each strand of a half has.
+    #[must_use]
+    pub fn count(&self, half: usize) -> u32 {
+        self.counts[half]
+    }
+
+    /// The variance of the mean of a half, from how far its strands are apart: the mean over the
+    /// channels.
+    #[must_use]
+    pub fn variance_of_half(&self, half: usize) -> f64 {
+        let (n, [a, b]) = (
+            f64::from(self.counts[half].max(1)),
+            [self.sums[2 * half], self.sums[2 * half + 1]],
+        );
+        let apart = match self.tone {
+            None => (a - b) / n,
+            Some(tone) => shown(tone, a / n) - shown(tone, b / n),
+        };
+        apart.length_squared() / 12.0
+    }
+
+    /// The variance of the samples of a half: the mean over the channels.
+    #[must_use]
+    pub fn variance_of_samples(&self, half: usize) -> f64 {
+        let n = 2.0 * f64::from(self.counts[half]);
+        let sum = self.sums[2 * half] + self.sums[2 * half + 1];
+        let square = self.squares[half] - sum.length_squared() / n.max(1.0);
+        let variance = square.max(0.0) / (3.0 * (n - 1.0).max(1.0));
+        match self.tone {
+            None => variance,
+            Some(tone) => {
+                let (mean, deviation) = (
+                    sum.element_sum() / (3.0 * n.max(1.0)),
+                    (variance / n.max(1.0)).sqrt(),
+                );
+                variance * slope(tone, mean, deviation)
+            }
+        }
+    }
+
+    /// The share of the samples that met a surface: the mean of the halves.
+    fn coverage(&self) -> f32 {
+        let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
+        (of(0) + of(1)) * 0.5
+    }
+
+    /// The mean of the halves, whatever the samples of each.
+    fn mean(&self, values: Values) -> Vec3 {
+        let of = |half: usize| {
+            let sum = match values {
+                Values::Display => self.sums[2 * half] + self.sums[2 * half + 1],
+                Values::Linear => self.linear[half],
+            };
+            sum / (2.0 * f64::from(self.counts[half].max(1)))
+        };
+        let mean = (of(0) + of(1)) * 0.5;
+        match (values, self.tone) {
+            (Values::Display, Some(tone)) => shown(tone, mean),
+            (Values::Display | Values::Linear, _) => mean,
+        }
+    }
+
+    /// The same samples, shown by `tone`.
+    pub(in crate::render) fn toned(self, tone: Option<Tone>) -> Self {
+        Self { tone, ..self }
+    }
+}
+
+impl Accumulator for Strands {
+    type Sample = Sample;
+    type Kept = Self;
+
+    fn add(&mut self, id: &SampleId, Sample { radiance, hit }: Sample) {
+        let Stream::Strand { strand, .. } = id.stream else {
+            return;
+        };
+        let shown = match self.tone {
+            None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
+            Some(_) => radiance,
+        };
+        let half = strand / 2;
+        self.sums[strand] += shown;
+        self.squares[half] += shown.length_squared();
+        self.linear[half] += radiance;
+        self.hits[half] += u64::from(hit);
+        self.counts[half] = self.counts[half].max(id.index + 1);
+    }
+
+    fn close(self) -> Self {
+        self
+    }
+}
+
+fn shown(tone: Tone, mean: Vec3) -> Vec3 {
+    Vec3::from_array(tone.display(mean.to_array()))
+}
+
+/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the
+/// deviation given.
+fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
+    if deviation == 0.0 {
+        return 0.0;
+    }
+    let [low, high] =
+        [mean - deviation, mean + deviation].map(|grey| shown(tone, Vec3::splat(grey)).x);
+    let slope = (high - low) / (2.0 * deviation);
+    slope * slope
+}

@@ -1,0 +1,78 @@
+//! Layers beside the colours: each pixel takes the camera rays of its colour, to their first hits.
+
+use super::{Selection, run};
+use crate::image::Layers;
+use crate::plan::{Features, PathFeatures};
+use crate::render::camera::grid::Grid;
+use crate::render::film::heartbeat::Proceed;
+use crate::render::film::pixel::Accumulator;
+use crate::render::film::tiled::Tiled;
+use crate::render::film::{Crop, Job};
+use crate::render::frame::picture::whole;
+use crate::render::integrator::aov::{Aov, FirstHit, FirstHits, LayerSums};
+use crate::render::integrator::path::{PathTracer, Strategy};
+use crate::render::integrator::whitted::Tracer;
+use crate::render::light::Lights;
+use crate::render::shape::geometry::Geometry;
+use crate::render::world::World;
+use crate::valid::Mode;
+
+impl<S: Geometry> World<S> {
+    /// As [`crate::render::AnyWorld::layers`], of what this world holds.
+    pub(in crate::render) fn layers(
+        &self,
+        wanted: &[Aov],
+        crop: Crop,
+        proceed: &Proceed<'_>,
+    ) -> Option<Layers> {
+        if let Mode::Path(path) = self.scene.settings().mode {
+            let lights = Lights::new(self, Strategy::Mis);
+            let worker = || {
+                PathTracer::<S, { PathFeatures::EVERYTHING.0 }>::new(
+                    self,
+                    &lights,
+                    path,
+                    Strategy::Mis,
+                    proceed,
+                )
+                .knowing_all()
+            };
+            return self.layers_by(worker, path.samples.get(), wanted, crop);
+        }
+        let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, proceed);
+        self.layers_by(worker, Grid::of(&self.scene).samples(), wanted, crop)
+    }
+
+    /// Renders layers by integrators that `worker` makes.
+    fn layers_by<'run, I: FirstHit<'run>>(
+        &self,
+        worker: impl Fn() -> I + Sync + Send,
+        samples: u32,
+        wanted: &[Aov],
+        crop: Crop,
+    ) -> Option<Layers> {
+        let job = Job {
+            crop: Some(crop),
+            ..Job::default()
+        };
+        let camera = self.scene.camera();
+        let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
+            (LayerSums::new(wanted, camera), whole(&job, samples))
+        };
+        let mut film = Tiled::new(self.crop(&job), <LayerSums<'_> as Accumulator>::Kept::new());
+        run(
+            &mut film,
+            Selection::default(),
+            || FirstHits(worker()),
+            &open,
+        )?;
+        Some(Layers {
+            names: wanted
+                .iter()
+                .flat_map(|aov| aov.channels())
+                .copied()
+                .collect(),
+            values: film.iter().flatten().copied().collect(),
+        })
+    }
+}

@@ -1,0 +1,72 @@
+//! Buffers of depths: the distance along the ray through the middle of each pixel to what it
+//! meets first.
+
+use super::Integrator;
+use crate::plan::Effect;
+use crate::render::camera::grid::Grid;
+use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::pixel::{Accumulator, SampleId};
+use crate::render::film::{Counts, Seeds};
+use crate::render::shape::geometry::Geometry;
+use crate::render::world::World;
+
+/// Finds distances.
+pub(in crate::render) struct Depth<'run, S> {
+    world: &'run World<S>,
+    heartbeat: Heartbeat<'run>,
+    counts: Counts,
+}
+
+impl<'run, S: Geometry> Depth<'run, S> {
+    pub(in crate::render) fn new(world: &'run World<S>, proceed: &'run Proceed<'run>) -> Self {
+        Self {
+            world,
+            heartbeat: Heartbeat::new(proceed),
+            counts: Counts::default(),
+        }
+    }
+}
+
+impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
+    type Sample = Option<f64>;
+
+    fn sample(&mut self, id: &SampleId) -> Option<f64> {
+        let camera = self.world.scene.camera();
+        let middle = Grid::MIDDLE.cell(camera, id.pixel, 0, Seeds::NONE);
+        self.counts.camera += 1;
+        self.counts.add(Effect::DepthBuffer);
+        let hit = self.world.nearest(&middle.ray(camera, 0))?;
+        self.counts.hits += 1;
+        Some(hit.t)
+    }
+
+    fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run> {
+        &mut self.heartbeat
+    }
+
+    #[inline]
+    fn goes_on(&mut self) -> bool {
+        self.heartbeat.goes_on(&self.counts)
+    }
+}
+
+/// Keeps the one distance of a pixel.
+#[derive(Default)]
+pub(in crate::render) struct Distance(Option<f64>);
+
+impl Accumulator for Distance {
+    type Sample = Option<f64>;
+    type Kept = Option<f64>;
+
+    fn add(&mut self, _: &SampleId, distance: Option<f64>) {
+        self.0 = distance;
+    }
+
+    fn close(self) -> Option<f64> {
+        self.0
+    }
+}

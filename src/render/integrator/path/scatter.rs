@@ -1,0 +1,224 @@
+//! What happens at a vertex: light is found, and the path turns.
+
+use super::state::PathState;
+use super::vertex::PathVertex;
+use super::{PathTracer, Strategy};
+use crate::math::{Vec3, exp};
+use crate::plan::{Effect, PathFeatures};
+use crate::render::bsdf::{Lobes, Standard};
+use crate::render::light::Incident;
+use crate::render::material::standard::Frame;
+use crate::render::shape::geometry::Geometry;
+
+/// The BSDF at a vertex, in its frame of shading.
+struct Shading<const F: u32> {
+    frame: Frame,
+    bsdf: Lobes<F>,
+    /// The direction to the viewer in the frame.
+    wo: Vec3,
+}
+
+impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+    /// Adds light from where no surface stands.
+    pub(super) fn add_escaped_radiance(&mut self, state: &mut PathState) {
+        if !self.has_environment {
+            return;
+        }
+        let (radiance, light_pdf) = self.lights.environment(state.ray.direction);
+        if radiance != Vec3::ZERO {
+            self.counts.add(Effect::Environment);
+            let weight = self.weight_of_scattering(state.pdf, || light_pdf);
+            state.radiance += state.beta * radiance * weight;
+        }
+    }
+
+    /// Finds light at a vertex and turns the path; false if it ends there.
+    pub(super) fn scatter(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> bool {
+        // Absorb what the medium on the way takes.
+        if state.absorption != Vec3::ZERO {
+            self.counts.add(Effect::Volume);
+            state.beta *= (state.absorption * -state.travelled).map(exp);
+        }
+        if vertex.point.material.unlit {
+            self.counts.add(Effect::Unlit);
+            state.radiance += state.beta * vertex.point.base_color();
+            return false;
+        }
+        self.add_emission(state, vertex);
+        if state.bounces >= self.world.plan.max_depth {
+            return false;
+        }
+        let [choice, light] = state.pair(0);
+        let shading = self.shading(state, vertex);
+        // Sample the light of one light.
+        if self.does(PathFeatures::AIM) && !shading.bsdf.is_delta() {
+            state.radiance += state.beta * self.direct(state, vertex, &shading, light);
+        }
+        state.bounces < self.max_bounces && self.turn(state, vertex, &shading, choice)
+    }
+
+    /// Adds the radiance that a surface sends out by itself.
+    fn add_emission(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) {
+        let emission = vertex.point.emission();
+        if emission == Vec3::ZERO {
+            return;
+        }
+        self.counts.add(Effect::Emission);
+        let (hit, wo) = (vertex.hit, -state.ray.direction);
+        let square = state.travelled * state.travelled;
+        let lights = self.lights;
+        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.part, -wo, square);
+        let weight = self.weight_of_scattering(state.pdf, light_pdf);
+        state.radiance += state.beta * emission * weight;
+    }
+
+    /// Samples the BSDF for the direction in which the path goes on; false if it ends.
+    fn turn(
+        &mut self,
+        state: &mut PathState,
+        vertex: &PathVertex<'world>,
+        Shading {
+            frame,
+            bsdf,
+            wo: local,
+        }: &Shading<F>,
+        choice: f64,
+    ) -> bool {
+        let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
+        let [u, v] = state.pair(1);
+        let Some(sample) = bsdf.sample([choice, u, v]) else {
+            return false;
+        };
+        let wi = frame.to_world(sample.wi).normalize();
+        // Light that the shading normal lets through and the surface itself does not, or the
+        // reverse, would leak.
+        let through = sample.wi.z * local.z < 0.0;
+        if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
+            return false;
+        }
+        state.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
+        state.pdf = (!sample.delta).then_some(sample.pdf);
+        if through && point.bounds_a_volume() {
+            let enters = wi.dot(at.normal) < 0.0;
+            state.absorption = if enters {
+                point.absorption()
+            } else {
+                Vec3::ZERO
+            };
+        }
+        (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.part));
+        *if through {
+            &mut self.counts.refracted
+        } else {
+            &mut self.counts.mirror
+        } += 1;
+        state.russian_roulette()
+    }
+
+    /// The material at a vertex as the viewer sees it.
+    #[inline]
+    fn shading(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> Shading<F> {
+        let PathVertex {
+            at, point, details, ..
+        } = vertex;
+        let wo = -state.ray.direction;
+        if point.material.dispersion > 0.0 && state.channel.is_none() && point.transmits() {
+            self.counts.add(Effect::Dispersion);
+            state.pick_wavelength();
+        }
+        let (frame, coat) = point.frame(at, details, wo);
+        let standard = point.standard(&frame, coat, state.channel, self.path.multiple_scattering);
+        let wo = frame.to_local(wo);
+        let bsdf = Lobes::<F>::new(&standard, wo);
+        self.count_shading(vertex, &standard, &bsdf);
+        Shading { frame, bsdf, wo }
+    }
+
+    /// Counts what was evaluated of a material.
+    #[inline]
+    fn count_shading(&mut self, vertex: &PathVertex<'_>, standard: &Standard, bsdf: &Lobes<F>) {
+        let material = vertex.point.material;
+        let mut count = |effect: Effect, is_there: bool| {
+            if is_there {
+                self.counts.add(effect);
+            }
+        };
+        count(Effect::NormalInterpolation, vertex.details.normal.is_some());
+        count(Effect::NormalMapping, vertex.point.has_normal_map());
+        count(Effect::Textures, vertex.point.has_shading_map());
+        count(Effect::Microfacets, bsdf.reflects());
+        count(Effect::Compensation, bsdf.compensates());
+        if Self::can(PathFeatures::LAYERS) {
+            count(Effect::Clearcoat, standard.clearcoat.is_some());
+            count(Effect::Sheen, standard.sheen.is_some());
+            count(Effect::Anisotropy, standard.anisotropy.is_some());
+            count(Effect::Iridescence, standard.iridescence.is_some());
+        }
+        debug_assert!(!material.unlit, "a path ends on an unlit surface");
+    }
+
+    /// The light that one light sends to a vertex and on along the path.
+    fn direct(
+        &mut self,
+        state: &PathState,
+        vertex: &PathVertex<'world>,
+        Shading { frame, bsdf, wo }: &Shading<F>,
+        choice: f64,
+    ) -> Vec3 {
+        let at = &vertex.at;
+        let Some(Incident {
+            wi,
+            radiance,
+            pdf,
+            place,
+        }) = self.lights.sample(at.point, choice, || state.pair(2))
+        else {
+            return Vec3::ZERO;
+        };
+        self.counts.add(Effect::DirectLight);
+        let local = frame.to_local(wi);
+        let through = local.z * wo.z < 0.0;
+        if through != (wi.dot(at.normal) * -state.ray.direction.dot(at.normal) < 0.0) {
+            return Vec3::ZERO;
+        }
+        let value = bsdf.evaluate(local);
+        let weight = match (pdf, self.strategy) {
+            (Some(light_pdf), Strategy::Mis) => {
+                self.counts.add(Effect::Mis);
+                power_heuristic(light_pdf, value.pdf)
+            }
+            _ => 1.0,
+        };
+        let light = value.f * radiance * (local.z.abs() * weight);
+        if light == Vec3::ZERO {
+            light
+        } else {
+            light * self.visibility(vertex, wi, place)
+        }
+    }
+
+    /// The weight of light that scattering found with a density, and aiming could have.
+    fn weight_of_scattering(&mut self, pdf: Option<f64>, light_pdf: impl FnOnce() -> f64) -> f64 {
+        if !self.does(PathFeatures::AIM) {
+            return 1.0;
+        }
+        let Some(pdf) = pdf else { return 1.0 };
+        match self.strategy {
+            Strategy::Mis => {
+                let light_pdf = light_pdf();
+                if light_pdf > 0.0 {
+                    self.counts.add(Effect::Mis);
+                }
+                power_heuristic(pdf, light_pdf)
+            }
+            Strategy::Nee if light_pdf() > 0.0 => 0.0,
+            Strategy::Nee | Strategy::BsdfSampling => 1.0,
+        }
+    }
+}
+
+/// Veach's power heuristic with exponent 2.
+fn power_heuristic(own: f64, other: f64) -> f64 {
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}

@@ -1,0 +1,84 @@
+//! The vertices of a path: where its rays meet surfaces.
+
+use super::PathTracer;
+use super::state::PathState;
+use crate::plan::{Effect, PathFeatures};
+use crate::render::material::standard::Point;
+use crate::render::ray::Interaction;
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::instance::Details;
+use crate::render::world::Hit;
+use crate::valid::{Alpha, Standard};
+
+/// Alpha-tested surfaces that a ray goes through at most.
+pub(super) const MAX_SKIPPED: u32 = 1 << 10;
+
+/// Where a path meets a surface.
+pub(in crate::render) struct PathVertex<'world> {
+    pub(super) at: Interaction,
+    pub(super) point: Point<'world>,
+    pub(super) details: Details,
+    pub(super) hit: Hit,
+}
+
+impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+    /// The next hit that is not skipped. Alpha-tested surfaces are skipped with probability
+    /// 1 − opacity; camera rays also skip back faces of single-sided materials.
+    #[inline(always)]
+    pub(super) fn closest_hit(&mut self, state: &mut PathState) -> Option<PathVertex<'world>> {
+        state.travelled = 0.0;
+        for skipped in 0..MAX_SKIPPED {
+            let hit = self.world.nearest_from(&state.ray, state.from)?;
+            let surface = &self.world.surfaces[hit.surface];
+            let at = surface.shape.interaction(&state.ray, hit.t, hit.part);
+            let asked = self.asked[surface.material];
+            let details = surface.shape.details(&state.ray, &at, hit.part, asked);
+            let point = self.point(surface.material, &details);
+            state.travelled += hit.t;
+            let opacity = if skips_back(state, &at, point.material) {
+                0.0
+            } else {
+                self.opacity(&point)
+            };
+            if opacity < 1.0 && state.sobol.uniform(state.bounces, skipped) >= opacity {
+                (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.part));
+                continue;
+            }
+            return Some(PathVertex {
+                at,
+                point,
+                details,
+                hit,
+            });
+        }
+        None
+    }
+
+    /// A material at a point of a surface.
+    pub(super) fn point(&mut self, material: usize, details: &Details) -> Point<'world> {
+        let material = &self.world.standards[material];
+        if material.base_color_map.is_some() {
+            self.counts.add(Effect::Textures);
+        }
+        if details.color.is_some() {
+            self.counts.add(Effect::VertexColors);
+        }
+        Point::new(&self.world.scene, material, details)
+    }
+
+    /// The probability that a ray meets the surface at a point.
+    pub(super) fn opacity(&mut self, point: &Point<'_>) -> f64 {
+        if !Self::can(PathFeatures::ALPHA) || point.material.alpha == Alpha::Opaque {
+            return 1.0;
+        }
+        self.counts.add(Effect::Alpha);
+        point.opacity()
+    }
+}
+
+/// Whether a ray of the camera meets the back of what is seen from one side.
+fn skips_back(state: &PathState, at: &Interaction, material: &Standard) -> bool {
+    state.bounces == 0
+        && state.ray.direction.dot(at.normal) > 0.0
+        && material.is_seen_from_one_side()
+}

@@ -1,0 +1,110 @@
+//! What stands between a vertex and a light.
+
+use super::PathTracer;
+use super::vertex::{MAX_SKIPPED, PathVertex};
+use crate::math::Vec3;
+use crate::plan::PathFeatures;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::geometry::Geometry;
+use crate::render::world::{Hit, World, segment};
+use crate::valid::Alpha;
+
+/// Which surfaces of a world a ray may go through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum AlphaTested {
+    None,
+    /// Triangles that stand in the world one by one.
+    Triangles,
+    /// Others as well.
+    Solids,
+}
+
+impl AlphaTested {
+    pub(super) fn of<S: Geometry>(world: &World<S>) -> Self {
+        let is_tested = |surface: &usize| {
+            let material = world.surfaces[*surface].material;
+            world.standards[material].alpha != Alpha::Opaque
+        };
+        let tested = (0..world.surfaces.len()).filter(is_tested);
+        tested.fold(Self::None, |all, surface| match all {
+            Self::None | Self::Triangles if world.is_merged(surface) => Self::Triangles,
+            Self::None | Self::Triangles | Self::Solids => Self::Solids,
+        })
+    }
+}
+
+impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
+    /// The fraction of light that arrives from a place, or from infinitely far away.
+    pub(super) fn visibility(
+        &mut self,
+        vertex: &PathVertex<'world>,
+        wi: Vec3,
+        place: Option<Vec3>,
+    ) -> f64 {
+        if !self.does(PathFeatures::SHADOWS) {
+            return 1.0;
+        }
+        self.counts.shadow += 1;
+        let ray = vertex.at.ray(wi);
+        let from = (vertex.hit.surface, vertex.hit.part);
+        let is_tested = Self::can(PathFeatures::ALPHA);
+        if is_tested && self.alpha_tested == AlphaTested::Solids {
+            return self.transmittance_one_by_one(ray, from, wi, place);
+        }
+        let to_place = |place| segment(ray.origin, place);
+        let Some((ray, t_max)) = place.map_or(Some((ray, f64::INFINITY)), to_place) else {
+            return 1.0;
+        };
+        let world = self.world;
+        if is_tested && self.alpha_tested == AlphaTested::Triangles {
+            world.passing(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
+        } else {
+            world.passing(&ray, t_max, from, |_| 0.0)
+        }
+    }
+
+    /// Where a ray meets a surface, and the fraction of light that the surface lets through there.
+    fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
+        let surface = &self.world.surfaces[hit.surface];
+        if self.world.standards[surface.material].alpha == Alpha::Opaque {
+            return (None, 0.0);
+        }
+        let at = surface.shape.interaction(ray, hit.t, hit.part);
+        let asked = self.asked[surface.material];
+        let details = surface.shape.details(ray, &at, hit.part, asked);
+        let point = self.point(surface.material, &details);
+        (Some(at), 1.0 - self.opacity(&point))
+    }
+
+    /// As [`Self::visibility`], for surfaces that a ray may cross more than once.
+    fn transmittance_one_by_one(
+        &mut self,
+        mut ray: Ray,
+        mut from: (usize, u32),
+        wi: Vec3,
+        place: Option<Vec3>,
+    ) -> f64 {
+        let mut transmittance = 1.0;
+        for _ in 0..MAX_SKIPPED {
+            let (end, t_max) = match place.map(|place| segment(ray.origin, place)) {
+                None => (ray, f64::INFINITY),
+                Some(None) => return transmittance,
+                Some(Some(to_place)) => to_place,
+            };
+            // Nothing stands before the light.
+            if self.world.passing(&end, t_max, from, |_| 0.0) > 0.0 {
+                return transmittance;
+            }
+            let Some(hit) = self.world.nearest_from(&ray, from) else {
+                return transmittance;
+            };
+            let (at, passing) = self.transmittance(&ray, &hit);
+            transmittance *= passing;
+            let Some(at) = at.filter(|_| transmittance > 0.0) else {
+                return 0.0;
+            };
+            (ray, from) = (at.ray(wi), (hit.surface, hit.part));
+        }
+        0.0
+    }
+}

@@ -1,0 +1,142 @@
+//! The samples of a pixel, and what a validation asks of them.
+
+use super::Tracer;
+use crate::math::Vec3;
+use crate::plan::{Effect, Features, Sight};
+use crate::render::camera::grid::{Cell, Grid};
+use crate::render::camera::{camera_ray, image_point, lens_at};
+use crate::render::film::heartbeat::Heartbeat;
+use crate::render::film::pixel::{Sample, SampleId, Stream};
+use crate::render::film::{Counts, Seeds};
+use crate::render::integrator::Integrator;
+use crate::render::sampler::Key;
+use crate::render::sampler::sequence::Sequence;
+use crate::render::shape::geometry::Geometry;
+
+/// What the samples of a pixel share.
+#[derive(Clone, Copy, Default)]
+pub(super) struct PixelState {
+    /// The cell of the sample before.
+    cell: Option<(u32, Cell)>,
+    /// The sample before.
+    last: Option<Sample>,
+    /// Whether all samples are proven to be equal.
+    is_uniform: bool,
+}
+
+impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
+    type Sample = Sample;
+
+    fn sample(&mut self, id: &SampleId) -> Sample {
+        match id.stream {
+            Stream::Picture(seeds) => self.sample_of_picture(id, seeds),
+            Stream::Strand { number, .. } => self.sample_of_strand(id, number),
+        }
+    }
+
+    fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    fn heartbeat(&mut self) -> &mut Heartbeat<'run> {
+        &mut self.heartbeat
+    }
+
+    /// False from when the observer said stop, and nothing counts any more.
+    #[inline]
+    fn goes_on(&mut self) -> bool {
+        self.heartbeat.put_off(self.pending.len());
+        self.heartbeat.goes_on(&self.counts)
+    }
+}
+
+/// Keeps the numbers of strands apart from those of the paths through them.
+const STRAND: u64 = u64::MAX - 2;
+
+impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
+    /// A sample of the grid of cells and points of the lens.
+    fn sample_of_picture(&mut self, id: &SampleId, seeds: Seeds) -> Sample {
+        if id.index == 0 {
+            self.begin_pixel(id.pixel);
+        }
+        if let Some(last) = self.pixel.last
+            && self.pixel.is_uniform
+        {
+            return last;
+        }
+        if Self::can(Features::CAMERA) {
+            self.count_samples(id.index);
+        }
+        let grid = if Self::can(Features::CAMERA) {
+            self.grid
+        } else {
+            Grid::MIDDLE
+        };
+        let camera = self.scene().camera();
+        let (index, k) = grid.split(id.index);
+        let cell = match self.pixel.cell {
+            Some((known, cell)) if known == index => cell,
+            _ => grid.cell(camera, id.pixel, index, seeds),
+        };
+        self.pixel.cell = Some((index, cell));
+        let key = Key::new(id.pixel, id.index.into()).seeded(seeds.path);
+        let sample = self.trace(cell.ray(camera, k), key);
+        self.verify_sample(id.pixel, &sample);
+        self.pixel.last = Some(sample);
+        sample
+    }
+
+    /// A sample of a sequence without end.
+    fn sample_of_strand(&mut self, id: &SampleId, number: u64) -> Sample {
+        let camera = self.scene().camera();
+        let sequence = Sequence::new(Key::new(id.pixel, number).child(STRAND));
+        let [x, y, u, v] = sequence.point(id.index);
+        let ray = camera_ray(
+            lens_at(camera, [u, v]),
+            image_point(camera, id.pixel, [x, y]),
+        );
+        self.trace(ray, Key::new(id.pixel, id.index.into()).seeded(number))
+    }
+
+    fn begin_pixel(&mut self, pixel: [u32; 2]) {
+        let several = Self::can(Features::CAMERA) && self.grid.samples() > 1;
+        let is_uniform = several && self.world.plan.region.sight(pixel) == Sight::Uniform;
+        self.pixel = PixelState {
+            is_uniform,
+            ..PixelState::default()
+        };
+    }
+
+    /// Counts what this sample is beyond one ray through the eye.
+    fn count_samples(&mut self, index: u32) {
+        if index > 0 {
+            self.counts.add(Effect::Supersampling);
+        }
+        if self.scene().camera().lens.radius.get() > 0.0 {
+            self.counts.add(Effect::Lens);
+        }
+    }
+
+    fn trace(&mut self, ray: crate::render::ray::Ray, key: Key) -> Sample {
+        let hits = self.counts.hits;
+        let radiance: Vec3 = self.radiance(ray, key);
+        self.weightless = false;
+        self.counts.unnumbered += u64::from(radiance.is_nan());
+        Sample {
+            radiance,
+            hit: self.counts.hits > hits,
+        }
+    }
+
+    /// Looks whether a sample shows what the plan under validation rules out.
+    fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
+        self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
+            let differs = |last: Sample| last.radiance != sample.radiance;
+            self.pixel.last.is_some_and(differs) && plan.region.sight(pixel) == Sight::Uniform
+        });
+        let what = "a pixel that shows nothing shows something";
+        self.verify(Effect::Surfaces, what, |plan| {
+            sample.hit && plan.region.sight(pixel) == Sight::Nothing
+        });
+    }
+}
