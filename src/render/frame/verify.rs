@@ -3,7 +3,7 @@
 
 use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
 use crate::render::film::heartbeat::Proceed;
-use crate::render::film::{Film, Job};
+use crate::render::film::{Crop, Film, Job};
 use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::plain::PlainShape;
@@ -35,12 +35,17 @@ impl Verify {
     /// Notes a fault, if its pixel comes before those noted so far: of one pixel the first cause is
     /// kept.
     pub(in crate::render) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
-        let fault = Fault {
+        let rule = self.plan.rule_of(effect);
+        self.keep(Fault {
             pixel,
             effect,
-            rule: self.plan.rule_of(effect),
+            rule,
             what,
-        };
+        });
+    }
+
+    /// Keeps a fault, if it is the first in the order of pixels.
+    fn keep(&self, fault: Fault) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
         let order = |fault: &Fault| (fault.pixel[1], fault.pixel[0]);
         if first
@@ -69,8 +74,10 @@ pub fn verify(
         Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, proceed)?,
         Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, proceed)?,
     };
-    if !plan.rules.contains(Rule::Cut) {
-        compare(&planned, &naive, job, &verify);
+    if !plan.rules.contains(Rule::Cut)
+        && let Some((pixel, color)) = first_difference(&planned, &naive, job)
+    {
+        verify.keep(blame(scene, plan, job, pixel, color, proceed)?);
     }
     let first = verify
         .first
@@ -95,21 +102,56 @@ fn naively<S: Geometry>(
     Some((naive, world.verify?))
 }
 
-/// Notes a pixel whose bits differ.
-fn compare(planned: &Film, naive: &Film, job: &Job, verify: &Verify) {
+/// The first pixel whose bits differ, and its value without the rules.
+fn first_difference(planned: &Film, naive: &Film, job: &Job) -> Option<([u32; 2], [f64; 3])> {
     let bits = |pixel: &[f64; 3]| pixel.map(f64::to_bits);
     let mut pairs = planned.image.pixels.iter().zip(&naive.image.pixels);
-    if let Some(index) = pairs.position(|(a, b)| bits(a) != bits(b)) {
-        let index = u32::try_from(index).unwrap_or(u32::MAX);
-        let [x, y] = job.crop.map_or([0, 0], |crop| [crop.x, crop.y]);
-        let pixel = [
-            x + index % planned.image.width,
-            y + index / planned.image.width,
-        ];
-        verify.report(
-            pixel,
-            Effect::Surfaces,
-            "the pixel is another without the rules",
-        );
+    let index = pairs.position(|(a, b)| bits(a) != bits(b))?;
+    let [x, y] = job.crop.map_or([0, 0], |crop| [crop.x, crop.y]);
+    let (row, column) = (
+        index / planned.image.width as usize,
+        index % planned.image.width as usize,
+    );
+    let offset = |place: usize| u32::try_from(place).unwrap_or(u32::MAX);
+    Some((
+        [x + offset(column), y + offset(row)],
+        naive.image.pixels[index],
+    ))
+}
+
+/// The rule without which a pixel has the value it has without all rules; `None` if `proceed` said
+/// stop.
+fn blame(
+    scene: &ValidScene,
+    plan: &Plan,
+    job: &Job,
+    pixel: [u32; 2],
+    color: [f64; 3],
+    proceed: &Proceed<'_>,
+) -> Option<Fault> {
+    let [x, y] = pixel;
+    let crop = Some(Crop {
+        x,
+        y,
+        width: 1,
+        height: 1,
+    });
+    let mut fault = Fault {
+        pixel,
+        effect: Effect::Surfaces,
+        rule: None,
+        what: "the pixel is another without the rules",
+    };
+    for verdict in &plan.verdicts {
+        let Some(rule) = verdict.rule.filter(|rule| plan.rules.contains(*rule)) else {
+            continue;
+        };
+        let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
+        let film = any::render(scene, &without, &Job { crop, ..*job }, proceed)?;
+        if film.image.pixels.first() == Some(&color) {
+            (fault.effect, fault.rule) = (verdict.effect, Some(rule));
+            break;
+        }
     }
+    Some(fault)
 }
