@@ -10,7 +10,7 @@ use super::input::{Input, Proven};
 use crate::pipeline;
 use crate::plan::{Effect, Plan, Rule, Rules, State, Verdict};
 use crate::render::{Counts, Job, KERNELS, Stride, choose};
-use crate::valid::ValidScene;
+use crate::valid::Proof;
 use serde_json::{Value, json};
 
 /// About the most rays of one pass.
@@ -208,12 +208,12 @@ fn cost(effect: Effect, counts: &Counts) -> u64 {
 
 /// Counts the rays of a picture, on a part of its pixels that is quick.
 struct Counter<'scene> {
-    scene: &'scene ValidScene,
+    scene: &'scene Proof,
     stride: Stride,
 }
 
 impl<'scene> Counter<'scene> {
-    fn new(scene: &'scene ValidScene) -> Self {
+    fn new(scene: &'scene Proof) -> Self {
         let counter = Self {
             scene,
             stride: Stride::EVERY,

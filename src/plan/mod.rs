@@ -27,7 +27,7 @@ pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Projection, Shape, ValidScene};
+use crate::valid::{Mode, Pattern, Projection, Proof, Shape};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
@@ -105,7 +105,7 @@ pub struct Plan {
 impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
-    pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+    pub fn new(scene: &Proof, rules: Rules) -> Self {
         let rules = proven_for(scene, rules);
         let facts = Facts::new(scene, rules);
         let settings = scene.settings();
@@ -163,7 +163,7 @@ impl Plan {
     /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing
     /// by it: what is proven of the shapes is proven for the robust one.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &Proof, rules: Rules) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
             Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
@@ -195,7 +195,7 @@ impl Plan {
 
 /// What the rules start from.
 struct Facts<'scene> {
-    scene: &'scene ValidScene,
+    scene: &'scene Proof,
     rules: Rules,
     /// Per surface, where it is.
     bodies: Vec<Body>,
@@ -208,7 +208,7 @@ struct Facts<'scene> {
 }
 
 impl<'scene> Facts<'scene> {
-    fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
+    fn new(scene: &'scene Proof, rules: Rules) -> Self {
         let constants = if rules.contains(Rule::TextureConstant) {
             constants(scene)
         } else {
@@ -389,7 +389,7 @@ impl Findings<'_> {
 
 /// The rules whose proofs hold for a scene: they know the integrator of the course, and rays from
 /// an eye.
-fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+fn proven_for(scene: &Proof, rules: Rules) -> Rules {
     match (scene.settings().mode, scene.camera().projection) {
         (Mode::Path(_), _) => Rules::NONE,
         (_, Projection::Orthographic) => rules.of(Rules::AT_HITS),
@@ -397,7 +397,7 @@ fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
     }
 }
 
-fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
+fn shapes(scene: &Proof, kept: &[bool]) -> Shapes {
     let is_basic = |shape: &Shape| {
         matches!(
             shape,

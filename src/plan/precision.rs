@@ -6,7 +6,7 @@
 
 use super::Arithmetic;
 use crate::math::{Vec3, unit};
-use crate::valid::{Instance, Mode, Phong, Shape, Surface, ValidScene};
+use crate::valid::{Instance, Mode, Phong, Proof, Shape, Surface};
 
 /// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray
 /// starts on.
@@ -33,7 +33,7 @@ pub enum Symptom {
 /// What an arithmetic loses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// The surface that shows it most: an index into [`ValidScene::surfaces`].
+    /// The surface that shows it most: an index into [`Proof::surfaces`].
     pub surface: usize,
     /// How it shows there.
     pub symptom: Symptom,
@@ -47,7 +47,7 @@ pub struct Loss {
 
 /// What a scene loses by an arithmetic, if anything is expected to show.
 #[must_use]
-pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
+pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
     let unit = match arithmetic {
         Arithmetic::Robust => return None,
         Arithmetic::Plain => f64::EPSILON / 2.0,
@@ -86,7 +86,7 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
 }
 
 /// Whether rays start on a surface.
-fn sends_rays(scene: &ValidScene, surface: &Surface) -> bool {
+fn sends_rays(scene: &Proof, surface: &Surface) -> bool {
     let settings = scene.settings();
     match settings.mode {
         Mode::Phong => {}
@@ -118,7 +118,7 @@ enum Form {
 }
 
 impl Measure {
-    fn of(scene: &ValidScene, surface: &Surface) -> Self {
+    fn of(scene: &Proof, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
         let size = |from: Vec3, corners: &[Vec3]| {
             corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max)
@@ -204,7 +204,7 @@ fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
 }
 
 /// The first corner of a placed mesh, and how far it extends.
-fn placed(scene: &ValidScene, instance: &Instance) -> (Vec3, Form) {
+fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Form) {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let mut corners = scene.meshes()[instance.mesh]

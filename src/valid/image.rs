@@ -81,7 +81,7 @@ impl Texel {
 pub enum Texture {
     /// The colour (u, 0, v).
     Uv,
-    /// An image: an index into [`super::ValidScene::images`].
+    /// An image: an index into [`super::Proof::images`].
     Image(usize),
     /// An image as glTF samples it, its index in range.
     Sampled(ir::Sampled),

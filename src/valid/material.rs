@@ -30,7 +30,7 @@ pub struct Phong {
     pub maps: Option<Box<Maps>>,
 }
 
-/// Textures of a material, as indices into [`super::ValidScene::textures`].
+/// Textures of a material, as indices into [`super::Proof::textures`].
 #[derive(Clone, Copy, Debug)]
 pub struct Maps {
     /// The texture that gives the colour.
@@ -46,7 +46,7 @@ pub struct Maps {
 /// A height field over a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Bump {
-    /// The texture: an index into [`super::ValidScene::textures`].
+    /// The texture: an index into [`super::Proof::textures`].
     pub texture: usize,
     /// The height of white above black, as a share of the width of a texel.
     pub height: f64,

@@ -1,4 +1,4 @@
-//! The proof: [`validate`] alone makes a [`ValidScene`], and whoever holds one need not doubt a
+//! The proof: [`validate`] alone makes a [`Proof`], and whoever holds one need not doubt a
 //! number.
 //!
 //! Every check that can be stated on the IR lives here, so a hand-made IR file is refused as well
@@ -47,7 +47,7 @@ pub struct Options {
 /// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles
 /// with an area.
 #[derive(Clone, Debug)]
-pub struct ValidScene {
+pub struct Proof {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
@@ -61,7 +61,7 @@ pub struct ValidScene {
     surfaces: Vec<Surface>,
 }
 
-impl ValidScene {
+impl Proof {
     /// The camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
@@ -129,7 +129,7 @@ impl ValidScene {
     }
 }
 
-impl ValidScene {
+impl Proof {
     /// The same scene with another camera, of a picture of the same size; `None` if that is no
     /// sound one.
     #[must_use]
@@ -154,7 +154,7 @@ pub fn validate(
     origins: &Origins,
     options: &Options,
     sink: &mut Sink,
-) -> Option<ValidScene> {
+) -> Option<Proof> {
     let ir::Scene {
         camera,
         settings,
@@ -194,7 +194,7 @@ pub fn validate(
         shape::surface(surface, index, &counts, check)
     });
     settings::budget(scene, options, &mut check);
-    let valid = ValidScene {
+    let valid = Proof {
         camera: valid_camera?,
         settings: valid_settings?,
         punctual: light::punctual(valid_lights.as_deref()?, traces_paths),

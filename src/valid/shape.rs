@@ -11,7 +11,7 @@ use crate::math::{Positive, U, Vec3, cross, unit, unit_scale};
 pub struct Surface {
     /// Its form and place.
     pub shape: Shape,
-    /// An index into [`super::ValidScene::materials`], in range.
+    /// An index into [`super::Proof::materials`], in range.
     pub material: usize,
     /// Its index in the IR, which holds triangles without an area as well.
     pub index: usize,
@@ -146,7 +146,7 @@ pub struct Torus {
 /// A mesh, placed in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
-    /// An index into [`super::ValidScene::meshes`], in range.
+    /// An index into [`super::Proof::meshes`], in range.
     pub mesh: usize,
     /// The images of the three axes, which span space, and of the origin.
     pub world_from_object: [Vec3; 4],
@@ -160,7 +160,7 @@ pub(super) fn surface(
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
-    let mut proof = Proof { index, check };
+    let mut proof = SurfaceCheck { index, check };
     let material = proof.check.handle(
         material.0,
         counts.materials,
@@ -186,13 +186,13 @@ pub(super) fn surface(
     }))
 }
 
-/// The proof of one surface.
-struct Proof<'a, 'run> {
+/// One surface under the check.
+struct SurfaceCheck<'a, 'run> {
     index: usize,
     check: &'a mut Check<'run>,
 }
 
-impl Proof<'_, '_> {
+impl SurfaceCheck<'_, '_> {
     fn at(&self, field: Field) -> Place {
         place(Noun::Surface, self.index, field)
     }

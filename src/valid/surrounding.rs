@@ -10,7 +10,7 @@ use crate::math::Vec3;
 pub struct Environment {
     /// The radiance, each channel at least 0, a factor of the image if there is one.
     pub radiance: Vec3,
-    /// A picture of all directions: an index into [`super::ValidScene::images`].
+    /// A picture of all directions: an index into [`super::Proof::images`].
     pub image: Option<usize>,
     /// The rows of the rotation from directions of the world to those of the image.
     pub image_from_world: [Vec3; 3],

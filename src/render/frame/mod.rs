@@ -14,7 +14,7 @@ use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Pattern, ValidScene};
+use crate::valid::{Mode, Pattern, Proof};
 use rayon::prelude::*;
 
 impl<S: Geometry> World<S> {
@@ -186,10 +186,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 }
 
 /// The camera rays of a pixel, in the order of its sub-samples and of the points of the lens.
-pub(in crate::render) fn camera_rays(
-    scene: &ValidScene,
-    pixel: [u32; 2],
-) -> impl Iterator<Item = Ray> {
+pub(in crate::render) fn camera_rays(scene: &Proof, pixel: [u32; 2]) -> impl Iterator<Item = Ray> {
     let (camera, settings) = (scene.camera(), scene.settings());
     // The z-buffer asks the middle of each pixel, through the eye.
     let (factor, points, pattern) = match settings.mode {

@@ -9,7 +9,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
 use crate::render::world::any;
-use crate::valid::ValidScene;
+use crate::valid::Proof;
 use std::sync::{Mutex, PoisonError};
 
 /// Something that a plan left out and that shows.
@@ -58,7 +58,7 @@ impl Verify {
 /// # Errors
 /// If something that was left out adds something.
 pub fn verify(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     proceed: &Proceed<'_>,
@@ -81,7 +81,7 @@ pub fn verify(
 
 /// The film without rules, and what it shows of a plan.
 fn naively<S: Geometry>(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     proceed: &Proceed<'_>,

@@ -14,7 +14,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{Frame, look_up};
 use crate::render::world::{Hit, World};
-use crate::valid::{Mode, Phong, ValidScene};
+use crate::valid::{Mode, Phong, Proof};
 
 /// One path under way.
 #[derive(Clone, Copy)]
@@ -96,7 +96,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// The scene traced.
     #[must_use]
-    pub(in crate::render) fn scene(&self) -> &'world ValidScene {
+    pub(in crate::render) fn scene(&self) -> &'world Proof {
         &self.world.scene
     }
 

@@ -4,7 +4,7 @@ use crate::math::{Vec3, acos, atan2, cos, sin};
 use crate::render::bsdf::direction_turned;
 use crate::render::sampler::discrete::Table;
 use crate::render::texture::sampled::{Content, sample};
-use crate::valid::{Filter, Image, ValidScene, Wrap};
+use crate::valid::{Filter, Image, Proof, Wrap};
 use std::f64::consts::{PI, TAU};
 
 /// The surroundings.
@@ -24,7 +24,7 @@ pub(in crate::render) struct Seen {
 
 impl<'world> Environment<'world> {
     /// Those of a scene; darkness if it has none.
-    pub(in crate::render) fn new(scene: &'world ValidScene) -> Self {
+    pub(in crate::render) fn new(scene: &'world Proof) -> Self {
         let Some(environment) = scene.environment() else {
             let axes = [Vec3::X, Vec3::Y, Vec3::Z];
             return Self {

@@ -2,7 +2,7 @@
 //! surface has uv to look it up by.
 
 use crate::plan::Plan;
-use crate::valid::{Maps, Phong, ValidScene};
+use crate::valid::{Maps, Phong, Proof};
 
 /// The materials of a scene, and after them those of surfaces whose maps gave way.
 pub(in crate::render) struct Materials<'plan> {
@@ -13,7 +13,7 @@ pub(in crate::render) struct Materials<'plan> {
 }
 
 impl<'plan> Materials<'plan> {
-    pub(in crate::render) fn new(scene: &ValidScene, plan: &'plan Plan) -> Self {
+    pub(in crate::render) fn new(scene: &Proof, plan: &'plan Plan) -> Self {
         Self {
             all: scene.materials().to_vec(),
             plan,

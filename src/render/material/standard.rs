@@ -6,11 +6,11 @@ use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, d
 use crate::render::ray::Interaction;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::sampled::{Content, Places, look_up};
-use crate::valid::{Alpha, Map, Standard as Material, ValidScene};
+use crate::valid::{Alpha, Map, Proof, Standard as Material};
 
 /// A material of the scene with what a surface says of one point.
 pub(in crate::render) struct Point<'world> {
-    scene: &'world ValidScene,
+    scene: &'world Proof,
     pub(in crate::render) material: &'world Material,
     places: Places,
     /// The colour at the point, that of the corners included, and alpha.
@@ -37,11 +37,7 @@ pub(in crate::render) fn asked(material: &Material) -> Asked {
 }
 
 impl<'world> Point<'world> {
-    pub(in crate::render) fn new(
-        scene: &'world ValidScene,
-        material: usize,
-        details: &Details,
-    ) -> Self {
+    pub(in crate::render) fn new(scene: &'world Proof, material: usize, details: &Details) -> Self {
         let material = &scene.standards()[material];
         let places = [details.uv, details.second_uv];
         let mut point = Self {

@@ -1,10 +1,10 @@
 //! Textures: values looked up by uv, and what maps do to the shading normal.
 
 use crate::math::{Vec3, cross};
-use crate::valid::{Bump, Image, Texture, ValidScene};
+use crate::valid::{Bump, Image, Proof, Texture};
 
 /// What texture `index` shows at `uv`, each channel in [0, 1].
-pub(in crate::render) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
+pub(in crate::render) fn look_up(scene: &Proof, index: usize, uv: [f64; 2]) -> Vec3 {
     match &scene.textures()[index] {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
         Texture::Image(image) => bilinear(&scene.images()[*image], uv),
@@ -77,7 +77,7 @@ impl Frame {
     }
 
     /// The normal a normal map gives at `uv`.
-    pub(in crate::render) fn mapped(&self, scene: &ValidScene, map: usize, uv: [f64; 2]) -> Vec3 {
+    pub(in crate::render) fn mapped(&self, scene: &Proof, map: usize, uv: [f64; 2]) -> Vec3 {
         let local = look_up(scene, map, uv) * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
             .normalize_or(self.normal)
@@ -85,12 +85,7 @@ impl Frame {
 
     /// The normal of a height field: it leans away from where the height grows, by central
     /// differences of a texel.
-    pub(in crate::render) fn bumped(
-        &self,
-        scene: &ValidScene,
-        bump: Bump,
-        [u, v]: [f64; 2],
-    ) -> Vec3 {
+    pub(in crate::render) fn bumped(&self, scene: &Proof, bump: Bump, [u, v]: [f64; 2]) -> Vec3 {
         let [du, dv] = match &scene.textures()[bump.texture] {
             Texture::Uv | Texture::Sampled(_) => [1e-3; 2],
             Texture::Image(image) => {

@@ -2,7 +2,7 @@
 
 use crate::color::srgb_decoded;
 use crate::math::Lanes;
-use crate::valid::{Filter, Image, Map, Texel, Texture, ValidScene, Wrap};
+use crate::valid::{Filter, Image, Map, Proof, Texel, Texture, Wrap};
 use std::sync::LazyLock;
 
 /// What the numbers of a texture are.
@@ -20,7 +20,7 @@ pub(in crate::render) type Places = [Option<[f64; 2]>; 2];
 /// What a map shows, red, green, blue and alpha in [0, 1], or as they are for float images; `None`
 /// without coordinates.
 pub(in crate::render) fn look_up(
-    scene: &ValidScene,
+    scene: &Proof,
     map: &Map,
     places: &Places,
     content: Content,

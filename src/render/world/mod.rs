@@ -14,7 +14,7 @@ use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
-use crate::valid::{self, Phong, ValidScene};
+use crate::valid::{self, Phong, Proof};
 use std::sync::Arc;
 
 /// The first hit of a ray.
@@ -42,7 +42,7 @@ pub struct Surface<S = Shape> {
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
     /// The camera, settings, lights and materials as proven.
-    pub scene: ValidScene,
+    pub scene: Proof,
     /// What the picture needs of it.
     pub plan: Plan,
     /// The materials, without maps that show one value.
@@ -77,7 +77,7 @@ const MERGED: usize = 1 << 18;
 impl<S: Geometry> World<S> {
     /// Prepares a scene: planes of shapes, the BVH.
     #[must_use]
-    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
+    pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
         let meshes = scene
             .meshes()
             .iter()
@@ -366,7 +366,7 @@ impl Merged {
 }
 
 /// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
-fn merging(scene: &ValidScene) -> Vec<bool> {
+fn merging(scene: &Proof) -> Vec<bool> {
     let mut uses = vec![0_usize; scene.meshes().len()];
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {
