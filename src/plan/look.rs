@@ -31,8 +31,12 @@ pub(super) struct Look {
 }
 
 impl Look {
-    pub(super) fn of(surface: &Surface, scene: &Proof, constants: &[Option<Vec3>]) -> Self {
-        let material = &scene.materials()[surface.material];
+    pub(super) fn of(
+        surface: &Surface,
+        material: &Phong,
+        scene: &Proof,
+        constants: &[Option<Vec3>],
+    ) -> Self {
         let Phong {
             color,
             ka,
@@ -122,7 +126,10 @@ pub(super) fn constants(scene: &Proof) -> Vec<Option<Vec3>> {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Image(image) => {
             let image = &scene.images()[*image];
-            image.is_even().then(|| image.texel(0).color() / 255.0)
+            image
+                .texels
+                .are_even()
+                .then(|| image.texels.at(0).color() / 255.0)
         }
     };
     scene.textures().iter().map(value).collect()

@@ -9,6 +9,7 @@
 
 mod body;
 mod effect;
+pub mod facts;
 mod features;
 mod light;
 mod look;
@@ -27,7 +28,7 @@ pub use region::{Region, Sight};
 pub use rule::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Pattern, Projection, Proof, Shape};
+use crate::valid::{CourseLight, Mode, Pattern, Phong, Projection, Proof, Shape, Surface};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
@@ -197,6 +198,10 @@ impl Plan {
 struct Facts<'scene> {
     scene: &'scene Proof,
     rules: Rules,
+    /// The lights that the integrator sees.
+    sources: Vec<CourseLight>,
+    /// The materials as the integrator sees them.
+    materials: Vec<Phong>,
     /// Per surface, where it is.
     bodies: Vec<Body>,
     /// Per surface, what it shows.
@@ -214,11 +219,14 @@ impl<'scene> Facts<'scene> {
         } else {
             vec![None; scene.textures().len()]
         };
-        let looks = scene
-            .surfaces()
+        let materials = scene
+            .materials()
             .iter()
-            .map(|surface| Look::of(surface, scene, &constants))
-            .collect();
+            .map(facts::material::phong)
+            .collect::<Vec<_>>();
+        let look =
+            |surface: &Surface| Look::of(surface, &materials[surface.material], scene, &constants);
+        let looks = scene.surfaces().iter().map(look).collect();
         let even = scene
             .meshes()
             .iter()
@@ -227,6 +235,8 @@ impl<'scene> Facts<'scene> {
         Self {
             scene,
             rules,
+            sources: facts::light::course(scene.lights()),
+            materials,
             bodies: bodies(scene),
             looks,
             constants,
@@ -331,7 +341,7 @@ impl Findings<'_> {
     /// Whether a light is sampled.
     fn is_soft(&self) -> bool {
         let settings = self.facts.scene.settings();
-        let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+        let lights = self.facts.sources.iter().zip(&self.lights.plans);
         let soft = lights
             .filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct)
             .count();

@@ -4,7 +4,7 @@
 //! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors
 //! are larger.
 
-use super::Arithmetic;
+use super::{Arithmetic, facts};
 use crate::math::{Vec3, unit};
 use crate::valid::{Instance, Mode, Phong, Proof, Shape, Surface};
 
@@ -53,6 +53,7 @@ pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
         Arithmetic::Plain => f64::EPSILON / 2.0,
         Arithmetic::F32 => f64::from(f32::EPSILON) / 2.0,
     };
+    let is_lit = scene.settings().shadows && !facts::light::course(scene.lights()).is_empty();
     let losses = scene
         .surfaces()
         .iter()
@@ -60,8 +61,8 @@ pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
         .filter_map(|(index, surface)| {
             let measure = Measure::of(scene, surface);
             let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
-            let excess =
-                symptoms.map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface)));
+            let excess = symptoms
+                .map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface, is_lit)));
             let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
             let (symptom, excess) = (symptoms[worst], excess[worst]);
             (excess > 1.0).then(|| Loss {
@@ -85,17 +86,16 @@ pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
     })
 }
 
-/// Whether rays start on a surface.
-fn sends_rays(scene: &Proof, surface: &Surface) -> bool {
+/// Whether rays start on a surface; `is_lit` says whether lights cast shadows.
+fn sends_rays(scene: &Proof, surface: &Surface, is_lit: bool) -> bool {
     let settings = scene.settings();
     match settings.mode {
         Mode::Phong => {}
         Mode::Path(_) => return true,
         Mode::Normal | Mode::Gooch(_) | Mode::Zbuffer => return false,
     }
-    let Phong { ks, kt, .. } = &scene.materials()[surface.material];
-    let lit = settings.shadows && !scene.lights().is_empty();
-    lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
+    let Phong { ks, kt, .. } = facts::material::phong(&scene.materials()[surface.material]);
+    is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
 }
 
 /// What decides how well rays can meet a surface.

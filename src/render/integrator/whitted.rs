@@ -8,13 +8,14 @@ use crate::render::bsdf::optics::{reflect, refract};
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::{Heartbeat, Proceed};
 use crate::render::integrator::shade::View;
+use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::{Key, Lobe, is_above};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{Frame, look_up};
 use crate::render::world::{Hit, World};
-use crate::valid::{Mode, Phong, Proof};
+use crate::valid::{Mode, Proof};
 
 /// One path under way.
 #[derive(Clone, Copy)]
@@ -197,7 +198,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     pub(in crate::render) fn view_of(&self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
-        let material = &self.world.materials[surface.material];
+        let material = &self.world.phongs[surface.material];
         let mut view = View {
             interaction,
             normal: interaction.normal,
@@ -214,7 +215,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             let details = surface
                 .shape
                 .details(ray, &interaction, hit.part, Asked::ALL);
-            self.apply_maps(&mut view, &details);
+            Self::apply_maps(&mut view, &details);
         }
         if ray.direction.dot(interaction.normal) > 0.0 {
             view.normal = -view.normal;
@@ -224,17 +225,16 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
     /// its own.
-    fn apply_maps(&self, view: &mut View<'_>, details: &Details) {
-        let scene = self.scene();
+    fn apply_maps(view: &mut View<'_>, details: &Details) {
         view.normal = details.normal.unwrap_or(view.normal);
         let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else {
             return;
         };
-        if let Some(map) = maps.color {
-            view.color = self.texture(map, uv);
+        if let Some(map) = &maps.color {
+            view.color = look_up(map, uv);
         }
-        if let Some(map) = maps.specular {
-            view.ks *= self.texture(map, uv).x.max(0.0);
+        if let Some(map) = &maps.specular {
+            view.ks *= look_up(map, uv).x.max(0.0);
         }
         let Some(frame) = details
             .tangent
@@ -242,16 +242,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         else {
             return;
         };
-        if let Some(map) = maps.normal {
-            view.normal = frame.mapped(scene, map, uv);
-        } else if let Some(bump) = maps.bump {
-            view.normal = frame.bumped(scene, bump, uv);
+        if let Some(map) = &maps.normal {
+            view.normal = frame.mapped(map, uv);
+        } else if let Some(bump) = &maps.bump {
+            view.normal = frame.bumped(bump, uv);
         }
-    }
-
-    /// What a texture shows.
-    fn texture(&self, index: usize, uv: [f64; 2]) -> Vec3 {
-        self.world.plan.constants[index].unwrap_or_else(|| look_up(self.scene(), index, uv))
     }
 
     fn local(&mut self, view: &View<'_>) -> Vec3 {
@@ -287,7 +282,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     fn put_off_mirror(&mut self, path: &Path, view: &View<'_>, mirror: Vec3, weight: f64) {
-        let Phong {
+        let PhongMaterial {
             n, glossy_samples, ..
         } = view.material;
         if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
@@ -414,7 +409,7 @@ fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
 /// where the shading normal would keep on this side of the surface what is to go through. So an eta
 /// of 1 bends no ray, whatever the shading normal.
 fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
-    let Phong { kt, eta, .. } = view.material;
+    let PhongMaterial { kt, eta, .. } = view.material;
     if kt.get() == 0.0 {
         return None;
     }

@@ -10,7 +10,7 @@ use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
-use crate::valid::Proof;
+use crate::valid::{Mode, Proof};
 
 /// A scene prepared as planned. All is rendered on the threads of the current pool.
 pub enum AnyWorld {
@@ -61,7 +61,9 @@ impl AnyWorld {
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants)
             == (old.shapes, &old.surfaces, &old.constants);
-        if is_same {
+        // Each integrator has materials and lights of its own.
+        let traces_paths = |scene: &Proof| matches!(scene.settings().mode, Mode::Path(_));
+        if is_same && traces_paths(&scene) == traces_paths(self.scene()) {
             each!(self, world => (world.scene, world.plan) = (scene, plan));
         } else {
             *self = Self::prepare(&scene, &plan);

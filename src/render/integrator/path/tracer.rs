@@ -9,13 +9,14 @@ use crate::render::film::{Behind, Counts, Seeds};
 use crate::render::frame::progressive::Sampling;
 use crate::render::integrator::path::Strategy;
 use crate::render::light::{Incident, Lights};
-use crate::render::material::standard::{Frame, Point, asked};
+use crate::render::material::point::{Frame, Point};
+use crate::render::material::standard::{Alpha, StandardMaterial};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::sobol::{CORNERS, FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::Asked;
 use crate::render::world::{Hit, NOWHERE, World, segment};
-use crate::valid::{Alpha, Path, Standard};
+use crate::valid::Path;
 
 /// Corners before Russian roulette may end a path.
 const SPARED: u32 = 3;
@@ -87,7 +88,11 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             path,
             strategy,
             veils: Veils::of(world),
-            asked: world.scene.standards().iter().map(asked).collect(),
+            asked: world
+                .standards
+                .iter()
+                .map(|material| material.asked)
+                .collect(),
             behind: Behind::default(),
             heartbeat: Heartbeat::new(proceed),
             counts: Counts::default(),
@@ -180,7 +185,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
                 surface
                     .shape
                     .details(&walk.ray, &at, hit.part, self.asked[surface.material]);
-            let point = Point::new(&self.world.scene, surface.material, &details);
+            let point = Point::new(&self.world.standards[surface.material], &details);
             walk.travelled += hit.t;
             let coverage = if walk.looks_through(&at, point.material) {
                 0.0
@@ -231,7 +236,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         if walk.absorption != Vec3::ZERO {
             walk.beta *= (walk.absorption * -walk.travelled).map(exp);
         }
-        if point.material.unlit {
+        if point.material.is_unlit {
             walk.found += walk.beta * point.base_color();
             return false;
         }
@@ -248,7 +253,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             return false;
         }
         let [choice, light] = walk.pair(0);
-        if point.material.dispersion > 0.0 && walk.channel.is_none() {
+        if point.material.dispersed.is_some() && walk.channel.is_none() {
             walk.disperse();
         }
         let standard = point.standard(frame, *coat, walk.channel, self.path.multiple_scattering);
@@ -270,9 +275,9 @@ impl<'world, S: Geometry> Tracer<'world, S> {
         }
         walk.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
         walk.pdf = (!sample.delta).then_some(sample.pdf);
-        if through && point.bounds_a_volume() {
+        if through && point.material.bounds_a_volume {
             walk.absorption = if wi.dot(at.normal) < 0.0 {
-                point.absorption()
+                point.material.absorption
             } else {
                 Vec3::ZERO
             };
@@ -342,7 +347,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
     /// Where a ray meets a surface, and the share of light that the surface lets through there.
     fn passing(&self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
         let surface = &self.world.surfaces[hit.surface];
-        if self.world.scene.standards()[surface.material].alpha == Alpha::Opaque {
+        if self.world.standards[surface.material].alpha == Alpha::Opaque {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.part);
@@ -351,7 +356,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             .details(ray, &at, hit.part, self.asked[surface.material]);
         (
             Some(at),
-            1.0 - Point::new(&self.world.scene, surface.material, &details).coverage(),
+            1.0 - Point::new(&self.world.standards[surface.material], &details).coverage(),
         )
     }
 
@@ -412,7 +417,7 @@ enum Veils {
 
 impl Veils {
     fn of<S: Geometry>(world: &World<S>) -> Self {
-        let is_veil = |material: usize| world.scene.standards()[material].alpha != Alpha::Opaque;
+        let is_veil = |material: usize| world.standards[material].alpha != Alpha::Opaque;
         let veils =
             (0..world.surfaces.len()).filter(|surface| is_veil(world.surfaces[*surface].material));
         veils.fold(Self::None, |veils, surface| match veils {
@@ -440,10 +445,10 @@ impl Walk {
     }
 
     /// Whether its ray is of the camera and meets the back of what is seen from one side.
-    fn looks_through(&self, at: &Interaction, material: &Standard) -> bool {
+    fn looks_through(&self, at: &Interaction, material: &StandardMaterial) -> bool {
         self.corners == 0
             && self.ray.direction.dot(at.normal) > 0.0
-            && material.is_seen_from_one_side()
+            && material.is_seen_from_one_side
     }
 
     /// A pair of numbers of this corner.
