@@ -12,7 +12,7 @@ use rtc::diag::Sink;
 use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::source::SourceMap;
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::fmt::Write as _;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -73,7 +73,7 @@ fn text(spheres: u32) -> String {
 }
 
 #[inline(never)]
-fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
+fn text_to_proof(bytes: Vec<u8>) -> Option<Proof> {
     let mut map = SourceMap::default();
     let file = map.add("spheres", bytes);
     let mut sink = Sink::default();
@@ -83,7 +83,7 @@ fn text_to_proof(bytes: Vec<u8>) -> Option<ValidScene> {
 }
 
 #[inline(never)]
-fn proof_to_plan(scene: &ValidScene) -> Plan {
+fn proof_to_plan(scene: &Proof) -> Plan {
     Plan::new(scene, Rules::ALL)
 }
 

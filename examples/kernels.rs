@@ -10,7 +10,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Features, Plan, Rules, Shapes};
 use rtc::render::{self, Film, Job};
 use rtc::source::{Loader, SourceMap};
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 use std::path::Path;
 
 fn main() {
@@ -37,11 +37,11 @@ fn main() {
 }
 
 #[inline(never)]
-fn picture(scene: &ValidScene, plan: &Plan) -> Film {
+fn picture(scene: &Proof, plan: &Plan) -> Film {
     render::render(scene, plan, &Job::default(), &|_| true).unwrap()
 }
 
-fn scene(file: &str) -> ValidScene {
+fn scene(file: &str) -> Proof {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let read = Loader.file(Path::new(file), &mut map).unwrap();
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();

@@ -21,7 +21,7 @@ use rtc::ir::{Lowered, Mode, Scene, Stage};
 use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Seeds, Values};
-use rtc::valid::{Shape, Surface, ValidScene};
+use rtc::valid::{Proof, Shape, Surface};
 use std::path::Path;
 
 /// Pixels along each side, where the speed is measured and where the error is.
@@ -99,7 +99,7 @@ fn resize(scene: &mut Scene, side: u32, samples: u32) {
     }
 }
 
-fn render(proof: &ValidScene, seed: u64) -> Film {
+fn render(proof: &Proof, seed: u64) -> Film {
     let seeds = Seeds {
         pixel: seed,
         lens: seed,
@@ -130,7 +130,7 @@ fn relative_error(film: &Film, truth: &Film) -> f64 {
         / channels().count() as f64
 }
 
-fn triangles(proof: &ValidScene) -> usize {
+fn triangles(proof: &Proof) -> usize {
     let of = |surface: &Surface| {
         if let Shape::Instance(instance) = &surface.shape {
             proof.meshes()[instance.mesh].triangles.len()

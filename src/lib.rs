@@ -14,7 +14,7 @@
 //! 9. [`pipeline`]: the doors the stages are joined by.
 //! 10. [`cli`]: arguments, streams, exit codes.
 //!
-//! The promise between the rooms: whoever holds a [`valid::ValidScene`] need not doubt a number.
+//! The promise between the rooms: whoever holds a [`valid::Proof`] need not doubt a number.
 
 #![forbid(unsafe_code)]
 

@@ -15,7 +15,7 @@ use crate::plan::Plan;
 use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, Proceed};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
-use crate::valid::{self, ValidScene};
+use crate::valid::{self, Proof};
 use crate::{codec, front};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -118,7 +118,7 @@ pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.
-pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<ValidScene> {
+pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Proof> {
     let proof = valid::validate(&lowered.scene, &lowered.origins, &options.valid, sink);
     proof.filter(|_| !sink.has_errors())
 }
@@ -134,11 +134,7 @@ impl Renderer {
     ///
     /// # Errors
     /// If the system gives no threads.
-    pub fn new(
-        scene: &ValidScene,
-        plan: &Plan,
-        threads: usize,
-    ) -> Result<Self, ThreadPoolBuildError> {
+    pub fn new(scene: &Proof, plan: &Plan, threads: usize) -> Result<Self, ThreadPoolBuildError> {
         Ok(Self {
             pool: pool(threads)?,
             world: AnyWorld::prepare(scene, plan),
@@ -146,7 +142,7 @@ impl Renderer {
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone.
-    pub fn change(&mut self, scene: ValidScene) {
+    pub fn change(&mut self, scene: Proof) {
         self.world.change(scene);
     }
 
@@ -201,7 +197,7 @@ impl Renderer {
 /// # Errors
 /// If the system gives no threads.
 pub fn render(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     threads: usize,
@@ -216,7 +212,7 @@ pub fn render(
 /// # Errors
 /// If the system gives no threads; within, if something that was left out would show.
 pub fn verify(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     threads: usize,

@@ -9,7 +9,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Values};
 use rtc::source::SourceMap;
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 
 /// The bits of every value.
 fn bits(film: &Film) -> Vec<u64> {
@@ -28,7 +28,7 @@ fn list(v: [f64; 3], k: i32) -> String {
 }
 
 /// The scene of a text, and what is found in it.
-fn read(text: &str) -> (Option<ValidScene>, Sink) {
+fn read(text: &str) -> (Option<Proof>, Sink) {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = map.add("text.yaml", text.as_bytes().to_vec());
     let lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
@@ -42,12 +42,12 @@ fn job() -> Job {
     }
 }
 
-fn proven(text: &str) -> ValidScene {
+fn proven(text: &str) -> Proof {
     let (scene, sink) = read(text);
     scene.unwrap_or_else(|| panic!("{:?}\n{text}", sink.kept()))
 }
 
-fn film(scene: &ValidScene, rules: Rules) -> Film {
+fn film(scene: &Proof, rules: Rules) -> Film {
     pipeline::render(scene, &Plan::new(scene, rules), &job(), 2, &|_| true)
         .unwrap()
         .unwrap()

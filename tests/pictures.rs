@@ -18,10 +18,10 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Counts, Film, Geometry, Job, Shape, World, camera_ray, image_point};
 use rtc::source::{Loader, SourceMap};
-use rtc::valid::{self, ValidScene};
+use rtc::valid::{self, Proof};
 use std::path::Path;
 
-fn proven(scene: Scene) -> ValidScene {
+fn proven(scene: Scene) -> Proof {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene,
@@ -46,7 +46,7 @@ fn course(name: &str) -> Option<Scene> {
     Some(lowered.scene)
 }
 
-fn film(scene: &ValidScene) -> Film {
+fn film(scene: &Proof) -> Film {
     pipeline::render(
         scene,
         &Plan::new(scene, Rules::ALL),

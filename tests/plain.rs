@@ -18,7 +18,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Rules, Symptom, loss};
 use rtc::render::{Film, Geometry, Job, PlainShape, Ray, Real, Shape, Shear};
 use rtc::source::{Loader, SourceMap};
-use rtc::valid::{self, ValidScene};
+use rtc::valid::{self, Proof};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -239,7 +239,7 @@ fn course() -> Option<PathBuf> {
 }
 
 /// A scene at no more than `side` pixels wide or high, one sample each.
-fn small(path: &Path, side: u32) -> ValidScene {
+fn small(path: &Path, side: u32) -> Proof {
     let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
     let file = Loader.file(path, &mut map).unwrap();
     let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
@@ -254,7 +254,7 @@ fn small(path: &Path, side: u32) -> ValidScene {
     pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-fn film(scene: &ValidScene, arithmetic: Arithmetic) -> Film {
+fn film(scene: &Proof, arithmetic: Arithmetic) -> Film {
     pipeline::render(
         scene,
         &Plan::by(arithmetic, scene, Rules::ALL),

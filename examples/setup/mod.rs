@@ -15,7 +15,7 @@ use rtc::ir::{
 use rtc::math::{Vec3, camera_basis};
 use rtc::pipeline::{self, Options};
 use rtc::source::SourceMap;
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 use serde_json::Value;
 use std::path::Path;
 
@@ -42,7 +42,7 @@ pub(crate) fn load_set_up(path: &Path, samples: u32) -> Lowered {
 }
 
 /// The scene, proven.
-pub(crate) fn prove(lowered: &Lowered) -> ValidScene {
+pub(crate) fn prove(lowered: &Lowered) -> Proof {
     let mut sink = Sink::default();
     pipeline::prove(lowered, &Options::default(), &mut sink).unwrap_or_else(|| panic!("{sink:?}"))
 }

@@ -8,7 +8,7 @@ use crate::front::assets;
 use crate::ir::{Lowered, Scene, Stage, Surroundings, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
-use crate::valid::ValidScene;
+use crate::valid::Proof;
 use crate::{codec, front, valid};
 use std::io;
 use std::path::Path;
@@ -34,7 +34,7 @@ pub(super) struct Proven {
     /// The scene and where its values were written.
     pub(super) lowered: Lowered,
     /// The proof.
-    pub(super) scene: ValidScene,
+    pub(super) scene: Proof,
 }
 
 impl Input {

@@ -17,7 +17,7 @@ use crate::pipeline::{self, Meter, Renderer};
 use crate::plan::{self, Rule, Rules};
 use crate::render::{Counts, Crop, Fault, Film, Job};
 use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
-use crate::valid::ValidScene;
+use crate::valid::Proof;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -387,7 +387,7 @@ impl Plan {
     }
 
     /// What a scene needs for its picture.
-    fn plan(&self, scene: &ValidScene) -> plan::Plan {
+    fn plan(&self, scene: &Proof) -> plan::Plan {
         plan::Plan::by(self.arithmetic, scene, self.rules)
     }
 

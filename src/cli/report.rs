@@ -10,7 +10,7 @@ use super::input::{Input, Proven};
 use crate::pipeline;
 use crate::plan::{Plan, Rule, Rules, State, Verdict};
 use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
-use crate::valid::{Mode, ValidScene};
+use crate::valid::{Mode, Proof};
 use serde_json::{Value, json};
 use std::num::NonZeroU32;
 
@@ -245,12 +245,12 @@ impl Report {
 
 /// Counts the rays of a picture, on a part of its samples that is quick.
 struct Counter<'scene> {
-    scene: &'scene ValidScene,
+    scene: &'scene Proof,
     sampled: Sampled,
 }
 
 impl<'scene> Counter<'scene> {
-    fn new(scene: &'scene ValidScene) -> Self {
+    fn new(scene: &'scene Proof) -> Self {
         let pixel = samples_of_pixel(scene);
         let [width, height] = [scene.camera().width.get(), scene.camera().height.get()];
         let pixels = u64::from(width) * u64::from(height);
@@ -303,7 +303,7 @@ impl<'scene> Counter<'scene> {
 }
 
 /// The samples that a pixel takes.
-fn samples_of_pixel(scene: &ValidScene) -> u64 {
+fn samples_of_pixel(scene: &Proof) -> u64 {
     let (lens, settings) = (scene.camera().lens, scene.settings());
     match settings.mode {
         Mode::Path(path) => path.samples.get().into(),

@@ -8,11 +8,13 @@ mod look;
 mod png;
 mod radiance;
 mod range;
+mod texels;
 
 pub use decode::{Cost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use look::{Association, Backdrop, Look};
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
+pub use texels::{Texel, Texels};
 
 use std::fmt;
 

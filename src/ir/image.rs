@@ -1,6 +1,6 @@
 //! The images: pixels, as textures look them up.
 
-use super::Shared;
+use crate::math::Shared;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

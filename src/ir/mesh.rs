@@ -1,6 +1,6 @@
 //! The meshes: triangles that share corners.
 
-use super::{Column, Shared};
+use crate::math::{Column, Shared};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -7,7 +7,6 @@
 
 mod bounds;
 mod camera;
-mod column;
 mod environment;
 mod image;
 mod light;
@@ -22,9 +21,9 @@ mod standard;
 mod studio;
 mod texture;
 
+pub use crate::math::{Column, Shared};
 pub use bounds::Ball;
 pub use camera::{Camera, Lens, Projection};
-pub use column::{Column, Shared};
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
 pub use light::{Emitter, Light, PointLight, Punctual};

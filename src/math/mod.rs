@@ -3,22 +3,26 @@
 //! Everything geometric is f64. `u` in comments is the unit round-off, 2⁻⁵³.
 
 mod basis;
+mod column;
 mod direction;
 mod double;
 mod exact;
+mod flat;
 mod func;
 mod number;
 mod onb;
 mod turns;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
+pub use column::{Column, Shared};
 pub use direction::{length, unit, unit_scale};
 pub use double::Double;
 pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
+pub use flat::is_flat;
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
-pub use number::{NonNegative, Positive};
+pub use number::{NonNegative, Positive, UnitInterval};
 pub use onb::Basis;
 pub use turns::{cos_sin_turns, golden_turns};
 

@@ -5,6 +5,9 @@
 pub struct Positive(f64);
 
 impl Positive {
+    /// 1.
+    pub const ONE: Self = Self(1.0);
+
     /// `None` unless the value is finite and above 0.
     #[must_use]
     pub fn new(value: f64) -> Option<Self> {
@@ -24,6 +27,22 @@ impl Positive {
 pub struct NonNegative(f64);
 
 impl NonNegative {
+    /// 0.
+    pub const ZERO: Self = Self(0.0);
+
+    /// 1.
+    pub const ONE: Self = Self(1.0);
+
+    /// The nearest to a value; 0 for what is no number.
+    #[must_use]
+    pub fn saturating(value: f64) -> Self {
+        Self(if value > 0.0 {
+            value.min(f64::MAX)
+        } else {
+            0.0
+        })
+    }
+
     /// The product with a number, 0 if that is negative.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
@@ -44,9 +63,76 @@ impl NonNegative {
     }
 }
 
+impl From<UnitInterval> for NonNegative {
+    fn from(share: UnitInterval) -> Self {
+        Self(share.0)
+    }
+}
+
+impl From<Positive> for NonNegative {
+    fn from(number: Positive) -> Self {
+        Self(number.0)
+    }
+}
+
+/// A number from 0 to 1; never −0.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct UnitInterval(f64);
+
+impl UnitInterval {
+    /// 0.
+    pub const ZERO: Self = Self(0.0);
+
+    /// 1.
+    pub const ONE: Self = Self(1.0);
+
+    /// `None` unless the value is from 0 to 1.
+    #[must_use]
+    pub fn new(value: f64) -> Option<Self> {
+        (0.0..=1.0).contains(&value).then_some(Self(value + 0.0))
+    }
+
+    /// The nearest to a value; 0 for what is no number.
+    #[must_use]
+    pub fn saturating(value: f64) -> Self {
+        Self(if value > 0.0 { value.min(1.0) } else { 0.0 })
+    }
+
+    /// What is missing to 1.
+    #[must_use]
+    pub fn complement(self) -> Self {
+        Self(1.0 - self.0)
+    }
+
+    /// The number.
+    #[must_use]
+    #[inline]
+    pub fn get(self) -> f64 {
+        self.0
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_out_of_range_saturates_at_the_ends() {
+        for (value, share, number) in [
+            (-1.0, 0.0, 0.0),
+            (0.25, 0.25, 0.25),
+            (7.0, 1.0, 7.0),
+            (f64::INFINITY, 1.0, f64::MAX),
+            (f64::NAN, 0.0, 0.0),
+        ] {
+            assert_eq!(UnitInterval::saturating(value).get(), share, "{value}");
+            assert_eq!(NonNegative::saturating(value).get(), number, "{value}");
+        }
+        assert!(UnitInterval::new(1.0 + f64::EPSILON).is_none());
+        assert!(UnitInterval::new(f64::NAN).is_none());
+        assert!(UnitInterval::new(-0.0).unwrap().get().is_sign_positive());
+        assert!(UnitInterval::saturating(-0.0).get().is_sign_positive());
+    }
 
     #[test]
     fn ranges_are_kept_at_their_ends() {

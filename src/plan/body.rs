@@ -3,7 +3,7 @@
 
 use super::space::{Flat, ROOM, Sides, Space};
 use crate::math::{Vec3, cross, unit};
-use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Quad, Shape, Sphere, Torus, ValidScene};
+use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Proof, Quad, Shape, Sphere, Torus};
 use std::sync::Arc;
 
 /// Where a surface is.
@@ -169,7 +169,7 @@ impl Body {
 
 /// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and
 /// round by its coordinates.
-pub(in crate::plan) fn bodies(scene: &ValidScene) -> Vec<Body> {
+pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);

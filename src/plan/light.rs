@@ -6,7 +6,7 @@ use super::rules::Rule;
 use super::space::{Flat, ROOM, Sides, Space};
 use super::{Facts, LightPlan, MAX_PAIRS};
 use crate::math::Vec3;
-use crate::valid::{Light, Mode};
+use crate::valid::{CourseLight, Mode};
 
 /// What is left of the lights.
 pub(super) struct Lights {
@@ -34,7 +34,7 @@ pub(super) struct Shadow {
 
 impl Lights {
     pub(super) fn new(facts: &Facts<'_>, reach: &Reach) -> Self {
-        let lights = facts.scene.lights();
+        let lights = &facts.sources;
         let (plans, rules) = lights.iter().map(|light| facts.light(light, reach)).unzip();
         let casts = vec![false; facts.bodies.len()];
         let mut all = Self {
@@ -79,7 +79,7 @@ impl Lights {
         }
         self.alone = count == 1;
         for light in lights {
-            let source = &facts.scene.lights()[light];
+            let source = &facts.sources[light];
             let is_dark = |surface: usize| facts.is_dark(surface, reach.sides[surface], source);
             for receiver in &receivers {
                 let is_behind = facts.rules.contains(Rule::LightBehind) && is_dark(*receiver);
@@ -131,13 +131,13 @@ struct Pair {
 }
 
 /// The box of all points of a light.
-fn extent(light: &Light) -> Space {
+fn extent(light: &CourseLight) -> Space {
     Space::around(light.position, Vec3::splat(light.radius.get()))
 }
 
 impl Facts<'_> {
     /// What is left of a light, and why no more.
-    fn light(&self, light: &Light, reach: &Reach) -> (LightPlan, Option<Rule>) {
+    fn light(&self, light: &CourseLight, reach: &Reach) -> (LightPlan, Option<Rule>) {
         let surfaces = || (0..self.bodies.len()).filter(|surface| reach.reached[*surface]);
         let shadowed = vec![true; self.bodies.len()];
         let rule = match self.scene.settings().mode {
@@ -176,7 +176,7 @@ impl Facts<'_> {
     ///
     /// The light and all that looks at the surface are off its plane by [`super::space::ROOM`] of
     /// all coordinates, so N·L < −2⁻³³, far beyond its rounding.
-    pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &Light) -> bool {
+    pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &CourseLight) -> bool {
         let (body, look) = (&self.bodies[surface], &self.looks[surface]);
         let gated = self.scene.settings().shadows || !look.shines;
         let behind = || match body.form {

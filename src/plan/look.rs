@@ -1,7 +1,7 @@
 //! What of its material a surface shows, maps and constants of textures considered.
 
 use crate::math::Vec3;
-use crate::valid::{Maps, Mesh, Phong, Shape, Surface, Texture, ValidScene};
+use crate::valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
 
 /// What a surface may show.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +31,12 @@ pub(super) struct Look {
 }
 
 impl Look {
-    pub(super) fn of(surface: &Surface, scene: &ValidScene, constants: &[Option<Vec3>]) -> Self {
-        let material = &scene.materials()[surface.material];
+    pub(super) fn of(
+        surface: &Surface,
+        material: &Phong,
+        scene: &Proof,
+        constants: &[Option<Vec3>],
+    ) -> Self {
         let Phong {
             color,
             ka,
@@ -92,14 +96,14 @@ impl Look {
 }
 
 /// The most that each channel of a texture can be.
-fn largest(scene: &ValidScene, texture: Option<usize>) -> Vec3 {
+fn largest(scene: &Proof, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         Some(Texture::Uv) => Vec3::INFINITY,
         Some(Texture::Image(_) | Texture::Sampled(_)) | None => Vec3::ONE,
     }
 }
 
-fn has_uv(shape: &Shape, scene: &ValidScene) -> bool {
+fn has_uv(shape: &Shape, scene: &Proof) -> bool {
     match shape {
         Shape::Sphere(_) | Shape::Quad(_) => true,
         Shape::Triangle(triangle) => triangle.uvs.is_some(),
@@ -112,17 +116,20 @@ fn has_uv(shape: &Shape, scene: &ValidScene) -> bool {
     }
 }
 
-fn has_normals(shape: &Shape, scene: &ValidScene) -> bool {
+fn has_normals(shape: &Shape, scene: &Proof) -> bool {
     matches!(shape, Shape::Instance(instance) if !scene.meshes()[instance.mesh].normals.is_empty())
 }
 
 /// The value of each texture whose texels are all equal.
-pub(super) fn constants(scene: &ValidScene) -> Vec<Option<Vec3>> {
+pub(super) fn constants(scene: &Proof) -> Vec<Option<Vec3>> {
     let value = |texture: &Texture| match texture {
         Texture::Uv | Texture::Sampled(_) => None,
         Texture::Image(image) => {
             let image = &scene.images()[*image];
-            image.is_even().then(|| image.texel(0).color() / 255.0)
+            image
+                .texels
+                .are_even()
+                .then(|| image.texels.at(0).color() / 255.0)
         }
     };
     scene.textures().iter().map(value).collect()

@@ -9,6 +9,7 @@
 
 mod body;
 mod effect;
+pub mod facts;
 mod features;
 mod light;
 mod look;
@@ -29,7 +30,7 @@ pub use region::{Region, Sight};
 pub use rules::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Path, Pattern, Projection, Shape, ValidScene};
+use crate::valid::{CourseLight, Mode, Path, Pattern, Phong, Projection, Proof, Shape, Surface};
 use body::{Body, bodies};
 use light::Lights;
 use look::{Look, constants};
@@ -110,7 +111,7 @@ pub struct Plan {
 impl Plan {
     /// Plans the picture with the rules given.
     #[must_use]
-    pub fn new(scene: &ValidScene, rules: Rules) -> Self {
+    pub fn new(scene: &Proof, rules: Rules) -> Self {
         let settings = scene.settings();
         if let Mode::Path(path) = settings.mode {
             return Self::of_paths(scene, path, rules);
@@ -170,7 +171,7 @@ impl Plan {
     }
 
     /// Plans traced paths.
-    fn of_paths(scene: &ValidScene, path: Path, rules: Rules) -> Self {
+    fn of_paths(scene: &Proof, path: Path, rules: Rules) -> Self {
         let Planned {
             plan,
             surfaces,
@@ -195,7 +196,7 @@ impl Plan {
     /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing
     /// by it: what is proven of the shapes is proven for the robust one.
     #[must_use]
-    pub fn by(arithmetic: Arithmetic, scene: &ValidScene, rules: Rules) -> Self {
+    pub fn by(arithmetic: Arithmetic, scene: &Proof, rules: Rules) -> Self {
         let rules = match arithmetic {
             Arithmetic::Robust => rules,
             Arithmetic::Plain | Arithmetic::F32 => rules.of(Rules::AT_HITS),
@@ -227,8 +228,12 @@ impl Plan {
 
 /// What the rules start from.
 struct Facts<'scene> {
-    scene: &'scene ValidScene,
+    scene: &'scene Proof,
     rules: Rules,
+    /// The lights that the integrator sees.
+    sources: Vec<CourseLight>,
+    /// The materials as the integrator sees them.
+    materials: Vec<Phong>,
     /// Per surface, where it is.
     bodies: Vec<Body>,
     /// Per surface, what it shows.
@@ -240,17 +245,20 @@ struct Facts<'scene> {
 }
 
 impl<'scene> Facts<'scene> {
-    fn new(scene: &'scene ValidScene, rules: Rules) -> Self {
+    fn new(scene: &'scene Proof, rules: Rules) -> Self {
         let constants = if rules.contains(Rule::TextureConstant) {
             constants(scene)
         } else {
             vec![None; scene.textures().len()]
         };
-        let looks = scene
-            .surfaces()
+        let materials = scene
+            .materials()
             .iter()
-            .map(|surface| Look::of(surface, scene, &constants))
-            .collect();
+            .map(facts::material::phong)
+            .collect::<Vec<_>>();
+        let look =
+            |surface: &Surface| Look::of(surface, &materials[surface.material], scene, &constants);
+        let looks = scene.surfaces().iter().map(look).collect();
         let even = scene
             .meshes()
             .iter()
@@ -259,6 +267,8 @@ impl<'scene> Facts<'scene> {
         Self {
             scene,
             rules,
+            sources: facts::light::course(scene.lights()),
+            materials,
             bodies: bodies(scene),
             looks,
             constants,
@@ -363,7 +373,7 @@ impl Findings<'_> {
     /// Whether a light is sampled.
     fn is_soft(&self) -> bool {
         let settings = self.facts.scene.settings();
-        let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+        let lights = self.facts.sources.iter().zip(&self.lights.plans);
         let soft = lights
             .filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct)
             .count();
@@ -420,14 +430,14 @@ impl Findings<'_> {
 }
 
 /// The rules whose proofs hold for a camera: they know rays from an eye.
-fn proven_for(scene: &ValidScene, rules: Rules) -> Rules {
+fn proven_for(scene: &Proof, rules: Rules) -> Rules {
     match scene.camera().projection {
         Projection::Orthographic => rules.of(Rules::AT_HITS),
         Projection::Perspective => rules,
     }
 }
 
-fn shapes(scene: &ValidScene, kept: &[bool]) -> Shapes {
+fn shapes(scene: &Proof, kept: &[bool]) -> Shapes {
     let is_basic = |shape: &Shape| {
         matches!(
             shape,

@@ -4,9 +4,9 @@
 //! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors
 //! are larger.
 
-use super::Arithmetic;
+use super::{Arithmetic, facts};
 use crate::math::{Vec3, unit};
-use crate::valid::{Instance, Mode, Phong, Shape, Surface, ValidScene};
+use crate::valid::{Instance, Mode, Phong, Proof, Shape, Surface};
 
 /// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray
 /// starts on.
@@ -33,7 +33,7 @@ pub enum Symptom {
 /// What an arithmetic loses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// The surface that shows it most: an index into [`ValidScene::surfaces`].
+    /// The surface that shows it most: an index into [`Proof::surfaces`].
     pub surface: usize,
     /// How it shows there.
     pub symptom: Symptom,
@@ -47,12 +47,13 @@ pub struct Loss {
 
 /// What a scene loses by an arithmetic, if anything is expected to show.
 #[must_use]
-pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
+pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
     let unit = match arithmetic {
         Arithmetic::Robust => return None,
         Arithmetic::Plain => f64::EPSILON / 2.0,
         Arithmetic::F32 => f64::from(f32::EPSILON) / 2.0,
     };
+    let is_lit = scene.settings().shadows && !facts::light::course(scene.lights()).is_empty();
     let losses = scene
         .surfaces()
         .iter()
@@ -60,8 +61,8 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
         .filter_map(|(index, surface)| {
             let measure = Measure::of(scene, surface);
             let symptoms = [Symptom::SelfHit, Symptom::Shape, Symptom::Skipped];
-            let excess =
-                symptoms.map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface)));
+            let excess = symptoms
+                .map(|symptom| measure.excess(symptom, unit, sends_rays(scene, surface, is_lit)));
             let worst = (0..3).max_by(|a, b| excess[*a].total_cmp(&excess[*b]))?;
             let (symptom, excess) = (symptoms[worst], excess[worst]);
             (excess > 1.0).then(|| Loss {
@@ -85,17 +86,16 @@ pub fn loss(scene: &ValidScene, arithmetic: Arithmetic) -> Option<Loss> {
     })
 }
 
-/// Whether rays start on a surface.
-fn sends_rays(scene: &ValidScene, surface: &Surface) -> bool {
+/// Whether rays start on a surface; `is_lit` says whether lights cast shadows.
+fn sends_rays(scene: &Proof, surface: &Surface, is_lit: bool) -> bool {
     let settings = scene.settings();
     match settings.mode {
         Mode::Phong => {}
         Mode::Path(_) => return true,
         Mode::Normal | Mode::Gooch(_) | Mode::Zbuffer => return false,
     }
-    let Phong { ks, kt, .. } = &scene.materials()[surface.material];
-    let lit = settings.shadows && !scene.lights().is_empty();
-    lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
+    let Phong { ks, kt, .. } = facts::material::phong(&scene.materials()[surface.material]);
+    is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
 }
 
 /// What decides how well rays can meet a surface.
@@ -118,7 +118,7 @@ enum Form {
 }
 
 impl Measure {
-    fn of(scene: &ValidScene, surface: &Surface) -> Self {
+    fn of(scene: &Proof, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
         let size = |from: Vec3, corners: &[Vec3]| {
             corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max)
@@ -204,7 +204,7 @@ fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
 }
 
 /// The first corner of a placed mesh, and how far it extends.
-fn placed(scene: &ValidScene, instance: &Instance) -> (Vec3, Form) {
+fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Form) {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let mut corners = scene.meshes()[instance.mesh]

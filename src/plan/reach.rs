@@ -167,8 +167,7 @@ pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
         .map(|look| look.weight)
         .fold(0.0, f64::max);
     let light = facts
-        .scene
-        .lights()
+        .sources
         .iter()
         .map(|light| light.color.max_element())
         .sum::<f64>();

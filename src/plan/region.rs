@@ -143,7 +143,7 @@ impl Findings<'_> {
                     && self.reach.sides[surface] != Sides::BOTH
             }
             Mode::Phong => {
-                let lights = self.facts.scene.lights().iter().zip(&self.lights.plans);
+                let lights = self.facts.sources.iter().zip(&self.lights.plans);
                 let mut direct = lights.filter(|(_, plan)| plan.direct);
                 let is_dark = direct.all(|(light, _)| {
                     self.facts

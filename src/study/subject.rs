@@ -9,7 +9,7 @@ use crate::ir::{Origins, Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
 use crate::source::Limits;
-use crate::valid::{self, ValidScene};
+use crate::valid::{self, Proof};
 
 /// A scene, and the part of its picture that is looked at.
 #[derive(Clone)]
@@ -153,7 +153,7 @@ impl<'bench> Subject<'bench> {
         (0..rounds).map(round).collect()
     }
 
-    fn prove(&self, setting: Setting, seeds: Seeds) -> ValidScene {
+    fn prove(&self, setting: Setting, seeds: Seeds) -> Proof {
         let mut scene = self.scene.clone();
         setting.apply(&mut scene);
         if seeds.pixel != 0 {
@@ -162,12 +162,7 @@ impl<'bench> Subject<'bench> {
         prove(&scene)
     }
 
-    fn render(
-        &self,
-        scene: &ValidScene,
-        arithmetic: Arithmetic,
-        seeds: Seeds,
-    ) -> Result<Shot, Stopped> {
+    fn render(&self, scene: &Proof, arithmetic: Arithmetic, seeds: Seeds) -> Result<Shot, Stopped> {
         let last = self
             .tiles
             .last()
@@ -213,7 +208,7 @@ impl<'bench> Subject<'bench> {
 }
 
 /// The proof of a scene that was proven before, in whatever setting.
-pub(super) fn prove(scene: &Scene) -> ValidScene {
+pub(super) fn prove(scene: &Scene) -> Proof {
     let options = valid::Options {
         limits: Limits::NONE,
     };

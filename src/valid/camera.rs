@@ -28,7 +28,7 @@ pub struct Camera {
     /// The aperture.
     pub lens: Lens,
     /// How the rays run.
-    pub projection: ir::Projection,
+    pub projection: Projection,
 }
 
 /// A lens with at least one sample.
@@ -38,6 +38,16 @@ pub struct Lens {
     pub radius: NonNegative,
     /// Points of the aperture each sub-sample takes.
     pub samples: NonZeroU32,
+}
+
+/// How the rays of a camera run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// From the eye.
+    Perspective,
+    /// Side by side: through each point of the image, in the direction from the eye to its middle,
+    /// from as far before.
+    Orthographic,
 }
 
 pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camera> {
@@ -73,7 +83,10 @@ pub(super) fn camera(camera: &ir::Camera, check: &mut Check<'_>) -> Option<Camer
         width,
         height,
         lens,
-        projection: *projection,
+        projection: match projection {
+            ir::Projection::Perspective => Projection::Perspective,
+            ir::Projection::Orthographic => Projection::Orthographic,
+        },
     })
 }
 

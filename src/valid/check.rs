@@ -68,6 +68,22 @@ impl<'run> Check<'run> {
         (proven.len() == entities.len()).then_some(proven)
     }
 
+    /// Proves what may be absent: the outer `None` is an error, the inner one absence.
+    #[expect(
+        clippy::option_option,
+        reason = "an error and an absence are two things"
+    )]
+    pub(super) fn optional<T, V>(
+        &mut self,
+        value: Option<&T>,
+        one: impl FnOnce(&mut Self, &T) -> Option<V>,
+    ) -> Option<Option<V>> {
+        match value {
+            Some(value) => one(self, value).map(Some),
+            None => Some(None),
+        }
+    }
+
     /// A handle to one of `count` entities.
     pub(super) fn handle(
         &mut self,

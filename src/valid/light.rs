@@ -4,11 +4,20 @@ use super::check::{Check, place};
 use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
-use crate::math::{NonNegative, Vec3, unit};
+use crate::math::{NonNegative, Positive, Vec3, unit};
 
-/// A point light, or with a radius a soft one.
+/// A light of any kind.
 #[derive(Clone, Copy, Debug)]
-pub struct Light {
+pub enum Light {
+    /// A light of the course, in units of the display.
+    Course(CourseLight),
+    /// A light in physical units.
+    Punctual(Punctual),
+}
+
+/// A point that shines equally in all directions, without falloff, or with a radius a soft one.
+#[derive(Clone, Copy, Debug)]
+pub struct CourseLight {
     /// Where it stands.
     pub position: Vec3,
     /// Its colour, each channel at least 0.
@@ -19,34 +28,50 @@ pub struct Light {
 
 /// A light without extent, in physical units.
 #[derive(Clone, Copy, Debug)]
-pub struct Punctual {
-    /// How and from where it shines.
-    pub emitter: Emitter,
-    /// Of a sun the irradiance on a surface that faces it, of the others the radiant intensity;
-    /// each channel at least 0.
-    pub intensity: Vec3,
+pub enum Punctual {
+    /// From infinitely far away.
+    Sun(SunLight),
+    /// From a point into all directions.
+    Point(PointLight),
+    /// From a point into a cone.
+    Spot(SpotLight),
 }
 
-/// How a light without extent shines; directions are unit vectors.
+/// A light infinitely far away.
 #[derive(Clone, Copy, Debug)]
-pub enum Emitter {
-    /// From infinitely far away, in this direction.
-    Sun(Vec3),
-    /// From a point into all directions.
-    Point(Vec3, Falloff),
-    /// From a point into a cone.
-    Spot {
-        /// Where it stands.
-        position: Vec3,
-        /// Where it shines.
-        direction: Vec3,
-        /// Within this cosine it shines fully.
-        inner: f64,
-        /// Beyond this cosine it is dark.
-        outer: f64,
-        /// How it fades.
-        falloff: Falloff,
-    },
+pub struct SunLight {
+    /// The unit vector to it.
+    pub direction: Vec3,
+    /// On a surface that faces it, each channel at least 0.
+    pub irradiance: Vec3,
+}
+
+/// A point that shines equally in all directions.
+#[derive(Clone, Copy, Debug)]
+pub struct PointLight {
+    /// Where it stands.
+    pub position: Vec3,
+    /// The radiant intensity, each channel at least 0.
+    pub intensity: Vec3,
+    /// How it fades.
+    pub falloff: Falloff,
+}
+
+/// A point that shines into a cone.
+#[derive(Clone, Copy, Debug)]
+pub struct SpotLight {
+    /// Where it stands.
+    pub position: Vec3,
+    /// The unit vector to where it shines.
+    pub direction: Vec3,
+    /// Within this cosine it shines fully.
+    pub inner: f64,
+    /// Beyond this cosine, less than the other, it is dark.
+    pub outer: f64,
+    /// The radiant intensity in its direction, each channel at least 0.
+    pub intensity: Vec3,
+    /// How it fades.
+    pub falloff: Falloff,
 }
 
 /// How light fades with distance.
@@ -54,76 +79,55 @@ pub enum Emitter {
 pub enum Falloff {
     /// Not at all, as in the course.
     None,
-    /// With the square of the distance, up to the range if it has one.
-    Square(Option<f64>),
+    /// With the square of the distance.
+    Square,
+    /// With the square of the distance, and to nothing at a range.
+    Ranged(Positive),
 }
 
-/// A light of any kind.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Any {
-    Point(Light),
-    Punctual(Punctual),
+pub(super) fn light(light: &ir::Light, index: usize, check: &mut Check<'_>) -> Option<Light> {
+    match light {
+        ir::Light::Point(light) => course(light, index, check).map(Light::Course),
+        ir::Light::Punctual(light) => punctual(light, index, check).map(Light::Punctual),
+    }
 }
 
-pub(super) fn light(light: &ir::Light, index: usize, check: &mut Check<'_>) -> Option<Any> {
+fn course(light: &ir::PointLight, index: usize, check: &mut Check<'_>) -> Option<CourseLight> {
     let ir::PointLight {
         position,
         color,
         radius,
-    } = match light {
-        ir::Light::Point(light) => light,
-        ir::Light::Punctual(light) => {
-            return punctual_light(light, index, check).map(Any::Punctual);
-        }
-    };
-    let position = check.vector(*position, place(Noun::Light, index, Field::Position));
-    let color = check.color(*color, place(Noun::Light, index, Field::Color));
-    let radius = check.non_negative(
-        *radius,
-        "radius",
-        place(Noun::Light, index, Field::LightRadius),
-    );
-    Some(Any::Point(Light {
+    } = light;
+    let at = |field| place(Noun::Light, index, field);
+    let position = check.vector(*position, at(Field::Position));
+    let color = check.color(*color, at(Field::Color));
+    let radius = check.non_negative(*radius, "radius", at(Field::LightRadius));
+    Some(CourseLight {
         position: position?,
         color: color?,
         radius: radius?,
-    }))
+    })
 }
 
-/// The lights of the course among all.
-pub(super) fn of_the_course(lights: &[Any]) -> Vec<Light> {
-    let point = |light: &Any| {
-        if let Any::Point(light) = light {
-            Some(*light)
-        } else {
-            None
-        }
-    };
-    lights.iter().filter_map(point).collect()
-}
-
-/// The lights in physical units, and those of the course as such if `with_points`: a white Lambert
-/// surface that faces one has the radiance of its colour.
-pub(super) fn punctual(lights: &[Any], with_points: bool) -> Vec<Punctual> {
-    let physical = |light: &Any| match light {
-        Any::Punctual(light) => Some(*light),
-        Any::Point(light) => with_points.then(|| Punctual {
-            emitter: Emitter::Point(light.position, Falloff::None),
-            intensity: light.color * std::f64::consts::PI,
-        }),
-    };
-    lights.iter().filter_map(physical).collect()
-}
-
-fn punctual_light(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option<Punctual> {
+fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option<Punctual> {
     let at = place(Noun::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
-    let emitter = match emitter {
-        ir::Emitter::Sun { direction } => direction_of(*direction, at, check).map(Emitter::Sun),
+    match emitter {
+        ir::Emitter::Sun { direction } => {
+            let direction = direction_of(*direction, at, check);
+            Some(Punctual::Sun(SunLight {
+                direction: direction?,
+                irradiance: intensity?,
+            }))
+        }
         ir::Emitter::Point { position, range } => {
             let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
-            Some(Emitter::Point(position?, falloff?))
+            Some(Punctual::Point(PointLight {
+                position: position?,
+                intensity: intensity?,
+                falloff: falloff?,
+            }))
         }
         ir::Emitter::Spot {
             position,
@@ -133,24 +137,18 @@ fn punctual_light(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> 
             range,
         } => {
             let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
-            let (direction, cone) = (
-                direction_of(*direction, at, check),
-                cone(*inner_angle, *outer_angle, at, check),
-            );
-            let (inner, outer) = cone?;
-            Some(Emitter::Spot {
+            let direction = direction_of(*direction, at, check);
+            let (inner, outer) = cone(*inner_angle, *outer_angle, at, check)?;
+            Some(Punctual::Spot(SpotLight {
                 position: position?,
                 direction: direction?,
                 inner,
                 outer,
+                intensity: intensity?,
                 falloff: falloff?,
-            })
+            }))
         }
-    };
-    Some(Punctual {
-        emitter: emitter?,
-        intensity: intensity?,
-    })
+    }
 }
 
 fn direction_of(direction: [f64; 3], at: Place, check: &mut Check<'_>) -> Option<Vec3> {
@@ -163,11 +161,10 @@ fn falloff(range: Option<f64>, at: Place, check: &mut Check<'_>) -> Option<Fallo
     match range {
         Some(range) => check
             .length(range, at, &codes::BAD_LIGHT, "range")
-            .map(|range| Falloff::Square(Some(range.get()))),
-        None => Some(Falloff::Square(None)),
+            .map(Falloff::Ranged),
+        None => Some(Falloff::Square),
     }
 }
-
 /// The cosines of the angles of a spot light.
 fn cone(inner: f64, outer: f64, at: Place, check: &mut Check<'_>) -> Option<(f64, f64)> {
     let sound =

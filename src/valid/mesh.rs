@@ -5,8 +5,8 @@ use super::check::{Check, LARGEST, place};
 use super::shape::has_area;
 use crate::diag::Diagnostic;
 use crate::diag::codes;
-use crate::ir::{self, Column, Field, Noun, Shared};
-use crate::math::{Vec3, unit};
+use crate::ir::{self, Field, Noun};
+use crate::math::{Column, Shared, Vec3, unit};
 
 /// Triangles over one list of corners; what it says of them it shares with the scene.
 #[derive(Clone, Debug, Default)]
@@ -111,69 +111,78 @@ fn fault(mesh: &ir::Mesh) -> Option<String> {
         colors,
         triangles,
     } = mesh;
-    let sound = |value: &f64| value.abs() <= LARGEST;
-    if let Some(vertex) = positions.iter().position(|p| !p.iter().all(sound)) {
+    fault_of_numbers(positions, normals)
+        .or_else(|| fault_of_columns([uvs, second_uvs], tangents, colors))
+        .or_else(|| fault_of_lengths(mesh))
+        .or_else(|| fault_of_triangles(triangles, positions.len()))
+}
+
+fn is_sound(value: &f64) -> bool {
+    value.abs() <= LARGEST
+}
+
+fn fault_of_numbers(positions: &Column<3>, normals: &Column<3>) -> Option<String> {
+    if let Some(vertex) = positions.iter().position(|p| !p.iter().all(is_sound)) {
         return Some(format!(
             "vertex {vertex} of a mesh is no point of finite numbers: {:?}",
             positions.at(vertex)
         ));
     }
-    if let Some(vertex) = normals
-        .iter()
-        .position(|n| !n.iter().all(|value| value.is_finite()))
-    {
-        return Some(format!(
-            "normal {vertex} of a mesh is not finite: {:?}",
-            normals.at(vertex)
-        ));
-    }
-    if let Some(vertex) = uvs
-        .iter()
-        .chain(second_uvs.iter())
-        .position(|uv| !uv.iter().all(sound))
-    {
+    let is_finite = |normal: [f64; 3]| normal.iter().all(|value| value.is_finite());
+    let vertex = normals.iter().position(|normal| !is_finite(normal))?;
+    Some(format!(
+        "normal {vertex} of a mesh is not finite: {:?}",
+        normals.at(vertex)
+    ))
+}
+
+fn fault_of_columns(
+    uvs: [&Column<2>; 2],
+    tangents: &Column<4>,
+    colors: &Column<4>,
+) -> Option<String> {
+    let mut all_uvs = uvs[0].iter().chain(uvs[1].iter());
+    if let Some(vertex) = all_uvs.position(|uv| !uv.iter().all(is_sound)) {
         return Some(format!("uv {vertex} of a mesh is not finite"));
     }
-    if let Some(vertex) = tangents
-        .iter()
-        .position(|tangent| !tangent.iter().all(sound))
-    {
+    if let Some(vertex) = tangents.iter().position(|t| !t.iter().all(is_sound)) {
         return Some(format!(
             "tangent {vertex} of a mesh is not finite: {:?}",
             tangents.at(vertex)
         ));
     }
-    if let Some(vertex) = colors
-        .iter()
-        .position(|color| !color.iter().all(|c| (0.0..=LARGEST).contains(c)))
-    {
-        return Some(format!(
-            "colour {vertex} of a mesh is negative or not finite: {:?}",
-            colors.at(vertex)
-        ));
-    }
-    let count = positions.len();
+    let is_color = |color: [f64; 4]| color.iter().all(|c| (0.0..=LARGEST).contains(c));
+    let vertex = colors.iter().position(|color| !is_color(color))?;
+    Some(format!(
+        "colour {vertex} of a mesh is negative or not finite: {:?}",
+        colors.at(vertex)
+    ))
+}
+
+fn fault_of_lengths(mesh: &ir::Mesh) -> Option<String> {
+    let count = mesh.positions.len();
     let matches = |length: usize| length == 0 || length == count;
-    if !matches(normals.len()) || !matches(uvs.len()) {
+    let (normals, uvs) = (mesh.normals.len(), mesh.uvs.len());
+    if !matches(normals) || !matches(uvs) {
         return Some(format!(
-            "a mesh has {count} positions, {} normals and {} uvs",
-            normals.len(),
-            uvs.len()
+            "a mesh has {count} positions, {normals} normals and {uvs} uvs"
         ));
     }
-    if !matches(second_uvs.len()) || !matches(tangents.len()) || !matches(colors.len()) {
-        let (uvs, tangents, colors) = (second_uvs.len(), tangents.len(), colors.len());
-        return Some(format!(
-            "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} colours"
-        ));
-    }
-    let lost = triangles
-        .iter()
-        .position(|t| t.iter().any(|k| *k as usize >= count));
-    lost.map(|t| {
+    let (uvs, tangents) = (mesh.second_uvs.len(), mesh.tangents.len());
+    let colors = mesh.colors.len();
+    let is_sound = matches(uvs) && matches(tangents) && matches(colors);
+    (!is_sound).then(|| {
         format!(
-            "triangle {t} of a mesh refers to {:?}, and there are {count} vertices",
-            triangles[t]
+            "a mesh has {count} positions, {uvs} second uvs, {tangents} tangents and {colors} colours"
         )
     })
+}
+
+fn fault_of_triangles(triangles: &[[u32; 3]], count: usize) -> Option<String> {
+    let is_lost = |triangle: &[u32; 3]| triangle.iter().any(|k| *k as usize >= count);
+    let lost = triangles.iter().position(is_lost)?;
+    Some(format!(
+        "triangle {lost} of a mesh refers to {:?}, and there are {count} vertices",
+        triangles[lost]
+    ))
 }

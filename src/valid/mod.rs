@@ -1,4 +1,4 @@
-//! The proof: [`validate`] alone makes a [`ValidScene`], and whoever holds one need not doubt a
+//! The proof: [`validate`] alone makes a [`Proof`], and whoever holds one need not doubt a
 //! number.
 //!
 //! Every check that can be stated on the IR lives here, so a hand-made IR file is refused as well
@@ -7,29 +7,31 @@
 
 mod camera;
 mod check;
+mod environment;
 mod image;
 mod light;
 mod material;
 mod mesh;
+mod phong;
 mod settings;
 mod shape;
 mod standard;
-mod surrounding;
+mod texture;
 
-pub use crate::ir::{
-    Alpha, Column, Filter, Map, Pixels, Projection, Sampled, Shared, Standard, Wrap,
-};
-pub use camera::{Camera, Lens};
+pub use camera::{Camera, Lens, Projection};
 pub use check::LARGEST;
-pub use image::{Image, Texel, Texture};
-pub use light::{Emitter, Falloff, Light, Punctual};
-pub use material::{Bump, Maps, Phong};
+pub use environment::Environment;
+pub use image::Image;
+pub use light::{CourseLight, Falloff, Light, PointLight, Punctual, SpotLight, SunLight};
+pub use material::Material;
 pub use mesh::Mesh;
+pub use phong::{Bump, Maps, Phong};
 pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };
-pub use surrounding::Environment;
+pub use standard::{Alpha, Standard};
+pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 
 use crate::diag::Sink;
 use crate::ir::{self, Origins};
@@ -47,21 +49,19 @@ pub struct Options {
 /// A proven scene: handles in range, numbers finite and in range, bases at right angles, triangles
 /// with an area.
 #[derive(Clone, Debug)]
-pub struct ValidScene {
+pub struct Proof {
     camera: Camera,
     settings: Settings,
     lights: Vec<Light>,
-    punctual: Vec<Punctual>,
-    environment: Option<Environment>,
+    environment: Environment,
     images: Vec<Image>,
     textures: Vec<Texture>,
     meshes: Vec<Arc<Mesh>>,
-    materials: Vec<Phong>,
-    standards: Vec<Standard>,
+    materials: Vec<Material>,
     surfaces: Vec<Surface>,
 }
 
-impl ValidScene {
+impl Proof {
     /// The camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
@@ -74,22 +74,16 @@ impl ValidScene {
         &self.settings
     }
 
-    /// The lights of the course.
+    /// The lights, of any kind, in the order of the scene.
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
 
-    /// The lights in physical units; those of the course among them if paths are traced.
-    #[must_use]
-    pub fn punctual(&self) -> &[Punctual] {
-        &self.punctual
-    }
-
     /// What surrounds the scene.
     #[must_use]
-    pub fn environment(&self) -> Option<&Environment> {
-        self.environment.as_ref()
+    pub fn environment(&self) -> &Environment {
+        &self.environment
     }
 
     /// The images.
@@ -110,16 +104,10 @@ impl ValidScene {
         &self.meshes
     }
 
-    /// The materials, as the integrator of the course sees them.
+    /// The materials, of any family.
     #[must_use]
-    pub fn materials(&self) -> &[Phong] {
+    pub fn materials(&self) -> &[Material] {
         &self.materials
-    }
-
-    /// The materials as the path integrator sees them; empty if no paths are traced.
-    #[must_use]
-    pub fn standards(&self) -> &[Standard] {
-        &self.standards
     }
 
     /// The surfaces, without triangles that have no area.
@@ -129,7 +117,7 @@ impl ValidScene {
     }
 }
 
-impl ValidScene {
+impl Proof {
     /// The same scene with another camera, of a picture of the same size; `None` if that is no
     /// sound one.
     #[must_use]
@@ -154,7 +142,7 @@ pub fn validate(
     origins: &Origins,
     options: &Options,
     sink: &mut Sink,
-) -> Option<ValidScene> {
+) -> Option<Proof> {
     let ir::Scene {
         camera,
         settings,
@@ -167,15 +155,15 @@ pub fn validate(
         names: _,
         environment,
     } = scene;
-    let traces_paths = matches!(settings.mode, ir::Mode::Path(_));
     let mut check = Check::new(origins, sink);
     let valid_camera = camera::camera(camera, &mut check);
     let valid_settings = settings::settings(settings, &mut check);
     let valid_lights = check.all(lights, light::light);
-    let valid_environment = surrounding::environment(environment.as_ref(), images, &mut check);
+    let valid_environment =
+        environment::environment(environment.as_ref(), images.len(), &mut check);
     let valid_images = check.all(images, image::image);
     let valid_textures = check.all(textures, |texture, index, check| {
-        image::texture(texture, index, images.len(), check)
+        texture::texture(texture, index, images.len(), check)
     });
     let valid_meshes = check.all(meshes, mesh::mesh);
     let counts = Counts {
@@ -186,25 +174,19 @@ pub fn validate(
     let valid_materials = check.all(materials, |material, index, check| {
         material::material(material, index, &counts, check)
     });
-    let valid_standards = check.all(
-        if traces_paths { materials } else { &[] },
-        |material, index, check| material::standard(material, index, &counts, check),
-    );
     let valid_surfaces = check.all(surfaces, |surface, index, check| {
         shape::surface(surface, index, &counts, check)
     });
     settings::budget(scene, options, &mut check);
-    let valid = ValidScene {
+    let valid = Proof {
         camera: valid_camera?,
         settings: valid_settings?,
-        punctual: light::punctual(valid_lights.as_deref()?, traces_paths),
-        lights: light::of_the_course(&valid_lights?),
+        lights: valid_lights?,
         environment: valid_environment?,
         images: valid_images?,
         textures: valid_textures?,
         meshes: valid_meshes?.into_iter().map(Arc::new).collect(),
         materials: valid_materials?,
-        standards: valid_standards?,
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
     light::lights_inside_spheres(scene, &mut check);

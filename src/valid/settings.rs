@@ -8,8 +8,6 @@ use crate::ir::{self, Field, Noun, Place};
 use crate::source::Resource;
 use std::num::NonZeroU32;
 
-pub use crate::ir::Pattern;
-
 /// The largest number of bounces: a path keeps a few bytes for each.
 const MAX_DEPTH: u32 = 1_000_000;
 
@@ -28,6 +26,17 @@ pub struct Settings {
     pub pattern: Pattern,
     /// Points of each soft light.
     pub light_samples: NonZeroU32,
+}
+
+/// Where in its cell of the pixel each sub-sample lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pattern {
+    /// In the middle.
+    Grid,
+    /// Anywhere in its cell, seeded by pixel and sample.
+    Jitter,
+    /// Anywhere in the pixel, seeded by pixel and sample.
+    Random,
 }
 
 /// What a pixel shows.
@@ -88,24 +97,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         pattern,
         light_samples,
     } = settings;
-    let mode = match mode {
-        ir::Mode::Phong => Some(Mode::Phong),
-        ir::Mode::Zbuffer => Some(Mode::Zbuffer),
-        ir::Mode::Normal => Some(Mode::Normal),
-        ir::Mode::Gooch(parameters) => gooch(parameters, check),
-        ir::Mode::Path(ir::Path {
-            samples,
-            multiple_scattering,
-        }) => {
-            let samples = check.count(*samples, "samples", at(Field::Mode));
-            samples.map(|samples| {
-                Mode::Path(Path {
-                    samples,
-                    multiple_scattering: *multiple_scattering,
-                })
-            })
-        }
-    };
+    let mode = proven_mode(mode, check);
     let supersampling = check.count(
         *supersampling,
         "supersampling factor",
@@ -129,9 +121,32 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         shadows: *shadows,
         max_depth: *max_depth,
         supersampling: supersampling?,
-        pattern: *pattern,
+        pattern: match pattern {
+            ir::Pattern::Grid => Pattern::Grid,
+            ir::Pattern::Jitter => Pattern::Jitter,
+            ir::Pattern::Random => Pattern::Random,
+        },
         light_samples: light_samples?,
     })
+}
+
+fn proven_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
+    match mode {
+        ir::Mode::Phong => Some(Mode::Phong),
+        ir::Mode::Zbuffer => Some(Mode::Zbuffer),
+        ir::Mode::Normal => Some(Mode::Normal),
+        ir::Mode::Gooch(parameters) => gooch(parameters, check),
+        ir::Mode::Path(ir::Path {
+            samples,
+            multiple_scattering,
+        }) => {
+            let samples = check.count(*samples, "samples", at(Field::Mode))?;
+            Some(Mode::Path(Path {
+                samples,
+                multiple_scattering: *multiple_scattering,
+            }))
+        }
+    }
 }
 
 fn gooch(gooch: &ir::Gooch, check: &mut Check<'_>) -> Option<Mode> {
@@ -169,40 +184,18 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Ch
     too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
 }
 
-/// What a picture takes even if no ray goes on from what it meets.
+/// Refuses a picture that takes too many rays even if none goes on from what it meets.
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
-    let ir::Settings {
-        supersampling,
-        max_depth: _,
-        ref mode,
-        shadows: _,
-        pattern: _,
-        light_samples,
-    } = scene.settings;
-    let paths = if let ir::Mode::Path(path) = mode {
-        path.samples
-    } else {
-        1
-    };
-    let ir::Lens { radius, samples } = scene.camera.lens;
-    let lens = if radius == 0.0 { 1 } else { samples };
-    let is_soft = scene
-        .lights
-        .iter()
-        .filter_map(ir::Light::point)
-        .any(|light| light.radius > 0.0);
-    let points = if is_soft && matches!(mode, ir::Mode::Phong) {
-        light_samples
-    } else {
-        1
-    };
     let [width, height] = scene.camera.size;
+    let supersampling = scene.settings.supersampling;
+    let cells = u128::from(supersampling) * u128::from(supersampling);
+    let samples = Samples::of(scene);
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
-    let mut rays = pixels.saturating_mul(u128::from(supersampling) * u128::from(supersampling));
+    let mut rays = pixels.saturating_mul(cells);
     for (count, noun) in [
-        (paths, "paths"),
-        (lens, "aperture samples"),
-        (points, "light samples"),
+        (samples.paths, "paths"),
+        (samples.lens, "aperture samples"),
+        (samples.light, "light samples"),
     ] {
         rays = rays.saturating_mul(count.into());
         if count > 1 {
@@ -224,14 +217,49 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     let finding = finding.hint(format!(
         "at most {limit} rays; `--limit rays=…` sets another limit"
     ));
-    let many_points = u128::from(points) > u128::from(supersampling) * u128::from(supersampling);
-    check.report(
-        at(if many_points {
-            Field::LightSamples
-        } else {
-            Field::Supersampling
-        }),
-        "",
-        finding,
-    );
+    let culprit = if u128::from(samples.light) > cells {
+        Field::LightSamples
+    } else {
+        Field::Supersampling
+    };
+    check.report(at(culprit), "", finding);
+}
+
+/// How many rays a sub-sample takes, by what they are for.
+struct Samples {
+    paths: u32,
+    lens: u32,
+    light: u32,
+}
+
+impl Samples {
+    fn of(scene: &ir::Scene) -> Self {
+        let ir::Settings {
+            supersampling: _,
+            max_depth: _,
+            ref mode,
+            shadows: _,
+            pattern: _,
+            light_samples,
+        } = scene.settings;
+        let ir::Lens { radius, samples } = scene.camera.lens;
+        let is_soft = scene
+            .lights
+            .iter()
+            .filter_map(ir::Light::point)
+            .any(|light| light.radius > 0.0);
+        Self {
+            paths: if let ir::Mode::Path(path) = mode {
+                path.samples
+            } else {
+                1
+            },
+            lens: if radius == 0.0 { 1 } else { samples },
+            light: if is_soft && matches!(mode, ir::Mode::Phong) {
+                light_samples
+            } else {
+                1
+            },
+        }
+    }
 }

@@ -1,164 +1,280 @@
 //! The proof of the material of glTF: every factor within the range its specification gives.
 
 use super::check::{Check, Counts, LARGEST, place};
+use super::texture::{self, Map};
 use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Alpha, Field, Map, Noun, Place, Standard};
+use crate::ir::{self, Field, Noun, Place};
+use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
 
-/// The proven material: the numbers as they are, each in its range, and maps that exist.
-pub(super) fn standard(
-    material: &Standard,
-    index: usize,
-    counts: &Counts,
-    check: &mut Check<'_>,
-) -> Option<Standard> {
-    let at = place(Noun::Material, index, Field::Whole);
-    let factors = factors(material)
-        .into_iter()
-        .map(|(name, value, range)| in_range(value, name, range, at, check));
-    let sound = factors.fold(true, |sound, factor| sound & factor);
-    let maps = material.maps().map(|map| known(map, counts, at, check));
-    maps.fold(sound, |sound, map| sound & map)
-        .then(|| material.clone())
+/// The material and its proof, from a table of its parameters: what each is once it is proven, by
+/// which check, under which name in findings.
+macro_rules! parameters {
+    ($($(#[$about:meta])* $field:ident: $type:ty = $check:ident($name:literal);)*) => {
+        /// The material of glTF, proven: the factors of its specification, by whose names they go,
+        /// each in its range, and the maps that multiply them.
+        #[derive(Clone, Debug, PartialEq)]
+        #[expect(
+            missing_docs,
+            reason = "each is named and described in the specification of glTF"
+        )]
+        pub struct Standard {
+            $($(#[$about])* pub $field: $type,)*
+        }
+
+        pub(super) fn standard(
+            material: &ir::Standard,
+            index: usize,
+            counts: &Counts,
+            check: &mut Check<'_>,
+        ) -> Option<Standard> {
+            let ir::Standard { name: _, $($field,)* } = material;
+            let at = place(Noun::Material, index, Field::Whole);
+            let mut parameters = Parameters { at, counts, check };
+            $(let $field = parameters.$check($field, $name);)*
+            Some(Standard { $($field: $field?,)* })
+        }
+    };
 }
 
+parameters! {
+    base_color: [UnitInterval; 4] = shares("baseColor");
+    base_color_map: Option<Map> = map("baseColorMap");
+    metallic: UnitInterval = share("metallic");
+    roughness: UnitInterval = share("roughness");
+    metallic_roughness_map: Option<Map> = map("metallicRoughnessMap");
+    /// The reflectance at normal incidence and the glossiness (rgb, a), in place of metallic,
+    /// roughness and ior.
+    specular_glossiness: Option<[UnitInterval; 4]> = some_shares("specularGlossiness");
+    specular_glossiness_map: Option<Map> = map("specularGlossinessMap");
+    /// The radiance, strength included.
+    emissive: Vec3 = color("emissive");
+    emissive_map: Option<Map> = map("emissiveMap");
+    normal_map: Option<Map> = map("normalMap");
+    normal_scale: f64 = number("normalScale");
+    alpha: Alpha = alpha("alpha");
+    /// Whether the camera sees the back where paths are traced.
+    double_sided: bool = flag("doubleSided");
+    unlit: bool = flag("unlit");
+    /// At least 1, or 0 for an infinite one.
+    ior: NonNegative = ior("ior");
+    dispersion: NonNegative = non_negative("dispersion");
+    specular: UnitInterval = share("specular");
+    specular_map: Option<Map> = map("specularMap");
+    specular_color: Vec3 = color("specularColor");
+    specular_color_map: Option<Map> = map("specularColorMap");
+    transmission: UnitInterval = share("transmission");
+    transmission_map: Option<Map> = map("transmissionMap");
+    /// Above 0 the surface bounds a volume.
+    thickness: NonNegative = non_negative("thickness");
+    thickness_map: Option<Map> = map("thicknessMap");
+    /// None for infinite.
+    attenuation_distance: Option<Positive> = distance("attenuationDistance");
+    attenuation_color: Vec3 = share_color("attenuationColor");
+    clearcoat: UnitInterval = share("clearcoat");
+    clearcoat_map: Option<Map> = map("clearcoatMap");
+    clearcoat_roughness: UnitInterval = share("clearcoatRoughness");
+    clearcoat_roughness_map: Option<Map> = map("clearcoatRoughnessMap");
+    clearcoat_normal_map: Option<Map> = map("clearcoatNormalMap");
+    clearcoat_normal_scale: f64 = number("clearcoatNormalScale");
+    sheen_color: Vec3 = share_color("sheenColor");
+    sheen_color_map: Option<Map> = map("sheenColorMap");
+    sheen_roughness: UnitInterval = share("sheenRoughness");
+    sheen_roughness_map: Option<Map> = map("sheenRoughnessMap");
+    anisotropy: UnitInterval = share("anisotropy");
+    /// In radians.
+    anisotropy_rotation: f64 = number("anisotropyRotation");
+    anisotropy_map: Option<Map> = map("anisotropyMap");
+    iridescence: UnitInterval = share("iridescence");
+    iridescence_map: Option<Map> = map("iridescenceMap");
+    /// At least 1.
+    iridescence_ior: Positive = index_of_refraction("iridescenceIor");
+    /// From the least to the greatest, in nanometres.
+    iridescence_thickness: [NonNegative; 2] = pair("iridescenceThickness");
+    iridescence_thickness_map: Option<Map> = map("iridescenceThicknessMap");
+}
+
+impl Standard {
+    /// Every map it has.
+    pub fn maps(&self) -> impl Iterator<Item = &Map> {
+        [
+            &self.base_color_map,
+            &self.metallic_roughness_map,
+            &self.specular_glossiness_map,
+            &self.emissive_map,
+            &self.normal_map,
+            &self.specular_map,
+            &self.specular_color_map,
+            &self.transmission_map,
+            &self.thickness_map,
+            &self.clearcoat_map,
+            &self.clearcoat_roughness_map,
+            &self.clearcoat_normal_map,
+            &self.sheen_color_map,
+            &self.sheen_roughness_map,
+            &self.anisotropy_map,
+            &self.iridescence_map,
+            &self.iridescence_thickness_map,
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
+    /// within.
+    #[must_use]
+    pub fn is_seen_from_one_side(&self) -> bool {
+        !self.double_sided && self.transmission == UnitInterval::ZERO
+    }
+}
+
+/// How a surface covers what is behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alpha {
+    /// All of it.
+    Opaque,
+    /// Where alpha is at least the number given.
+    Mask(NonNegative),
+    /// To the share alpha.
+    Blend,
+}
+
+/// From and to which number.
 type Range = [f64; 2];
 
-const UNIT: Range = [0.0, 1.0];
-const POSITIVE: Range = [0.0, LARGEST];
+const SHARE: Range = [0.0, 1.0];
+const AT_LEAST_0: Range = [0.0, LARGEST];
+const AT_LEAST_1: Range = [1.0, LARGEST];
+const ABOVE_0: Range = [f64::MIN_POSITIVE, LARGEST];
 const ANY: Range = [-LARGEST, LARGEST];
 
-/// Each number with its name and range.
-fn factors(material: &Standard) -> Vec<(&'static str, f64, Range)> {
-    let m = material;
-    let colors = [
-        ("baseColor", &m.base_color[..], UNIT),
-        ("emissive", &m.emissive, POSITIVE),
-        ("specularColor", &m.specular_color, POSITIVE),
-        ("attenuationColor", &m.attenuation_color, UNIT),
-        ("sheenColor", &m.sheen_color, UNIT),
-        ("iridescenceThickness", &m.iridescence_thickness, POSITIVE),
-        (
-            "specularGlossiness",
-            m.specular_glossiness
-                .as_ref()
-                .map_or(&[][..], |factors| factors),
-            UNIT,
-        ),
-    ];
-    let colors = colors
-        .into_iter()
-        .flat_map(|(name, values, range)| values.iter().map(move |v| (name, *v, range)));
-    let cutoff = if let Alpha::Mask(cutoff) = m.alpha {
-        cutoff
-    } else {
-        0.0
-    };
-    let numbers = [
-        ("metallic", m.metallic, UNIT),
-        ("roughness", m.roughness, UNIT),
-        ("normalScale", m.normal_scale, ANY),
-        ("alpha", cutoff, POSITIVE),
-        (
-            "ior",
-            if m.ior == 0.0 { 1.0 } else { m.ior },
-            [1.0, LARGEST],
-        ),
-        ("dispersion", m.dispersion, POSITIVE),
-        ("specular", m.specular, UNIT),
-        ("transmission", m.transmission, UNIT),
-        ("thickness", m.thickness, POSITIVE),
-        (
-            "attenuationDistance",
-            m.attenuation_distance.unwrap_or(1.0),
-            [f64::MIN_POSITIVE, LARGEST],
-        ),
-        ("clearcoat", m.clearcoat, UNIT),
-        ("clearcoatRoughness", m.clearcoat_roughness, UNIT),
-        ("clearcoatNormalScale", m.clearcoat_normal_scale, ANY),
-        ("sheenRoughness", m.sheen_roughness, UNIT),
-        ("anisotropy", m.anisotropy, UNIT),
-        ("anisotropyRotation", m.anisotropy_rotation, ANY),
-        ("iridescence", m.iridescence, UNIT),
-        ("iridescenceIor", m.iridescence_ior, [1.0, LARGEST]),
-    ];
-    colors.chain(numbers).collect()
+/// The checks of the parameters of one material.
+struct Parameters<'a, 'run> {
+    at: Place,
+    counts: &'a Counts,
+    check: &'a mut Check<'run>,
 }
 
-fn in_range(value: f64, name: &str, [low, high]: Range, at: Place, check: &mut Check<'_>) -> bool {
-    let sound = low <= value && value <= high;
-    if !sound {
-        let message =
-            format!("`{name}` of a material is `{value}`, and must be from {low} to {high}");
-        check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "each row of the table hands over a reference"
+)]
+#[expect(
+    clippy::option_option,
+    reason = "an error and an absence are two things"
+)]
+impl Parameters<'_, '_> {
+    /// A number in a range, ends included.
+    fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
+        let is_sound = low <= value && value <= high;
+        if !is_sound {
+            let message =
+                format!("`{name}` of a material is `{value}`, and must be from {low} to {high}");
+            let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
+            self.check.report(self.at, "", finding);
+        }
+        is_sound.then_some(value)
     }
-    sound
-}
 
-fn known(map: &Map, counts: &Counts, at: Place, check: &mut Check<'_>) -> bool {
-    let Map {
-        texture,
-        set,
-        texture_from_surface,
-    } = map;
-    let exists = check
-        .handle(texture.0, counts.textures, "texture", at)
-        .is_some();
-    let has_set = *set < 2;
-    if !has_set {
-        let message =
-            format!("a map uses set {set} of texture coordinates, and there are two, from 0");
-        check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
+    /// Several of them; all faults are reported.
+    fn all_within<const N: usize>(
+        &mut self,
+        values: &[f64; N],
+        name: &str,
+        range: Range,
+    ) -> Option<[f64; N]> {
+        let is_sound = values.iter().fold(true, |is_sound, value| {
+            is_sound & self.within(*value, name, range).is_some()
+        });
+        is_sound.then_some(*values)
     }
-    let rows = texture_from_surface.iter().flatten().flatten();
-    let finite = rows.fold(true, |sound, number| {
-        sound & check.number(*number, at).is_some()
-    });
-    exists && has_set && finite
-}
 
-/// What the integrator of the course makes of it: the colour without the light.
-pub(super) fn as_phong(material: &Standard) -> ir::Phong {
-    let [r, g, b, _] = material.base_color;
-    ir::Phong {
-        color: [r, g, b],
-        kd: 1.0 - material.metallic,
-        ks: material.metallic,
-        n: 1.0 / (material.roughness * material.roughness).max(1e-4),
-        ..ir::Phong::MATT
+    fn number(&mut self, value: &f64, name: &str) -> Option<f64> {
+        self.within(*value, name, ANY)
     }
-}
 
-/// The material of the course in physical terms: its diffuse part is Lambert's, and a mirror is a
-/// smooth metal.
-pub(super) fn from_phong(phong: &ir::Phong) -> Standard {
-    let share = |weight: f64| weight.clamp(0.0, 1.0);
-    let (kd, ks, kt) = (share(phong.kd), share(phong.ks), share(phong.kt));
-    let [r, g, b] = phong
-        .color
-        .map(|channel| share(channel) * if ks > kd { 1.0 } else { kd });
-    let is_mirror = ks > 0.0 && kd == 0.0 && kt == 0.0;
-    Standard {
-        base_color: if is_mirror {
-            [ks, ks, ks, 1.0]
+    fn share(&mut self, value: &f64, name: &str) -> Option<UnitInterval> {
+        self.within(*value, name, SHARE).and_then(UnitInterval::new)
+    }
+
+    fn non_negative(&mut self, value: &f64, name: &str) -> Option<NonNegative> {
+        self.within(*value, name, AT_LEAST_0)
+            .and_then(NonNegative::new)
+    }
+
+    fn index_of_refraction(&mut self, value: &f64, name: &str) -> Option<Positive> {
+        self.within(*value, name, AT_LEAST_1)
+            .and_then(Positive::new)
+    }
+
+    fn ior(&mut self, value: &f64, name: &str) -> Option<NonNegative> {
+        if *value == 0.0 {
+            Some(NonNegative::ZERO)
         } else {
-            [r, g, b, 1.0]
-        },
-        base_color_map: phong.color_map.map(|texture| Map {
-            texture,
-            set: 0,
-            texture_from_surface: None,
-        }),
-        metallic: if is_mirror { 1.0 } else { 0.0 },
-        roughness: if is_mirror || kt > 0.0 {
-            0.0
-        } else {
-            (2.0 / (phong.n + 2.0)).sqrt().sqrt()
-        },
-        specular: if ks > 0.0 || kt > 0.0 { 1.0 } else { 0.0 },
-        transmission: kt,
-        thickness: if kt > 0.0 { 1.0 } else { 0.0 },
-        ior: phong.eta.max(1.0),
-        double_sided: true,
-        ..Standard::default()
+            self.index_of_refraction(value, name).map(NonNegative::from)
+        }
+    }
+
+    fn distance(&mut self, value: &Option<f64>, name: &str) -> Option<Option<Positive>> {
+        match value {
+            Some(value) => self
+                .within(*value, name, ABOVE_0)
+                .and_then(Positive::new)
+                .map(Some),
+            None => Some(None),
+        }
+    }
+
+    fn shares(&mut self, values: &[f64; 4], name: &str) -> Option<[UnitInterval; 4]> {
+        self.all_within(values, name, SHARE)
+            .map(|values| values.map(UnitInterval::saturating))
+    }
+
+    fn some_shares(
+        &mut self,
+        values: &Option<[f64; 4]>,
+        name: &str,
+    ) -> Option<Option<[UnitInterval; 4]>> {
+        match values {
+            Some(values) => self.shares(values, name).map(Some),
+            None => Some(None),
+        }
+    }
+
+    fn pair(&mut self, values: &[f64; 2], name: &str) -> Option<[NonNegative; 2]> {
+        self.all_within(values, name, AT_LEAST_0)
+            .map(|values| values.map(NonNegative::saturating))
+    }
+
+    fn color(&mut self, values: &[f64; 3], name: &str) -> Option<Vec3> {
+        self.all_within(values, name, AT_LEAST_0)
+            .map(Vec3::from_array)
+    }
+
+    fn share_color(&mut self, values: &[f64; 3], name: &str) -> Option<Vec3> {
+        self.all_within(values, name, SHARE).map(Vec3::from_array)
+    }
+
+    fn alpha(&mut self, alpha: &ir::Alpha, name: &str) -> Option<Alpha> {
+        match alpha {
+            ir::Alpha::Opaque => Some(Alpha::Opaque),
+            ir::Alpha::Mask(cutoff) => self.non_negative(cutoff, name).map(Alpha::Mask),
+            ir::Alpha::Blend => Some(Alpha::Blend),
+        }
+    }
+
+    #[expect(
+        clippy::unused_self,
+        clippy::unnecessary_wraps,
+        reason = "a row of the table like the others; either value is sound"
+    )]
+    fn flag(&self, value: &bool, _name: &str) -> Option<bool> {
+        Some(*value)
+    }
+
+    fn map(&mut self, map: &Option<ir::Map>, _name: &str) -> Option<Option<Map>> {
+        let (counts, at) = (self.counts, self.at);
+        self.check.optional(map.as_ref(), |check, map| {
+            texture::map(map, counts, at, check)
+        })
     }
 }

@@ -5,7 +5,7 @@ use rtc::diag::Sink;
 use rtc::ir;
 use rtc::plan::{Plan, Rules};
 use rtc::render::World;
-use rtc::valid::{self, ValidScene};
+use rtc::valid::{self, Proof};
 use serde_json::Value;
 
 /// A white Phong material that is lit, shines and mirrors.
@@ -52,12 +52,12 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
 }
 
 /// The proof of a scene; what the proof says otherwise is the panic's message.
-pub(crate) fn proven(scene: &ir::Scene) -> ValidScene {
+pub(crate) fn proven(scene: &ir::Scene) -> Proof {
     check(scene).unwrap_or_else(|codes| panic!("refused: {codes:?}"))
 }
 
 /// The proof, or the codes of the errors.
-pub(crate) fn check(scene: &ir::Scene) -> Result<ValidScene, Vec<&'static str>> {
+pub(crate) fn check(scene: &ir::Scene) -> Result<Proof, Vec<&'static str>> {
     let mut sink = Sink::default();
     let proof = valid::validate(
         scene,

@@ -20,7 +20,7 @@ use rtc::ir::{
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Basic, Behind, Film, Job, Seeds, Strategy, Stride, Values, World};
-use rtc::valid::{self, ValidScene};
+use rtc::valid::{self, Proof};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
 /// the origin.
@@ -127,7 +127,7 @@ fn sky(radiance: f64) -> Option<Environment> {
     })
 }
 
-fn prove(scene: &Scene) -> ValidScene {
+fn prove(scene: &Scene) -> Proof {
     let mut sink = Sink::default();
     let proof = valid::validate(
         scene,

@@ -32,7 +32,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Effect, Plan, Rule, Rules, State, Verdict};
 use rtc::render::{Film, Job, Values};
 use rtc::source::{Loader, SourceMap};
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -103,7 +103,7 @@ fn small(mut scene: Scene) -> Scene {
     scene
 }
 
-fn proven(scene: &Scene) -> ValidScene {
+fn proven(scene: &Scene) -> Proof {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: scene.clone(),
@@ -112,7 +112,7 @@ fn proven(scene: &Scene) -> ValidScene {
     pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
 }
 
-fn film(scene: &ValidScene, rules: Rules, values: Values) -> Film {
+fn film(scene: &Proof, rules: Rules, values: Values) -> Film {
     let job = Job {
         values,
         ..Job::default()

@@ -14,7 +14,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Values, render};
 use rtc::source::SourceMap;
-use rtc::valid::ValidScene;
+use rtc::valid::Proof;
 use std::path::Path;
 
 /// A scene of the course, by its text; assets are those of the repo.
@@ -28,7 +28,7 @@ fn scene(text: &str) -> Scene {
     lowered.unwrap().scene
 }
 
-fn proven(scene: &Scene) -> ValidScene {
+fn proven(scene: &Scene) -> Proof {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: scene.clone(),

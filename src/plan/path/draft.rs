@@ -5,16 +5,19 @@ use super::facts::{Presence, Uses};
 use super::rules::PathRule;
 use super::texture::is_even;
 use crate::ir::Place;
+use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, Path, Shape, Standard, ValidScene};
+use crate::valid::{Alpha, Map, Mesh, Path, Proof, Punctual, Shape, Standard};
 
 /// What is left of a scene.
 #[derive(Clone)]
 pub(super) struct Draft<'scene> {
-    pub(super) scene: &'scene ValidScene,
+    pub(super) scene: &'scene Proof,
     pub(super) path: Path,
+    /// The lights without extent.
+    pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.
     pub(super) uses: &'scene [Uses],
     /// Per surface, where it is.
@@ -175,7 +178,8 @@ impl Draft<'_> {
                 .flatten()
                 .any(|normal| std::ptr::eq(normal, map))
         };
-        let is_looked_up = |index: usize, map: &Map| !self.is_folded(index, map);
+        // A normal map of one value still bends the normals.
+        let is_looked_up = |index: usize, map: &Map| of_normals || !self.is_folded(index, map);
         self.used().any(|(index, material)| {
             let mut maps = material.maps();
             maps.any(|map| is_of_normals(material, map) == of_normals && is_looked_up(index, map))
@@ -184,13 +188,13 @@ impl Draft<'_> {
 
     /// Whether a map of a material is a value, known when the world is made.
     pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set as usize] == Presence::Everywhere;
-        has_places && self.folded[map.texture.0 as usize]
+        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
+        has_places && self.folded[map.texture]
     }
 
     /// Whether a map could be folded.
     pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set as usize] == Presence::Everywhere;
+        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
         has_places && is_even(map, self.scene)
     }
 
@@ -214,10 +218,7 @@ impl Draft<'_> {
     /// Whether there is a light that aiming and scattering both find: an image of the surroundings,
     /// or triangles that shine.
     fn has_extended_light(&self) -> bool {
-        let has_image = self
-            .scene
-            .environment()
-            .is_some_and(|around| around.image.is_some());
+        let has_image = self.scene.environment().image.is_some();
         (self.environment && has_image) || self.shines_somewhere()
     }
 
@@ -225,7 +226,7 @@ impl Draft<'_> {
     fn shines_somewhere(&self) -> bool {
         let shines = |material: usize| {
             let material = &self.materials[material];
-            !material.unlit && material.emissive != [0.0; 3]
+            !material.unlit && material.emissive != Vec3::ZERO
         };
         let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
         let mut left = surfaces
@@ -240,24 +241,25 @@ impl Draft<'_> {
 
 /// Whether a material asks for an effect; of effects that are not of a material, no.
 pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
+    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
     match effect {
-        Effect::Emission => !m.unlit && m.emissive != [0.0; 3],
+        Effect::Emission => !m.unlit && m.emissive != Vec3::ZERO,
         Effect::Unlit => m.unlit,
         Effect::Alpha => m.alpha != Alpha::Opaque,
         Effect::Microfacets => {
-            let is_dielectric = m.specular > 0.0 || m.specular_glossiness.is_some();
-            is_dielectric || m.metallic > 0.0 || m.iridescence > 0.0 || m.transmission > 0.0
+            let is_dielectric = weighs(m.specular) || m.specular_glossiness.is_some();
+            is_dielectric || weighs(m.metallic) || weighs(m.iridescence) || weighs(m.transmission)
         }
-        Effect::Refraction => m.transmission > 0.0,
+        Effect::Refraction => weighs(m.transmission),
         Effect::Volume => {
-            let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != [1.0; 3];
-            m.transmission > 0.0 && m.thickness > 0.0 && absorbs
+            let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != Vec3::ONE;
+            weighs(m.transmission) && m.thickness.get() > 0.0 && absorbs
         }
-        Effect::Dispersion => m.dispersion > 0.0 && m.transmission > 0.0,
-        Effect::Clearcoat => m.clearcoat > 0.0,
-        Effect::Sheen => m.sheen_color != [0.0; 3],
-        Effect::Anisotropy => m.anisotropy > 0.0,
-        Effect::Iridescence => m.iridescence > 0.0,
+        Effect::Dispersion => m.dispersion.get() > 0.0 && weighs(m.transmission),
+        Effect::Clearcoat => weighs(m.clearcoat),
+        Effect::Sheen => m.sheen_color != Vec3::ZERO,
+        Effect::Anisotropy => weighs(m.anisotropy),
+        Effect::Iridescence => weighs(m.iridescence),
         Effect::DepthBuffer
         | Effect::NormalBuffer
         | Effect::Surfaces

@@ -2,7 +2,8 @@
 //! their textures they lie, and what those textures show there.
 
 use super::texture::{Area, show};
-use crate::valid::{Map, Shape, Standard, ValidScene};
+use crate::math::{UnitInterval, Vec3};
+use crate::valid::{Map, Proof, Shape, Standard};
 
 /// What the surfaces of one material have in common.
 #[derive(Clone, Debug)]
@@ -39,21 +40,21 @@ impl Presence {
 
 impl Uses {
     /// The uses of each material of a scene.
-    pub(super) fn of(scene: &ValidScene) -> Vec<Self> {
+    pub(super) fn of(scene: &Proof) -> Vec<Self> {
         let unused = Self {
             surfaces: Vec::new(),
             sets: [Presence::Never; 2],
             areas: [Area::NONE; 2],
             least_alpha: 1.0,
         };
-        let mut uses = vec![unused; scene.standards().len()];
+        let mut uses = vec![unused; scene.materials().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
             uses[surface.material].add(index, &surface.shape, scene);
         }
         uses
     }
 
-    fn add(&mut self, surface: usize, shape: &Shape, scene: &ValidScene) {
+    fn add(&mut self, surface: usize, shape: &Shape, scene: &Proof) {
         let is_first = self.surfaces.is_empty();
         let areas = areas(shape, scene);
         for set in 0..2 {
@@ -62,7 +63,7 @@ impl Uses {
         }
         if let Shape::Instance(instance) = shape {
             let colors = scene.meshes()[instance.mesh].colors.iter();
-            let alpha = colors.map(|[_, _, _, alpha]| f64::from(alpha));
+            let alpha = colors.map(|[_, _, _, alpha]| alpha);
             self.least_alpha = alpha.fold(self.least_alpha, f64::min);
         }
         self.surfaces.push(surface);
@@ -70,8 +71,8 @@ impl Uses {
 
     /// The least and the greatest that a map shows on these surfaces, channel by channel, each
     /// colour channel as it is stored.
-    pub(super) fn range(&self, map: &Map, scene: &ValidScene) -> [[f64; 2]; 4] {
-        let set = map.set as usize;
+    pub(super) fn range(&self, map: &Map, scene: &Proof) -> [[f64; 2]; 4] {
+        let set = map.set.index();
         let mut range = show(map, self.areas[set], scene);
         if self.sets[set] != Presence::Everywhere {
             // Without coordinates a map shows ones.
@@ -82,7 +83,7 @@ impl Uses {
 }
 
 /// Where the texture coordinates of a shape lie, of both sets.
-fn areas(shape: &Shape, scene: &ValidScene) -> [Option<Area>; 2] {
+fn areas(shape: &Shape, scene: &Proof) -> [Option<Area>; 2] {
     match shape {
         Shape::Sphere(_) | Shape::Quad(_) => [Some(Area::UNIT), None],
         Shape::Triangle(triangle) => {
@@ -95,7 +96,7 @@ fn areas(shape: &Shape, scene: &ValidScene) -> [Option<Area>; 2] {
         Shape::Instance(instance) => {
             let mesh = &scene.meshes()[instance.mesh];
             [&mesh.uvs, &mesh.second_uvs].map(|uvs| {
-                let places = uvs.iter().map(|uv| uv.map(f64::from));
+                let places = uvs.iter();
                 (!uvs.is_empty()).then(|| Area::of(places))
             })
         }
@@ -111,13 +112,14 @@ fn areas(shape: &Shape, scene: &ValidScene) -> [Option<Area>; 2] {
 /// smooth, and without a base below the boundary.
 ///
 /// Not where light that bounces between microfacets is added, which is never a single direction.
-pub(super) fn is_delta(material: &Standard, multiple_scattering: bool) -> bool {
-    let m = material;
-    let is_smooth = m.roughness == 0.0 && m.anisotropy == 0.0 && m.specular_glossiness.is_none();
-    let is_metal = m.metallic == 1.0 && m.metallic_roughness_map.is_none();
-    let is_glass = m.transmission == 1.0 && m.transmission_map.is_none();
-    let is_black = m.base_color[..3] == [0.0; 3];
-    let has_smooth_coat = m.clearcoat == 0.0 || m.clearcoat_roughness == 0.0;
+pub(super) fn is_delta(m: &Standard, multiple_scattering: bool) -> bool {
+    let is_0 = |number: UnitInterval| number == UnitInterval::ZERO;
+    let is_1 = |number: UnitInterval| number == UnitInterval::ONE;
+    let is_smooth = is_0(m.roughness) && is_0(m.anisotropy) && m.specular_glossiness.is_none();
+    let is_metal = is_1(m.metallic) && m.metallic_roughness_map.is_none();
+    let is_glass = is_1(m.transmission) && m.transmission_map.is_none();
+    let is_black = m.base_color[..3].iter().all(|channel| is_0(*channel));
+    let has_smooth_coat = is_0(m.clearcoat) || is_0(m.clearcoat_roughness);
     let has_base = !(is_metal || is_glass || is_black);
-    !multiple_scattering && is_smooth && !has_base && has_smooth_coat && m.sheen_color == [0.0; 3]
+    !multiple_scattering && is_smooth && !has_base && has_smooth_coat && m.sheen_color == Vec3::ZERO
 }

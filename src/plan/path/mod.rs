@@ -14,10 +14,12 @@ pub use draft::LightLeft;
 
 use super::body::bodies;
 use super::effect::{Effect, Verdict};
+use super::facts as facts_seen;
 use super::features::PathFeatures;
 use super::rules::Rules;
 use super::window::{Shown, Window};
-use crate::valid::{Map, Path, Projection, Standard, ValidScene};
+use crate::math::Vec3;
+use crate::valid::{Map, Path, Projection, Proof, Standard};
 use draft::{Applied, Draft};
 use facts::Uses;
 
@@ -27,7 +29,7 @@ pub struct PathPlan {
     /// Per material of the scene, what is left of it.
     pub materials: Vec<Standard>,
     /// Per material, the textures whose maps are values, by their index.
-    folded: Vec<Vec<u32>>,
+    folded: Vec<Vec<usize>>,
     /// Per light without extent.
     pub lights: Vec<LightLeft>,
     /// Whether anything arrives from where no surface stands.
@@ -43,7 +45,7 @@ impl PathPlan {
     /// the factor when the scene is prepared.
     #[must_use]
     pub fn is_folded(&self, material: usize, map: &Map) -> bool {
-        self.folded[material].contains(&map.texture.0)
+        self.folded[material].contains(&map.texture)
     }
 }
 
@@ -58,8 +60,9 @@ pub(super) struct Planned {
 }
 
 /// Plans the paths of a scene.
-pub(super) fn plan(scene: &ValidScene, path: Path, rules: Rules) -> Planned {
+pub(super) fn plan(scene: &Proof, path: Path, rules: Rules) -> Planned {
     let (uses, bodies) = (Uses::of(scene), bodies(scene));
+    let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
     let is_pinhole = camera.lens.radius.get() == 0.0;
     let shown: Vec<_> = match camera.projection {
@@ -75,10 +78,15 @@ pub(super) fn plan(scene: &ValidScene, path: Path, rules: Rules) -> Planned {
         uses: &uses,
         bodies: &bodies,
         shown: &shown,
-        materials: scene.standards().to_vec(),
+        punctual: &punctual,
+        materials: scene
+            .materials()
+            .iter()
+            .map(facts_seen::material::standard)
+            .collect(),
         folded: vec![false; scene.textures().len()],
-        lights: vec![LightLeft::All; scene.punctual().len()],
-        environment: scene.environment().is_some(),
+        lights: vec![LightLeft::All; punctual.len()],
+        environment: scene.environment().radiance != Vec3::ZERO,
         surfaces: vec![true; bodies.len()],
         max_depth: scene.settings().max_depth,
         last_ray: true,
@@ -90,7 +98,7 @@ pub(super) fn plan(scene: &ValidScene, path: Path, rules: Rules) -> Planned {
     let verdicts = verdicts::verdicts(&asked, &left, &applied);
     let folded = |(index, material): (usize, &Standard)| {
         let maps = material.maps().filter(|map| left.is_folded(index, map));
-        maps.map(|map| map.texture.0).collect()
+        maps.map(|map| map.texture).collect()
     };
     let plan = PathPlan {
         folded: left.materials.iter().enumerate().map(folded).collect(),

@@ -1,6 +1,7 @@
 //! What textures can show within a rectangle of texture coordinates.
 
-use crate::valid::{Image, Map, Texel, Texture, ValidScene, Wrap};
+use crate::image::Texel;
+use crate::valid::{Image, Map, Proof, Texture, Wrap};
 use std::ops::Range;
 
 /// A rectangle of texture coordinates, from the least to the greatest of each.
@@ -47,33 +48,30 @@ impl Area {
 
 /// The least and the greatest that a map shows on an area, channel by channel (red, green, blue,
 /// alpha), bytes in units of 255, colours as they are stored; what filtering blends lies between.
-pub(super) fn show(map: &Map, area: Area, scene: &ValidScene) -> [[f64; 2]; 4] {
-    let area = map
-        .texture_from_surface
-        .as_ref()
-        .map_or(area, |rows| area.mapped(rows));
-    match &scene.textures()[map.texture.0 as usize] {
+pub(super) fn show(map: &Map, area: Area, scene: &Proof) -> [[f64; 2]; 4] {
+    let area = area.mapped(&map.texture_from_surface);
+    match &scene.textures()[map.texture] {
         Texture::Uv => [[0.0, 1.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
         Texture::Image(image) => {
             let image = &scene.images()[*image];
-            extremes(image, 0..image.width, 0..image.height)
+            extremes(image, 0..image.width.get(), 0..image.height.get())
         }
         Texture::Sampled(sampled) => {
-            let image = &scene.images()[sampled.image.0 as usize];
+            let image = &scene.images()[sampled.image];
             let Area([us, vs]) = area;
-            let columns = texels(us, image.width, sampled.wrap[0]);
-            let rows = texels(vs, image.height, sampled.wrap[1]);
+            let columns = texels(us, image.width.get(), sampled.wrap[0]);
+            let rows = texels(vs, image.height.get(), sampled.wrap[1]);
             extremes(image, columns, rows)
         }
     }
 }
 
 /// Whether a map shows the same everywhere.
-pub(super) fn is_even(map: &Map, scene: &ValidScene) -> bool {
-    match &scene.textures()[map.texture.0 as usize] {
+pub(super) fn is_even(map: &Map, scene: &Proof) -> bool {
+    match &scene.textures()[map.texture] {
         Texture::Uv => false,
-        Texture::Image(image) => scene.images()[*image].is_even(),
-        Texture::Sampled(sampled) => scene.images()[sampled.image.0 as usize].is_even(),
+        Texture::Image(image) => scene.images()[*image].texels.are_even(),
+        Texture::Sampled(sampled) => scene.images()[sampled.image].texels.are_even(),
     }
 }
 
@@ -106,7 +104,9 @@ fn extremes(image: &Image, columns: Range<u32>, rows: Range<u32>) -> [[f64; 2]; 
     let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
     for row in rows {
         for column in columns.clone() {
-            let texel = image.texel(row as usize * image.width as usize + column as usize);
+            let texel = image
+                .texels
+                .at(row as usize * image.width.get() as usize + column as usize);
             for (channel, value) in range.iter_mut().zip(channels(texel)) {
                 *channel = [channel[0].min(value), channel[1].max(value)];
             }

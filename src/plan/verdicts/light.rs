@@ -44,7 +44,7 @@ fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, V
 
 fn direct(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::DirectLight;
-    let lights = findings.facts.scene.lights();
+    let lights = &findings.facts.sources;
     if lights.is_empty() {
         return Verdict::absent(effect, "the scene has no light", vec![]);
     }
@@ -169,8 +169,9 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
 fn soft(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::SoftLight;
     let (scene, samples) = (findings.facts.scene, settings(Field::LightSamples));
-    let Some(first) = scene
-        .lights()
+    let Some(first) = findings
+        .facts
+        .sources
         .iter()
         .position(|light| light.radius.get() > 0.0)
     else {
@@ -205,8 +206,7 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Highlight;
     let any_ks = findings
         .facts
-        .scene
-        .materials()
+        .materials
         .iter()
         .any(|material| material.ks.get() > 0.0);
     if !findings.is_shaded() {

@@ -22,7 +22,7 @@ fn no_bounce(
     asks: impl Fn(&Phong) -> bool,
 ) -> Option<Verdict> {
     let settings_of_scene = findings.facts.scene.settings();
-    let asked = findings.facts.scene.materials().iter().any(&asks);
+    let asked = findings.facts.materials.iter().any(&asks);
     if let Some(verdict) = findings.by_mode(effect, asked) {
         return Some(verdict);
     }
@@ -158,7 +158,7 @@ fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Ver
 
 fn glossy(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::GlossyReflection;
-    let materials = findings.facts.scene.materials();
+    let materials = &findings.facts.materials;
     if materials
         .iter()
         .all(|material| material.glossy_samples.get() == 1)
@@ -187,7 +187,7 @@ fn glossy(findings: &Findings<'_>) -> Verdict {
 
 fn refraction(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Refraction;
-    let materials = findings.facts.scene.materials();
+    let materials = &findings.facts.materials;
     if materials.iter().all(|material| material.kt.get() == 0.0) {
         return Verdict::absent(effect, "no material lets light through", vec![]).by(Rule::Opaque);
     }

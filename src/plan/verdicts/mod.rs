@@ -122,7 +122,7 @@ impl Findings<'_> {
     /// The materials of which no surface that is looked at shows something, each with such a
     /// surface.
     fn materials_without(&self, shows: impl Fn(&Look) -> bool) -> impl Iterator<Item = usize> {
-        let mut without = vec![None; self.facts.scene.materials().len()];
+        let mut without = vec![None; self.facts.materials.len()];
         for surface in self.reached() {
             let first =
                 without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));

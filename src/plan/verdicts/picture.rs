@@ -106,7 +106,7 @@ fn textures(findings: &Findings<'_>) -> Verdict {
             .as_deref()
             .is_some_and(|maps| maps.color.is_some() || maps.specular.is_some())
     };
-    let materials = findings.facts.scene.materials();
+    let materials = &findings.facts.materials;
     if !materials.iter().any(|material| has_map(&material)) {
         return Verdict::absent(effect, "no material has a texture", vec![]);
     }
@@ -185,7 +185,7 @@ fn mapping(findings: &Findings<'_>) -> Verdict {
             .as_deref()
             .is_some_and(|maps| maps.normal.is_some() || maps.bump.is_some())
     };
-    if !findings.facts.scene.materials().iter().any(maps) {
+    if !findings.facts.materials.iter().any(maps) {
         return Verdict::absent(
             effect,
             "no material has a normal map or a height field",

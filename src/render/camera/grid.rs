@@ -6,7 +6,7 @@ use crate::math::Vec3;
 use crate::render::film::Seeds;
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
-use crate::valid::{Camera, Mode, Pattern, ValidScene};
+use crate::valid::{Camera, Mode, Pattern, Proof};
 
 /// How the samples of a pixel are laid out.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +34,7 @@ impl Grid {
     };
 
     /// The layout of a scene. A buffer of depths asks the middle of each pixel.
-    pub(in crate::render) fn of(scene: &ValidScene) -> Self {
+    pub(in crate::render) fn of(scene: &Proof) -> Self {
         let settings = scene.settings();
         match settings.mode {
             Mode::Zbuffer => Self::MIDDLE,

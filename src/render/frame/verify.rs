@@ -9,7 +9,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
 use crate::render::world::any;
-use crate::valid::ValidScene;
+use crate::valid::Proof;
 use std::sync::{Mutex, PoisonError};
 
 /// Something that a plan left out and that shows.
@@ -63,7 +63,7 @@ impl Verify {
 /// # Errors
 /// If something that was left out adds something.
 pub fn verify(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     proceed: &Proceed<'_>,
@@ -88,7 +88,7 @@ pub fn verify(
 
 /// The film without rules, and what it shows of a plan.
 fn naively<S: Geometry>(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     proceed: &Proceed<'_>,
@@ -122,7 +122,7 @@ fn first_difference(planned: &Film, naive: &Film, job: &Job) -> Option<([u32; 2]
 /// The rule without which a pixel has the value it has without all rules; `None` if `proceed` said
 /// stop.
 fn blame(
-    scene: &ValidScene,
+    scene: &Proof,
     plan: &Plan,
     job: &Job,
     pixel: [u32; 2],

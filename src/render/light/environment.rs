@@ -4,14 +4,15 @@ use crate::math::{Vec3, acos, atan2, cos, sin};
 use crate::render::bsdf::direction_turned;
 use crate::render::sampler::discrete::Table;
 use crate::render::texture::sampled::{Content, sample};
-use crate::valid::{Filter, Image, ValidScene, Wrap};
+use crate::render::texture::{Filter, Image, Wrap};
 use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// The surroundings.
-pub(in crate::render) struct Environment<'world> {
+pub(in crate::render) struct Environment {
     radiance: Vec3,
     /// The image, and its pixels by what they send to the scene.
-    image: Option<(&'world Image, Table)>,
+    image: Option<(Arc<Image>, Table)>,
     image_from_world: [Vec3; 3],
 }
 
@@ -22,23 +23,22 @@ pub(in crate::render) struct Seen {
     pub(in crate::render) pdf: f64,
 }
 
-impl<'world> Environment<'world> {
-    /// Those of a scene; darkness if it has none.
-    pub(in crate::render) fn new(scene: &'world ValidScene) -> Self {
-        let Some(environment) = scene.environment() else {
-            let axes = [Vec3::X, Vec3::Y, Vec3::Z];
-            return Self {
-                radiance: Vec3::ZERO,
-                image: None,
-                image_from_world: axes,
-            };
-        };
-        let image = environment.image.map(|image| &scene.images()[image]);
-        let image = image.map(|image| (image, table(image)));
+impl Environment {
+    /// Surroundings with this radiance, times that of an image if there is one, which the rows of a
+    /// rotation turn.
+    pub(in crate::render) fn new(
+        radiance: Vec3,
+        image: Option<Arc<Image>>,
+        image_from_world: [Vec3; 3],
+    ) -> Self {
+        let image = image.map(|image| {
+            let table = table(&image);
+            (image, table)
+        });
         Self {
-            radiance: environment.radiance,
+            radiance,
             image,
-            image_from_world: environment.image_from_world,
+            image_from_world,
         }
     }
 

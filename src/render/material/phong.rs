@@ -1,68 +1,42 @@
-//! Materials as a world uses them: a map that shows one value gives way to the value, where the
-//! surface has uv to look it up by.
+//! Phong's model as a world holds it: each map leads straight to its image.
 
-use crate::plan::Plan;
-use crate::valid::{Maps, Phong, ValidScene};
+use crate::math::{NonNegative, Positive, Vec3};
+use crate::render::texture::Texture;
+use crate::render::texture::bilinear::Bump;
+use std::num::NonZeroU32;
 
-/// The materials of a scene, and after them those of surfaces whose maps gave way.
-pub(in crate::render) struct Materials<'plan> {
-    pub(in crate::render) all: Vec<Phong>,
-    plan: &'plan Plan,
-    /// Per material of the scene, the index of it with values for maps.
-    simple: Vec<Option<usize>>,
+/// A material, prepared.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct PhongMaterial {
+    /// The colour of the surface.
+    pub(in crate::render) color: Vec3,
+    /// The weight of the ambient term.
+    pub(in crate::render) ka: NonNegative,
+    /// The weight of the diffuse term.
+    pub(in crate::render) kd: NonNegative,
+    /// The weight of the highlight and of the mirror ray.
+    pub(in crate::render) ks: NonNegative,
+    /// The exponent of the highlight and of the glossy lobe.
+    pub(in crate::render) n: NonNegative,
+    /// The weight of the refracted ray.
+    pub(in crate::render) kt: NonNegative,
+    /// The index of refraction of the inside over that of the outside.
+    pub(in crate::render) eta: Positive,
+    /// Rays of the glossy lobe.
+    pub(in crate::render) glossy_samples: NonZeroU32,
+    /// What is looked up by uv, if anything is.
+    pub(in crate::render) maps: Option<Box<PhongMaps>>,
 }
 
-impl<'plan> Materials<'plan> {
-    pub(in crate::render) fn new(scene: &ValidScene, plan: &'plan Plan) -> Self {
-        Self {
-            all: scene.materials().to_vec(),
-            plan,
-            simple: vec![None; scene.materials().len()],
-        }
-    }
-
-    /// The index of the material that stands for one of the scene.
-    pub(in crate::render) fn of(&mut self, material: usize, has_uv: bool) -> usize {
-        if let Some(simple) = self.simple[material].filter(|_| has_uv) {
-            return simple;
-        }
-        match self.simplified(&self.all[material]).filter(|_| has_uv) {
-            Some(phong) => {
-                self.all.push(phong);
-                *self.simple[material].insert(self.all.len() - 1)
-            }
-            None => material,
-        }
-    }
-
-    /// The material with values for maps that show one, if it has such.
-    fn simplified(&self, material: &Phong) -> Option<Phong> {
-        let Maps {
-            color,
-            specular,
-            normal,
-            bump,
-        } = **material.maps.as_ref()?;
-        let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
-        let (new_color, scale) = (value(color), value(specular));
-        if new_color.is_none() && scale.is_none() {
-            return None;
-        }
-        let rest = Maps {
-            color: color.filter(|_| new_color.is_none()),
-            specular: specular.filter(|_| scale.is_none()),
-            normal,
-            bump,
-        };
-        let is_empty =
-            rest.color.is_none() && rest.specular.is_none() && normal.is_none() && bump.is_none();
-        let ks = scale.map_or(material.ks, |scale| material.ks.times(scale.x));
-        let maps = (!is_empty).then(|| Box::new(rest));
-        Some(Phong {
-            color: new_color.unwrap_or(material.color),
-            ks,
-            maps,
-            ..material.clone()
-        })
-    }
+/// The textures of a material.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct PhongMaps {
+    /// The texture that gives the colour.
+    pub(in crate::render) color: Option<Texture>,
+    /// The texture whose red channel multiplies ks.
+    pub(in crate::render) specular: Option<Texture>,
+    /// The texture of the shading normal.
+    pub(in crate::render) normal: Option<Texture>,
+    /// The height field.
+    pub(in crate::render) bump: Option<Bump>,
 }

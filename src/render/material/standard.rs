@@ -1,335 +1,188 @@
-//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of
-//! it emits or is absent.
+//! The material of glTF as a world holds it: no default is asked for at a hit, and each map leads
+//! straight to its image.
 
-use crate::math::{Basis, Vec3, cos, ln, sin};
-use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard, dispersed};
-use crate::render::ray::Interaction;
-use crate::render::shape::instance::{Asked, Details};
-use crate::render::texture::sampled::{Content, Places, look_up};
-use crate::valid::{Alpha, Map, Standard as Material, ValidScene};
+use crate::math::Vec3;
+use crate::render::shape::instance::Asked;
+use crate::render::texture::sampled::{Map, Places};
 
-/// A material of the scene with what a surface says of one point.
-pub(in crate::render) struct Point<'world> {
-    scene: &'world ValidScene,
-    pub(in crate::render) material: &'world Material,
-    places: Places,
-    /// The colour at the point, that of the corners included, and alpha.
-    base: [f64; 4],
-}
-
-/// The frame of shading at a point: the unit normal, and the directions along which maps grow.
-pub(in crate::render) struct Frame {
-    /// Right-handed, as the BSDF wants it.
-    basis: Basis,
-    /// −1 where maps grow against the bitangent.
-    side: f64,
-}
-
-/// What a material needs to know of a surface.
-pub(in crate::render) fn asked(material: &Material) -> Asked {
-    let turns = material.anisotropy > 0.0
-        || material.normal_map.is_some()
-        || material.clearcoat_normal_map.is_some();
-    Asked {
-        uv: material.maps().next().is_some(),
-        tangent: turns,
-    }
-}
-
-impl<'world> Point<'world> {
-    pub(in crate::render) fn new(
-        scene: &'world ValidScene,
-        material: &'world Material,
-        details: &Details,
-    ) -> Self {
-        let places = [details.uv, details.second_uv];
-        let mut point = Self {
-            scene,
-            material,
-            places,
-            base: material.base_color,
-        };
-        let texture = point.show(material.base_color_map.as_ref(), Content::Color);
-        let corners = details.color.unwrap_or([1.0; 4]);
-        let base = |k: usize| material.base_color[k] * texture[k] * corners[k];
-        point.base = [base(0), base(1), base(2), base(3)];
-        point
-    }
-
-    /// The first texture coordinates.
-    pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
-        self.places[0]
-    }
-
-    /// What a map shows; ones where there is none.
-    #[inline]
-    fn show(&self, map: Option<&Map>, content: Content) -> [f64; 4] {
-        map.and_then(|map| look_up(self.scene, map, &self.places, content))
-            .unwrap_or([1.0; 4])
-    }
-
-    fn linear(&self, map: Option<&Map>) -> [f64; 4] {
-        self.show(map, Content::Linear)
-    }
-
-    fn color(&self, map: Option<&Map>) -> Vec3 {
-        let [r, g, b, _] = self.show(map, Content::Color);
-        Vec3::new(r, g, b)
-    }
-
-    /// The probability that a ray meets the surface.
-    pub(in crate::render) fn opacity(&self) -> f64 {
-        match self.material.alpha {
-            Alpha::Opaque => 1.0,
-            Alpha::Mask(cutoff) => f64::from(u8::from(self.base[3] >= cutoff)),
-            Alpha::Blend => self.base[3].clamp(0.0, 1.0),
-        }
-    }
-
-    /// The colour, each channel at most 1.
-    pub(in crate::render) fn base_color(&self) -> Vec3 {
-        let [r, g, b, _] = self.base;
-        Vec3::new(r, g, b).min(Vec3::ONE)
-    }
-
-    /// The radiance it sends out by itself.
-    pub(in crate::render) fn emission(&self) -> Vec3 {
-        let emissive = Vec3::from_array(self.material.emissive);
-        if emissive == Vec3::ZERO {
-            emissive
-        } else {
-            emissive * self.color(self.material.emissive_map.as_ref())
-        }
-    }
-
-    /// What is scattered; `channel` is the colour that a dispersed path has been left with.
-    pub(in crate::render) fn standard(
-        &self,
-        frame: &Frame,
-        clearcoat: Vec3,
-        channel: Option<usize>,
-        multiple: bool,
-    ) -> Standard {
-        let m = self.material;
-        let ior = match channel {
-            Some(channel) if m.dispersion > 0.0 => dispersed(m.ior, m.dispersion)[channel],
-            _ => m.ior,
-        };
-        let [_, g, b, _] = self.linear(m.metallic_roughness_map.as_ref());
-        let mut standard = Standard {
-            base_color: self.base_color(),
-            metallic: m.metallic * b,
-            roughness: m.roughness * g,
-            ior,
-            specular: m.specular * self.linear(m.specular_map.as_ref())[3],
-            specular_color: Vec3::from_array(m.specular_color)
-                * self.color(m.specular_color_map.as_ref()),
-            transmission: m.transmission * self.linear(m.transmission_map.as_ref())[0],
-            thin_walled: !self.bounds_a_volume(),
-            anisotropy: None,
-            clearcoat: None,
-            sheen: None,
-            iridescence: None,
-            multiple_scattering: multiple,
-        };
-        if let Some([red, green, blue, glossiness]) = m.specular_glossiness {
-            // An infinite index reflects the colour given.
-            let [r, g, b, a] = self.show(m.specular_glossiness_map.as_ref(), Content::Color);
-            standard.specular_color = Vec3::new(red * r, green * g, blue * b);
-            standard.roughness = (1.0 - glossiness * a).clamp(0.0, 1.0);
-            (standard.metallic, standard.ior, standard.specular) = (0.0, 0.0, 1.0);
-        }
-        self.add_layers(&mut standard, frame, clearcoat);
-        standard
-    }
-
-    fn add_layers(&self, standard: &mut Standard, frame: &Frame, clearcoat: Vec3) {
-        let m = self.material;
-        if m.clearcoat > 0.0 {
-            let factor = m.clearcoat * self.linear(m.clearcoat_map.as_ref())[0];
-            let roughness =
-                m.clearcoat_roughness * self.linear(m.clearcoat_roughness_map.as_ref())[1];
-            let coat = Clearcoat {
-                factor,
-                roughness,
-                normal: frame.to_local(clearcoat),
-            };
-            standard.clearcoat = Some(coat).filter(|coat| coat.factor > 0.0);
-        }
-        if m.sheen_color != [0.0; 3] {
-            let color = Vec3::from_array(m.sheen_color) * self.color(m.sheen_color_map.as_ref());
-            let roughness = m.sheen_roughness * self.linear(m.sheen_roughness_map.as_ref())[3];
-            let sheen = Sheen { color, roughness };
-            standard.sheen = Some(sheen).filter(|sheen| sheen.color != Vec3::ZERO);
-        }
-        if m.anisotropy > 0.0 {
-            let anisotropy = self.anisotropy(frame.side);
-            standard.anisotropy = Some(anisotropy).filter(|turned| turned.strength > 0.0);
-        }
-        if m.iridescence > 0.0 {
-            let factor = m.iridescence * self.linear(m.iridescence_map.as_ref())[0];
-            let [least, greatest] = m.iridescence_thickness;
-            let thickness =
-                least + (greatest - least) * self.linear(m.iridescence_thickness_map.as_ref())[1];
-            let film = Iridescence {
-                factor,
-                ior: m.iridescence_ior,
-                thickness,
-            };
-            standard.iridescence = Some(film).filter(|film| film.factor > 0.0);
-        }
-    }
-
-    fn anisotropy(&self, side: f64) -> Anisotropy {
-        let m = self.material;
-        let map = m
-            .anisotropy_map
-            .as_ref()
-            .and_then(|map| look_up(self.scene, map, &self.places, Content::Linear));
-        let [r, g, share, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
-        let along = Vec3::new(r * 2.0 - 1.0, g * 2.0 - 1.0, 0.0).normalize_or(Vec3::X);
-        let (c, s) = (cos(m.anisotropy_rotation), sin(m.anisotropy_rotation));
-        let direction = [
-            c * along.x - s * along.y,
-            (s * along.x + c * along.y) * side,
-        ];
-        Anisotropy {
-            strength: m.anisotropy * share,
-            direction,
-        }
-    }
-
-    /// Whether light goes through at the point.
-    pub(in crate::render) fn transmits(&self) -> bool {
-        let m = self.material;
-        m.transmission > 0.0 && self.linear(m.transmission_map.as_ref())[0] > 0.0
-    }
-
-    /// Whether a map bends its normals.
-    pub(in crate::render) fn has_normal_map(&self) -> bool {
-        self.material.normal_map.is_some() || self.material.clearcoat_normal_map.is_some()
-    }
-
-    /// Whether a map says how it scatters light.
-    pub(in crate::render) fn has_shading_map(&self) -> bool {
-        let m = self.material;
-        let others = [
-            &m.base_color_map,
-            &m.normal_map,
-            &m.clearcoat_normal_map,
-            &m.emissive_map,
-        ];
-        let others = others.into_iter().flatten().count();
-        m.maps().count() > others
-    }
-
+/// A material, prepared: what is the same everywhere is a number, what is not has a map.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct StandardMaterial {
+    /// What it needs to know of a surface.
+    pub(in crate::render) asked: Asked,
+    /// Whether a map that is not of normals says how it scatters light.
+    pub(in crate::render) has_shading_map: bool,
+    pub(in crate::render) alpha: Alpha,
+    /// Whether a ray of the camera goes through the back.
+    pub(in crate::render) is_seen_from_one_side: bool,
+    pub(in crate::render) is_unlit: bool,
+    /// Red, green, blue and alpha.
+    pub(in crate::render) base_color: Rgba,
+    pub(in crate::render) emission: Tint,
+    pub(in crate::render) reflection: Reflection,
+    pub(in crate::render) transmission: Number,
+    /// The index of refraction, and that of each colour where they differ.
+    pub(in crate::render) ior: f64,
+    pub(in crate::render) dispersed: Option<[f64; 3]>,
     /// Whether there is a medium behind the surface.
-    pub(in crate::render) fn bounds_a_volume(&self) -> bool {
-        self.material.thickness > 0.0
-    }
+    pub(in crate::render) bounds_a_volume: bool,
+    /// The coefficient of absorption of that medium, per unit of length.
+    pub(in crate::render) absorption: Vec3,
+    pub(in crate::render) normal: Option<NormalMap>,
+    pub(in crate::render) clearcoat: Option<ClearcoatLayer>,
+    pub(in crate::render) sheen: Option<SheenLayer>,
+    pub(in crate::render) anisotropy: Option<AnisotropyLayer>,
+    pub(in crate::render) iridescence: Option<IridescenceLayer>,
+}
 
-    /// The coefficient of absorption of the medium inside, per unit of length.
-    pub(in crate::render) fn absorption(&self) -> Vec3 {
-        let Some(distance) = self.material.attenuation_distance else {
-            return Vec3::ZERO;
-        };
-        // −ln of the least positive number stands for black.
-        Vec3::from_array(self.material.attenuation_color)
-            .map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance)
-    }
+/// How a surface covers what is behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::render) enum Alpha {
+    /// All of it.
+    Opaque,
+    /// Where alpha is at least the number given.
+    Mask(f64),
+    /// To the share alpha.
+    Blend,
+}
 
-    /// The frame with the normal map applied, and the normal of the clearcoat.
-    pub(in crate::render) fn frame(
-        &self,
-        at: &Interaction,
-        details: &Details,
-        wo: Vec3,
-    ) -> (Frame, Vec3) {
-        // The winding says which side is outside, and the normals of some meshes were made against
-        // it.
-        let normal = details
-            .normal
-            .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
-        let m = self.material;
-        let mapped = |map: &Option<Map>, scale: f64| {
-            let normal = map
-                .as_ref()
-                .map_or(normal, |map| self.mapped(map, scale, normal, details));
-            bent(normal, at.normal, wo)
-        };
-        let shading = mapped(&m.normal_map, m.normal_scale);
-        let has_coat = m.clearcoat > 0.0;
-        let coat = if has_coat {
-            mapped(&m.clearcoat_normal_map, m.clearcoat_normal_scale)
-        } else {
-            shading
-        };
-        (
-            Frame {
-                basis: basis(shading, details.tangent, 1.0),
-                side: details.side,
-            },
-            coat,
-        )
-    }
+/// A colour and a fourth number times the channels of a map.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct Rgba {
+    pub(in crate::render) factor: [f64; 4],
+    pub(in crate::render) map: Option<Map>,
+}
 
-    /// The normal that a map gives.
-    fn mapped(&self, map: &Map, scale: f64, normal: Vec3, details: &Details) -> Vec3 {
-        let shown = look_up(self.scene, map, &self.places, Content::Linear);
-        let Some([x, y, z, _]) = shown else {
-            return normal;
-        };
-        let local = Vec3::new(
-            (x * 2.0 - 1.0) * scale,
-            (y * 2.0 - 1.0) * scale,
-            z * 2.0 - 1.0,
-        );
-        basis(normal, details.tangent, details.side)
-            .to_world(local)
-            .normalize_or(normal)
+/// A number times one channel of a map.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct Number {
+    pub(in crate::render) factor: f64,
+    pub(in crate::render) map: Option<(Map, usize)>,
+}
+
+/// A colour times that of a map.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct Tint {
+    pub(in crate::render) factor: Vec3,
+    pub(in crate::render) map: Option<Map>,
+}
+
+/// What of the light is reflected where no layer is in between.
+#[derive(Clone, Debug)]
+pub(in crate::render) enum Reflection {
+    /// That of a metal or a dielectric.
+    Metallic {
+        /// Roughness and metalness, in the green and the blue channel of their map.
+        roughness: f64,
+        metallic: f64,
+        map: Option<Map>,
+        specular: Number,
+        specular_color: Tint,
+    },
+    /// What is given for normal incidence: red, green, blue and glossiness.
+    Specular(Rgba),
+}
+
+/// What a map shows: the same everywhere, or to be looked up.
+#[derive(Clone, Debug)]
+pub(in crate::render) enum Source {
+    Value([f64; 4]),
+    Map(Map),
+}
+
+impl Source {
+    /// What it shows; `None` on a surface without coordinates.
+    pub(in crate::render) fn look_up(&self, places: &Places) -> Option<[f64; 4]> {
+        match self {
+            Self::Value(value) => Some(*value),
+            Self::Map(map) => map.look_up(places),
+        }
     }
 }
 
-impl Frame {
-    pub(in crate::render) fn to_local(&self, w: Vec3) -> Vec3 {
-        self.basis.to_local(w)
-    }
+/// A map of shading normals, and by how much they lean.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct NormalMap {
+    pub(in crate::render) map: Source,
+    pub(in crate::render) scale: f64,
+}
 
-    pub(in crate::render) fn to_world(&self, w: Vec3) -> Vec3 {
-        self.basis.to_world(w)
+/// A coat.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct ClearcoatLayer {
+    pub(in crate::render) factor: Number,
+    pub(in crate::render) roughness: Number,
+    pub(in crate::render) normal: Option<NormalMap>,
+}
+
+/// A sheen.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct SheenLayer {
+    pub(in crate::render) color: Tint,
+    pub(in crate::render) roughness: Number,
+}
+
+/// A stretch of highlights.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct AnisotropyLayer {
+    pub(in crate::render) strength: f64,
+    /// The cosine and the sine by which the direction is turned.
+    pub(in crate::render) turn: [f64; 2],
+    /// The direction in red and green, the strength in blue.
+    pub(in crate::render) map: Option<Source>,
+}
+
+/// A thin film.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct IridescenceLayer {
+    pub(in crate::render) factor: Number,
+    pub(in crate::render) ior: f64,
+    /// The thickness where the map shows 0, and how much more it is where that shows 1.
+    pub(in crate::render) least: f64,
+    pub(in crate::render) spread: Number,
+}
+
+impl Number {
+    /// The number at a point.
+    #[inline]
+    pub(in crate::render) fn at(&self, places: &Places) -> f64 {
+        match &self.map {
+            Some((map, channel)) => self.factor * shown(map, places)[*channel],
+            None => self.factor,
+        }
     }
 }
 
-/// The frame around a normal, its tangent that of a surface as far as there is one.
-fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
-    let tangent = tangent
-        .map(|t| t - normal * normal.dot(t))
-        .and_then(Vec3::try_normalize);
-    tangent.map_or_else(
-        || Basis::around(normal),
-        |tangent| Basis {
-            tangent,
-            bitangent: normal.cross(tangent) * side,
-            normal,
-        },
-    )
+impl Tint {
+    /// The colour at a point.
+    #[inline]
+    pub(in crate::render) fn at(&self, places: &Places) -> Vec3 {
+        match &self.map {
+            Some(map) => {
+                let [r, g, b, _] = shown(map, places);
+                self.factor * Vec3::new(r, g, b)
+            }
+            None => self.factor,
+        }
+    }
 }
 
-/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
-/// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
-/// light transport simulation and rendering system", 2017, has a like rule).
-fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
-    /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
-    const LEAST: f64 = 0.01;
-    const SHARE: f64 = 0.9;
-    let side = 1.0_f64.copysign(wo.dot(geometric));
-    let (n, above) = (shading * side, geometric * side);
-    let mirrored = n * (2.0 * n.dot(wo)) - wo;
-    let (height, least) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
-    if height >= least {
-        return shading;
+impl Rgba {
+    /// All four at a point.
+    #[inline]
+    pub(in crate::render) fn at(&self, places: &Places) -> [f64; 4] {
+        match &self.map {
+            Some(map) => {
+                let shown = shown(map, places);
+                [0, 1, 2, 3].map(|channel| self.factor[channel] * shown[channel])
+            }
+            None => self.factor,
+        }
     }
-    // The normal halfway between the viewer and the direction raised.
-    let raised = (mirrored + above * (least - height)).normalize_or_zero();
-    (wo + raised).normalize_or(above) * side
+}
+
+/// What a map shows; ones on a surface without coordinates.
+#[inline]
+pub(in crate::render) fn shown(map: &Map, places: &Places) -> [f64; 4] {
+    map.look_up(places).unwrap_or([1.0; 4])
 }

@@ -1,13 +1,13 @@
 //! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
 //! hierarchy.
 
-use crate::math::{Vec3, cross, unit};
+use crate::math::{Column, Shared, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
 use crate::render::accel::wide::Wide;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::tie::{self, Nearest, Tie};
 use crate::render::shape::triangle::{Shear, Triangle};
-use crate::valid::{Column, Mesh, Shared};
+use crate::valid::Mesh;
 use std::sync::{Arc, OnceLock};
 
 /// A mesh ready to be hit, in object coordinates.

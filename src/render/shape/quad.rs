@@ -4,11 +4,10 @@
 //! intersections" (Ray Tracing Gems, 2019, ch. 8): the ray meets a line of constant u where a
 //! quadratic in u vanishes.
 
-use crate::math::{Vec3, cross};
+use crate::math::{Vec3, cross, is_flat};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::triangle::{Shear, Triangle};
-use crate::valid;
 
 /// A quadrilateral ready to be hit.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +29,7 @@ impl Quad {
     /// The quadrilateral of corners in order around it.
     #[must_use]
     pub fn new(vertices: [Vec3; 4]) -> Self {
-        if !(valid::Quad { vertices }).is_flat() {
+        if !is_flat(vertices) {
             return Self::Patch(Patch { vertices });
         }
         let normal = |t: [usize; 3]| {

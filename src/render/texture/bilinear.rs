@@ -1,14 +1,22 @@
-//! Textures: values looked up by uv, and what maps do to the shading normal.
+//! Textures as the course looks them up by uv, and what maps do to the shading normal.
 
+use super::{Image, Texture};
 use crate::math::{Vec3, cross};
-use crate::valid::{Bump, Image, Texture, ValidScene};
 
-/// What texture `index` shows at `uv`, each channel in [0, 1].
-pub(in crate::render) fn look_up(scene: &ValidScene, index: usize, uv: [f64; 2]) -> Vec3 {
-    match &scene.textures()[index] {
+/// A height field over a surface.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct Bump {
+    pub(in crate::render) texture: Texture,
+    /// The height of white above black, as a share of the width of a texel.
+    pub(in crate::render) height: f64,
+}
+
+/// What a texture shows at `uv`, each channel in [0, 1].
+pub(in crate::render) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
+    match texture {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
-        Texture::Image(image) => bilinear(&scene.images()[*image], uv),
-        Texture::Sampled(_) => Vec3::ONE,
+        Texture::Image(image) => bilinear(image, uv),
+        Texture::Sampled { .. } => Vec3::ONE,
     }
 }
 
@@ -21,8 +29,7 @@ fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
         (1.0 - repeated(v)) * f64::from(image.height - 1),
         image.height,
     );
-    let texel =
-        |column: usize, row: usize| image.texel(row * image.width as usize + column).color();
+    let texel = |column: usize, row: usize| image.texel(column, row).color();
     let (right, below) = (
         (column + 1).min(image.width as usize - 1),
         (row + 1).min(image.height as usize - 1),
@@ -77,28 +84,20 @@ impl Frame {
     }
 
     /// The normal a normal map gives at `uv`.
-    pub(in crate::render) fn mapped(&self, scene: &ValidScene, map: usize, uv: [f64; 2]) -> Vec3 {
-        let local = look_up(scene, map, uv) * 2.0 - 1.0;
+    pub(in crate::render) fn mapped(&self, map: &Texture, uv: [f64; 2]) -> Vec3 {
+        let local = look_up(map, uv) * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
             .normalize_or(self.normal)
     }
 
     /// The normal of a height field: it leans away from where the height grows, by central
     /// differences of a texel.
-    pub(in crate::render) fn bumped(
-        &self,
-        scene: &ValidScene,
-        bump: Bump,
-        [u, v]: [f64; 2],
-    ) -> Vec3 {
-        let [du, dv] = match &scene.textures()[bump.texture] {
-            Texture::Uv | Texture::Sampled(_) => [1e-3; 2],
-            Texture::Image(image) => {
-                let image = &scene.images()[*image];
-                [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)]
-            }
+    pub(in crate::render) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
+        let [du, dv] = match &bump.texture {
+            Texture::Uv | Texture::Sampled { .. } => [1e-3; 2],
+            Texture::Image(image) => [1.0 / f64::from(image.width), 1.0 / f64::from(image.height)],
         };
-        let height = |u: f64, v: f64| look_up(scene, bump.texture, [u, v]).element_sum() / 3.0;
+        let height = |u: f64, v: f64| look_up(&bump.texture, [u, v]).element_sum() / 3.0;
         let slope_u = 0.5 * (height(u + du, v) - height(u - du, v)) * bump.height;
         let slope_v = 0.5 * (height(u, v + dv) - height(u, v - dv)) * bump.height;
         (self.normal - self.along_u * slope_u - self.along_v * slope_v).normalize_or(self.normal)
@@ -108,7 +107,7 @@ impl Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::valid::Pixels;
+    use crate::image::Texels;
 
     #[test]
     fn an_image_of_one_value_is_that_value_everywhere() {
@@ -116,8 +115,7 @@ mod tests {
         let image = Image {
             width: 3,
             height: 3,
-            kind: Pixels::Rgb8,
-            pixels,
+            texels: Texels::Rgb8(pixels),
         };
         let value = Vec3::new(1.0, 77.0, 254.0) / 255.0;
         for k in 0..100 {
@@ -134,8 +132,7 @@ mod tests {
         let image = Image {
             width: 2,
             height: 2,
-            kind: Pixels::Rgb8,
-            pixels,
+            texels: Texels::Rgb8(pixels),
         };
         assert_eq!(bilinear(&image, [0.0, 1.0]), Vec3::X);
         assert_eq!(bilinear(&image, [1.0, 1.0]), Vec3::Y);

@@ -1,8 +1,9 @@
 //! Textures as glTF samples them: wrapping, filtering, and which of them hold colours.
 
+use super::{Filter, Image, Texture, Wrap};
 use crate::color::srgb_decoded;
+use crate::image::Texel;
 use crate::math::Lanes;
-use crate::valid::{Filter, Image, Map, Texel, Texture, ValidScene, Wrap};
 use std::sync::LazyLock;
 
 /// What the numbers of a texture are.
@@ -17,38 +18,42 @@ pub(in crate::render) enum Content {
 /// Where on a surface textures are looked up: its two sets of coordinates.
 pub(in crate::render) type Places = [Option<[f64; 2]>; 2];
 
-/// What a map shows, red, green, blue and alpha in [0, 1], or as they are for float images; `None`
-/// without coordinates.
-pub(in crate::render) fn look_up(
-    scene: &ValidScene,
-    map: &Map,
-    places: &Places,
-    content: Content,
-) -> Option<[f64; 4]> {
-    let [u, v] = places[map.set as usize]?;
-    let uv = match map.texture_from_surface {
-        None => [u, v],
-        Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
-    };
-    let value = match &scene.textures()[map.texture.0 as usize] {
-        Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
-        // The course counts v upwards.
-        Texture::Image(image) => {
-            let image = &scene.images()[*image];
-            sample(
+/// A texture as a material of glTF uses it: where on it a surface looks, and what its numbers are.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct Map {
+    pub(in crate::render) texture: Texture,
+    /// Which of the [`Places`].
+    pub(in crate::render) set: usize,
+    /// The rows of the affine map from the coordinates of the surface to those of the texture; none
+    /// for the identity.
+    pub(in crate::render) texture_from_surface: Option<[[f64; 3]; 2]>,
+    pub(in crate::render) content: Content,
+}
+
+impl Map {
+    /// What it shows, red, green, blue and alpha in [0, 1], or as they are for float images; `None`
+    /// without coordinates.
+    pub(in crate::render) fn look_up(&self, places: &Places) -> Option<[f64; 4]> {
+        let [u, v] = places[self.set]?;
+        let uv = match self.texture_from_surface {
+            None => [u, v],
+            Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
+        };
+        let value = match &self.texture {
+            Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
+            // The course counts v upwards.
+            Texture::Image(image) => {
+                let uv = [uv[0], 1.0 - uv[1]];
+                sample(image, uv, [Wrap::Repeat; 2], Filter::Linear, self.content)
+            }
+            Texture::Sampled {
                 image,
-                [uv[0], 1.0 - uv[1]],
-                [Wrap::Repeat; 2],
-                Filter::Linear,
-                content,
-            )
-        }
-        Texture::Sampled(sampled) => {
-            let image = &scene.images()[sampled.image.0 as usize];
-            sample(image, uv, sampled.wrap, sampled.filter, content)
-        }
-    };
-    Some(value)
+                wrap,
+                filter,
+            } => sample(image, uv, *wrap, *filter, self.content),
+        };
+        Some(value)
+    }
 }
 
 /// The texel or the mean of the four around a place, v = 0 at the top, texel middles half a texel
@@ -76,9 +81,7 @@ pub(in crate::render) fn sample(
     };
     let (left, right, s) = places(0, image.width);
     let (top, bottom, t) = places(1, image.height);
-    let at = |column: usize, row: usize| {
-        decoded(image.texel(row * image.width as usize + column), content)
-    };
+    let at = |column: usize, row: usize| decoded(image.texel(column, row), content);
     let value = if filter == Filter::Nearest {
         at(left, top)
     } else {
@@ -185,7 +188,7 @@ static DECODED: LazyLock<[f32; 256]> =
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::valid::Pixels;
+    use crate::image::Texels;
 
     #[test]
     fn the_floor_is_that_of_std() {
@@ -209,8 +212,7 @@ mod tests {
         Image {
             width: 2,
             height: 1,
-            kind: Pixels::Rgb8,
-            pixels: vec![255, 0, 0, 0, 255, 0].into(),
+            texels: Texels::Rgb8(vec![255, 0, 0, 0, 255, 0].into()),
         }
     }
 
@@ -249,8 +251,7 @@ mod tests {
         let image = Image {
             width: 1,
             height: 1,
-            kind: Pixels::Rgba8,
-            pixels: vec![128; 4].into(),
+            texels: Texels::Rgba8(vec![128; 4].into()),
         };
         let value = |content| sample(&image, [0.5; 2], [Wrap::Repeat; 2], Filter::Linear, content);
         let [r, _, _, a] = value(Content::Color);

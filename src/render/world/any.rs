@@ -10,7 +10,7 @@ use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
-use crate::valid::ValidScene;
+use crate::valid::{Mode, Proof};
 
 /// A scene prepared as planned. All is rendered on the threads of the current pool.
 pub enum AnyWorld {
@@ -39,7 +39,7 @@ macro_rules! each {
 impl AnyWorld {
     /// Prepares a scene.
     #[must_use]
-    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
+    pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
         match (plan.arithmetic, plan.shapes) {
             (Arithmetic::Robust, Shapes::Basic) => Self::Basic(World::prepare(scene, plan)),
             (Arithmetic::Robust, Shapes::All) => Self::All(World::prepare(scene, plan)),
@@ -50,18 +50,20 @@ impl AnyWorld {
 
     /// The scene it shows.
     #[must_use]
-    pub fn scene(&self) -> &ValidScene {
+    pub fn scene(&self) -> &Proof {
         each!(self, world => &world.scene)
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
     /// the same rules. What was built stays where the new plan wants it too.
-    pub fn change(&mut self, scene: ValidScene) {
+    pub fn change(&mut self, scene: Proof) {
         let old = each!(self, world => &world.plan);
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants)
             == (old.shapes, &old.surfaces, &old.constants);
-        if is_same {
+        // Each integrator has materials and lights of its own.
+        let traces_paths = |scene: &Proof| matches!(scene.settings().mode, Mode::Path(_));
+        if is_same && traces_paths(&scene) == traces_paths(self.scene()) {
             each!(self, world => (world.scene, world.plan) = (scene, plan));
         } else {
             *self = Self::prepare(&scene, &plan);
@@ -112,6 +114,6 @@ impl AnyWorld {
 
 /// Renders a scene as planned; see [`AnyWorld::render`].
 #[must_use]
-pub fn render(scene: &ValidScene, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+pub fn render(scene: &Proof, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
     AnyWorld::prepare(scene, plan).render(job, proceed)
 }

@@ -2,20 +2,26 @@
 //! it.
 
 pub(in crate::render) mod any;
+mod light;
+mod material;
+mod merged;
+mod prepare;
+mod texture;
 
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::render::accel::bvh::Bvh;
-use crate::render::accel::wide::Wide;
 use crate::render::frame::verify::Verify;
-use crate::render::material::phong::Materials;
+use crate::render::material::phong::PhongMaterial;
+use crate::render::material::standard::StandardMaterial;
 use crate::render::ray::Ray;
 use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
-use crate::valid::{self, Phong, Standard, ValidScene};
-use std::sync::Arc;
+use crate::valid::Proof;
+use light::LightList;
+use merged::Merged;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +39,7 @@ pub struct Hit {
 pub struct Surface<S = Shape> {
     /// Its shape.
     pub shape: S,
-    /// The index of its material in [`World::materials`].
+    /// The index of its material among those of the world.
     pub material: usize,
     /// Its index in the scene.
     pub index: usize,
@@ -41,14 +47,16 @@ pub struct Surface<S = Shape> {
 
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
-    /// The camera, settings, lights and materials as proven.
-    pub scene: ValidScene,
+    /// The camera and the settings as proven, and all that a change of them may need again.
+    pub scene: Proof,
     /// What the picture needs of it.
     pub plan: Plan,
-    /// The materials, without maps that show one value.
-    pub materials: Vec<Phong>,
-    /// The materials as paths see them, without what is planned away.
-    pub(in crate::render) standards: Vec<Standard>,
+    /// The materials that Whitted's integrator asks for, without maps that show one value.
+    pub(in crate::render) phongs: Vec<PhongMaterial>,
+    /// The materials that paths ask for.
+    pub(in crate::render) standards: Vec<StandardMaterial>,
+    /// The lights.
+    pub(in crate::render) lights: LightList,
     /// The surfaces that are planned, in the order of the scene.
     pub surfaces: Vec<Surface<S>>,
     /// The plan to be validated by a naive render.
@@ -59,77 +67,13 @@ pub struct World<S = Shape> {
     merged: Option<Merged>,
 }
 
-/// The triangles of meshes that stand in the world one by one.
-struct Merged {
-    /// The surface of each, and the part of it.
-    parts: Vec<[u32; 2]>,
-    hierarchy: Wide,
-}
-
 /// The `t_max` that ends a walk.
 const OVER: f64 = -1.0;
 
 /// The part of no surface.
 pub(in crate::render) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
-/// A mesh that stands several times is merged into the world if all its triangles are no more than
-/// this.
-const MERGED: usize = 1 << 18;
-
 impl<S: Geometry> World<S> {
-    /// Prepares a scene: planes of shapes, the BVH.
-    #[must_use]
-    pub fn prepare(scene: &ValidScene, plan: &Plan) -> Self {
-        let meshes = scene
-            .meshes()
-            .iter()
-            .map(|mesh| Arc::new(S::prepare_mesh(mesh)))
-            .collect::<Vec<_>>();
-        let mut materials = Materials::new(scene, plan);
-        let surface = |(index, surface): (usize, &valid::Surface)| {
-            let shape = S::prepare(&surface.shape, &meshes)?;
-            Some(Surface {
-                material: materials.of(surface.material, shape.has_uv()),
-                shape,
-                index,
-            })
-        };
-        let planned = scene
-            .surfaces()
-            .iter()
-            .enumerate()
-            .filter(|(index, _)| plan.surfaces[*index]);
-        let surfaces = planned.filter_map(surface).collect::<Vec<_>>();
-        let (mut unbounded, mut bounded, mut boxes, mut apart) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let merges = merging(scene);
-        for (index, surface) in (0_u32..).zip(&surfaces) {
-            match surface.shape.bounds() {
-                _ if merges[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
-                Some(bounds) => {
-                    bounded.push(index);
-                    boxes.push(bounds);
-                }
-                None => unbounded.push(index),
-            }
-        }
-        let (bvh, merged) = (Bvh::build(&boxes), Merged::new(&surfaces, &apart));
-        let standards = plan.paths.as_ref().map(|paths| paths.materials.clone());
-        let (scene, plan, materials) = (scene.clone(), plan.clone(), materials.all);
-        Self {
-            scene,
-            plan,
-            materials,
-            standards: standards.unwrap_or_default(),
-            surfaces,
-            verify: None,
-            unbounded,
-            bounded,
-            bvh,
-            merged,
-        }
-    }
-
     /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first
     /// surface and its first part. Rays that are none hit nothing.
     #[must_use]
@@ -340,56 +284,4 @@ pub(in crate::render) fn segment(from: Vec3, to: Vec3) -> Option<(Ray, f64)> {
         },
         t_max,
     ))
-}
-
-impl Merged {
-    /// Those of the surfaces with these indices.
-    fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
-        let shape = |surface: u32| &surfaces[surface as usize].shape;
-        let parts_of = |surface: u32| {
-            (0..)
-                .take(shape(surface).triangles())
-                .map(move |part| [surface, part])
-        };
-        let parts = indices
-            .iter()
-            .copied()
-            .flat_map(parts_of)
-            .collect::<Vec<_>>();
-        let blur = indices
-            .iter()
-            .map(|surface| shape(*surface).blur())
-            .fold(0.0, f64::max);
-        let corners = |item: u32| {
-            let [surface, part] = parts[item as usize];
-            shape(surface).corners(part).unwrap_or_default()
-        };
-        let hierarchy = Wide::build(parts.len(), blur, corners)?;
-        Some(Self { parts, hierarchy })
-    }
-}
-
-/// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
-fn merging(scene: &ValidScene) -> Vec<bool> {
-    let mut uses = vec![0_usize; scene.meshes().len()];
-    let mesh = |surface: &valid::Surface| {
-        if let valid::Shape::Instance(instance) = &surface.shape {
-            Some(instance.mesh)
-        } else {
-            None
-        }
-    };
-    scene
-        .surfaces()
-        .iter()
-        .filter_map(mesh)
-        .for_each(|mesh| uses[mesh] += 1);
-    let merges = |mesh: usize| {
-        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED
-    };
-    scene
-        .surfaces()
-        .iter()
-        .map(|surface| mesh(surface).is_some_and(merges))
-        .collect()
 }

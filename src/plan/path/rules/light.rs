@@ -1,14 +1,15 @@
 //! Rules on lights, on aiming at them and on what hides them.
 
 use super::PathRule;
+use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
-use crate::math::Vec3;
+use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::{Body, Form};
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
 use crate::plan::space::{ROOM, Sides, Space};
-use crate::valid::{Emitter, Falloff, Pixels, Punctual};
+use crate::valid::{Falloff, Punctual};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -20,8 +21,8 @@ pub(super) const BLACK: PathRule = PathRule {
     text: "A light of intensity 0 is chosen with probability 0: it leaves the choice of lights.",
     because: "all lights have intensity 0",
     apply: |draft| {
-        let lights = draft.scene.punctual();
-        let is_black = |light: &usize| lights[*light].intensity == Vec3::ZERO;
+        let lights = draft.punctual;
+        let is_black = |light: &usize| intensity(&lights[*light]) == Vec3::ZERO;
         leave(draft, LightLeft::Nothing, is_black)
     },
 };
@@ -32,20 +33,11 @@ pub(super) const DARK_SKY: PathRule = PathRule {
     text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
     because: "the environment is black",
     apply: |draft| {
-        let Some(around) = draft.scene.environment().filter(|_| draft.environment) else {
-            return Vec::new();
-        };
-        let is_dark = |image: usize| {
-            let image = &draft.scene.images()[image];
-            let bytes = match image.kind {
-                Pixels::Rgb8 | Pixels::Rgb32f => 1,
-                Pixels::Rgba8 => 4,
-            };
-            // Alpha of a picture of all directions has no meaning.
-            let mut channels = image.pixels.iter().enumerate();
-            channels.all(|(index, byte)| *byte == 0 || (bytes == 4 && index % 4 == 3))
-        };
-        if around.radiance != Vec3::ZERO && !around.image.is_some_and(is_dark) {
+        let around = draft.scene.environment();
+        let is_dark = around
+            .image
+            .is_some_and(|image| is_black(&draft.scene.images()[image].texels));
+        if !draft.environment || !is_dark {
             return Vec::new();
         }
         draft.environment = false;
@@ -61,7 +53,7 @@ pub(super) const OUT_OF_REACH: PathRule = PathRule {
            meaning, and loses its evaluation and its shadow ray.",
     because: "no surface is within the range or the cone of a light",
     apply: |draft| {
-        let lights = draft.scene.punctual();
+        let lights = draft.punctual;
         let (bodies, left) = (draft.bodies, draft.surfaces.clone());
         let is_out = |light: &usize| {
             let mut bodies = bodies.iter().zip(&left).filter(|(_, is_left)| **is_left);
@@ -131,8 +123,8 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         draft.scene.camera().eye,
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
-    let mut places = draft.scene.punctual().iter().filter_map(position);
-    let is_plain = material.transmission == 0.0 && material.emissive == [0.0; 3];
+    let mut places = draft.punctual.iter().filter_map(position);
+    let is_plain = material.transmission == UnitInterval::ZERO && material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
         Form::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
@@ -144,11 +136,29 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
     is_plain && is_perspective && spares
 }
 
+/// Whether all texels are black.
+fn is_black(texels: &Texels) -> bool {
+    match texels {
+        Texels::Rgb8(bytes) | Texels::Rgb32f(bytes) => bytes.iter().all(|byte| *byte == 0),
+        // Alpha of a picture of all directions has no meaning.
+        Texels::Rgba8(bytes) => bytes.chunks(4).all(|texel| texel[..3] == [0; 3]),
+    }
+}
+
+fn intensity(light: &Punctual) -> Vec3 {
+    match light {
+        Punctual::Sun(sun) => sun.irradiance,
+        Punctual::Point(point) => point.intensity,
+        Punctual::Spot(spot) => spot.intensity,
+    }
+}
+
 /// Where a light stands, unless it is infinitely far away.
 fn position(light: &Punctual) -> Option<Vec3> {
-    match light.emitter {
-        Emitter::Sun(_) => None,
-        Emitter::Point(position, _) | Emitter::Spot { position, .. } => Some(position),
+    match light {
+        Punctual::Sun(_) => None,
+        Punctual::Point(point) => Some(point.position),
+        Punctual::Spot(spot) => Some(spot.position),
     }
 }
 
@@ -162,22 +172,19 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
         return false;
     };
     let is_beyond = |position: Vec3, falloff: Falloff| match falloff {
-        Falloff::Square(Some(range)) => {
+        Falloff::Ranged(range) => {
             let margin = 8.0 * ROOM * (space.size() + position.abs().max_element());
-            space.distance(position) > range * (1.0 + ROOM) + margin
+            space.distance(position) > range.get() * (1.0 + ROOM) + margin
         }
-        Falloff::None | Falloff::Square(None) => false,
+        Falloff::None | Falloff::Square => false,
     };
-    match light.emitter {
-        Emitter::Sun(_) => false,
-        Emitter::Point(position, falloff) => is_beyond(position, falloff),
-        Emitter::Spot {
-            position,
-            direction,
-            outer,
-            falloff,
-            ..
-        } => is_beyond(position, falloff) || is_beside(space, position, direction, outer),
+    match light {
+        Punctual::Sun(_) => false,
+        Punctual::Point(point) => is_beyond(point.position, point.falloff),
+        Punctual::Spot(spot) => {
+            let is_beside = is_beside(space, spot.position, spot.direction, spot.outer);
+            is_beyond(spot.position, spot.falloff) || is_beside
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
+use crate::math::{NonNegative, UnitInterval, Vec3};
+use crate::plan::facts;
 use crate::plan::path::draft::Draft;
 use crate::plan::rules::Rule;
 use crate::valid::{Alpha, Standard};
@@ -44,25 +46,27 @@ fn without_zeros(draft: &Draft<'_>, index: usize, material: &Standard) -> Standa
     if is_zero(material.transmission_map.as_ref(), 0) {
         // Whether the camera sees the back hangs on the factor alone.
         new.double_sided = !material.is_seen_from_one_side();
-        new.transmission = 0.0;
+        new.transmission = UnitInterval::ZERO;
     }
     if is_zero(material.clearcoat_map.as_ref(), 0) {
-        new.clearcoat = 0.0;
+        new.clearcoat = UnitInterval::ZERO;
     }
     if are_zero(material.sheen_color_map.as_ref()) {
-        new.sheen_color = [0.0; 3];
+        new.sheen_color = Vec3::ZERO;
     }
     if is_zero(material.anisotropy_map.as_ref(), 2) {
-        new.anisotropy = 0.0;
+        new.anisotropy = UnitInterval::ZERO;
     }
-    if is_zero(material.iridescence_map.as_ref(), 0) || material.iridescence_thickness == [0.0; 2] {
-        new.iridescence = 0.0;
+    if is_zero(material.iridescence_map.as_ref(), 0)
+        || material.iridescence_thickness == [NonNegative::ZERO; 2]
+    {
+        new.iridescence = UnitInterval::ZERO;
     }
     if is_zero(material.specular_map.as_ref(), 3) {
-        new.specular = 0.0;
+        new.specular = UnitInterval::ZERO;
     }
     if are_zero(material.emissive_map.as_ref()) {
-        new.emissive = [0.0; 3];
+        new.emissive = Vec3::ZERO;
     }
     new
 }
@@ -78,13 +82,12 @@ pub(super) const UNLIT: PathRule = PathRule {
                 return material.clone();
             }
             Standard {
-                name: material.name.clone(),
                 base_color: material.base_color,
-                base_color_map: material.base_color_map.clone(),
+                base_color_map: material.base_color_map,
                 alpha: material.alpha,
                 double_sided: !material.is_seen_from_one_side(),
                 unlit: true,
-                ..Standard::default()
+                ..facts::material::WHITE.clone()
             }
         })
     },
@@ -118,11 +121,11 @@ fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
     const MARGIN: f64 = 1e-6;
     let [least, greatest] = draft.channel(index, material.base_color_map.as_ref(), 3);
     let corners = draft.uses[index].least_alpha;
-    let alpha = material.base_color[3] * least * corners;
+    let alpha = material.base_color[3].get() * least * corners;
     let is_exact = least == greatest && corners == 1.0;
     match material.alpha {
         Alpha::Opaque => true,
-        Alpha::Mask(cutoff) => alpha > cutoff + MARGIN || (is_exact && alpha >= cutoff),
+        Alpha::Mask(cutoff) => alpha > cutoff.get() + MARGIN || (is_exact && alpha >= cutoff.get()),
         Alpha::Blend => is_exact && alpha >= 1.0,
     }
 }

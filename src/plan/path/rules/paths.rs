@@ -12,7 +12,9 @@ fn depth() -> Place {
 
 /// Whether a ray that goes on may find light by itself, where it ends or where it leaves the scene.
 fn finds_light(draft: &Draft<'_>) -> bool {
-    let glows = |material: &crate::valid::Standard| material.unlit || material.emissive != [0.0; 3];
+    let glows = |material: &crate::valid::Standard| {
+        material.unlit || material.emissive != crate::math::Vec3::ZERO
+    };
     draft.environment || draft.used().any(|(_, material)| glows(material))
 }
 

@@ -2,6 +2,7 @@
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
+use crate::math::{UnitInterval, Vec3};
 use crate::plan::path::draft::Draft;
 use crate::plan::path::facts::Presence;
 use crate::plan::rules::Rule;
@@ -32,9 +33,10 @@ fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
     let mut new = draft.materials[index].clone();
     let sets = draft.uses[index].sets;
     let m = &draft.materials[index];
+    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_shaded = draft.max_depth > 0 && !m.unlit;
-    let is_clear = m.transmission == 0.0;
-    let is_metal_or_rough = is_shaded && (m.metallic > 0.0 || m.roughness > 0.0);
+    let is_clear = !weighs(m.transmission);
+    let is_metal_or_rough = is_shaded && (weighs(m.metallic) || weighs(m.roughness));
     let conditions: [(&mut Option<Map>, bool); 17] = [
         (&mut new.base_color_map, true),
         (
@@ -45,42 +47,42 @@ fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
             &mut new.specular_glossiness_map,
             is_shaded && m.specular_glossiness.is_some(),
         ),
-        (&mut new.emissive_map, m.emissive != [0.0; 3]),
+        (&mut new.emissive_map, m.emissive != Vec3::ZERO),
         (&mut new.normal_map, is_shaded),
-        (&mut new.specular_map, is_shaded && m.specular > 0.0),
+        (&mut new.specular_map, is_shaded && weighs(m.specular)),
         (
             &mut new.specular_color_map,
-            is_shaded && m.specular_color != [0.0; 3],
+            is_shaded && m.specular_color != Vec3::ZERO,
         ),
         (&mut new.transmission_map, is_shaded && !is_clear),
         // No renderer here looks at how thick a body is said to be: rays find that out.
         (&mut new.thickness_map, false),
-        (&mut new.clearcoat_map, is_shaded && m.clearcoat > 0.0),
+        (&mut new.clearcoat_map, is_shaded && weighs(m.clearcoat)),
         (
             &mut new.clearcoat_roughness_map,
-            is_shaded && m.clearcoat > 0.0 && m.clearcoat_roughness > 0.0,
+            is_shaded && weighs(m.clearcoat) && weighs(m.clearcoat_roughness),
         ),
         (
             &mut new.clearcoat_normal_map,
-            is_shaded && m.clearcoat > 0.0,
+            is_shaded && weighs(m.clearcoat),
         ),
         (
             &mut new.sheen_color_map,
-            is_shaded && m.sheen_color != [0.0; 3],
+            is_shaded && m.sheen_color != Vec3::ZERO,
         ),
         (
             &mut new.sheen_roughness_map,
-            is_shaded && m.sheen_color != [0.0; 3] && m.sheen_roughness > 0.0,
+            is_shaded && m.sheen_color != Vec3::ZERO && weighs(m.sheen_roughness),
         ),
-        (&mut new.anisotropy_map, is_shaded && m.anisotropy > 0.0),
-        (&mut new.iridescence_map, is_shaded && m.iridescence > 0.0),
+        (&mut new.anisotropy_map, is_shaded && weighs(m.anisotropy)),
+        (&mut new.iridescence_map, is_shaded && weighs(m.iridescence)),
         (
             &mut new.iridescence_thickness_map,
-            is_shaded && m.iridescence > 0.0,
+            is_shaded && weighs(m.iridescence),
         ),
     ];
     for (map, shows) in conditions {
-        let has_places = |map: &Map| sets[map.set as usize] != Presence::Never;
+        let has_places = |map: &Map| sets[map.set.index()] != Presence::Never;
         if !(shows && map.as_ref().is_some_and(has_places)) {
             *map = None;
         }
@@ -100,7 +102,7 @@ pub(super) const CONSTANT: PathRule = PathRule {
         for (index, material) in draft.used() {
             let is_new = |map: &&Map| !draft.is_folded(index, map) && draft.is_even(index, map);
             for map in material.maps().filter(is_new) {
-                folded[map.texture.0 as usize] = true;
+                folded[map.texture] = true;
                 changed.push(Place::new(Noun::Material, index, Field::Whole));
             }
         }

@@ -18,11 +18,9 @@ use crate::render::film::heartbeat::{Heartbeat, Proceed};
 use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::film::{Behind, Counts, Seeds};
 use crate::render::light::Lights;
-use crate::render::material::standard::asked;
 use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Asked;
 use crate::render::world::World;
 use crate::valid::Path;
 use state::PathState;
@@ -47,8 +45,8 @@ pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     path: Path,
     strategy: Strategy,
     alpha_tested: AlphaTested,
-    /// What each material needs to know of a surface.
-    asked: Vec<Asked>,
+    /// Whether vertices know all that surfaces know, not only what their materials need.
+    knows_all: bool,
     /// What a ray of the camera that meets nothing shows.
     behind: Behind,
     /// Whether anything arrives from where no surface stands.
@@ -78,7 +76,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             path,
             strategy,
             alpha_tested: AlphaTested::of(world),
-            asked: world.standards.iter().map(asked).collect(),
+            knows_all: false,
             behind: Behind::default(),
             has_environment: plan.is_none_or(|plan| plan.environment),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
@@ -95,8 +93,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// The same, with all that surfaces know at the vertices of its paths.
     pub(in crate::render) fn knowing_all(self) -> Self {
-        let asked = vec![Asked::ALL; self.asked.len()];
-        Self { asked, ..self }
+        Self {
+            knows_all: true,
+            ..self
+        }
     }
 
     /// Whether this tracer can do it: known at compile time.

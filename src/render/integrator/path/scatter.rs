@@ -7,7 +7,7 @@ use crate::math::{Vec3, exp};
 use crate::plan::{Effect, PathFeatures};
 use crate::render::bsdf::{Lobes, Standard};
 use crate::render::light::Incident;
-use crate::render::material::standard::Frame;
+use crate::render::material::point::Frame;
 use crate::render::shape::geometry::Geometry;
 
 /// The BSDF at a vertex, in its frame of shading.
@@ -39,7 +39,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             self.counts.add(Effect::Volume);
             state.beta *= (state.absorption * -state.travelled).map(exp);
         }
-        if vertex.point.material.unlit {
+        if vertex.point.material.is_unlit {
             self.counts.add(Effect::Unlit);
             state.radiance += state.beta * vertex.point.base_color();
             return false;
@@ -64,6 +64,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return;
         }
         self.counts.add(Effect::Emission);
+        if vertex.point.material.emission.map.is_some() {
+            self.counts.add(Effect::Textures);
+        }
         let (hit, wo) = (vertex.hit, -state.ray.direction);
         let square = state.travelled * state.travelled;
         let lights = self.lights;
@@ -98,10 +101,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         state.beta *= sample.f * (sample.wi.z.abs() / sample.pdf);
         state.pdf = (!sample.delta).then_some(sample.pdf);
-        if through && point.bounds_a_volume() {
+        if through && point.material.bounds_a_volume {
             let enters = wi.dot(at.normal) < 0.0;
             state.absorption = if enters {
-                point.absorption()
+                point.material.absorption
             } else {
                 Vec3::ZERO
             };
@@ -122,7 +125,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             at, point, details, ..
         } = vertex;
         let wo = -state.ray.direction;
-        if point.material.dispersion > 0.0 && state.channel.is_none() && point.transmits() {
+        if point.material.dispersed.is_some() && state.channel.is_none() && point.transmits() {
             self.counts.add(Effect::Dispersion);
             state.pick_wavelength();
         }
@@ -145,7 +148,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         };
         count(Effect::NormalInterpolation, vertex.details.normal.is_some());
         count(Effect::NormalMapping, vertex.point.has_normal_map());
-        count(Effect::Textures, vertex.point.has_shading_map());
+        count(Effect::Textures, material.has_shading_map);
         count(Effect::Microfacets, bsdf.reflects());
         count(Effect::Compensation, bsdf.compensates());
         if Self::can(PathFeatures::LAYERS) {
@@ -154,7 +157,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             count(Effect::Anisotropy, standard.anisotropy.is_some());
             count(Effect::Iridescence, standard.iridescence.is_some());
         }
-        debug_assert!(!material.unlit, "a path ends on an unlit surface");
+        debug_assert!(!material.is_unlit, "a path ends on an unlit surface");
     }
 
     /// The light that one light sends to a vertex and on along the path.

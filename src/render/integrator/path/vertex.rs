@@ -3,12 +3,12 @@
 use super::PathTracer;
 use super::state::PathState;
 use crate::plan::{Effect, PathFeatures};
-use crate::render::material::standard::Point;
+use crate::render::material::point::Point;
+use crate::render::material::standard::{Alpha, StandardMaterial};
 use crate::render::ray::Interaction;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Details;
+use crate::render::shape::instance::{Asked, Details};
 use crate::render::world::Hit;
-use crate::valid::{Alpha, Standard};
 
 /// Alpha-tested surfaces that a ray goes through at most.
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;
@@ -31,7 +31,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             let hit = self.world.nearest_from(&state.ray, state.from)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.part);
-            let asked = self.asked[surface.material];
+            let asked = self.asked(surface.material);
             let details = surface.shape.details(&state.ray, &at, hit.part, asked);
             let point = self.point(surface.material, &details);
             state.travelled += hit.t;
@@ -54,16 +54,25 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         None
     }
 
+    /// What a material needs to know of a surface.
+    pub(super) fn asked(&self, material: usize) -> Asked {
+        if self.knows_all {
+            Asked::ALL
+        } else {
+            self.world.standards[material].asked
+        }
+    }
+
     /// A material at a point of a surface.
     pub(super) fn point(&mut self, material: usize, details: &Details) -> Point<'world> {
         let material = &self.world.standards[material];
-        if material.base_color_map.is_some() {
+        if material.base_color.map.is_some() {
             self.counts.add(Effect::Textures);
         }
         if details.color.is_some() {
             self.counts.add(Effect::VertexColors);
         }
-        Point::new(&self.world.scene, material, details)
+        Point::new(material, details)
     }
 
     /// The probability that a ray meets the surface at a point.
@@ -77,8 +86,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 }
 
 /// Whether a ray of the camera meets the back of what is seen from one side.
-fn skips_back(state: &PathState, at: &Interaction, material: &Standard) -> bool {
-    state.bounces == 0
-        && state.ray.direction.dot(at.normal) > 0.0
-        && material.is_seen_from_one_side()
+fn skips_back(state: &PathState, at: &Interaction, material: &StandardMaterial) -> bool {
+    state.bounces == 0 && state.ray.direction.dot(at.normal) > 0.0 && material.is_seen_from_one_side
 }

@@ -4,10 +4,10 @@ use super::PathTracer;
 use super::vertex::{MAX_SKIPPED, PathVertex};
 use crate::math::Vec3;
 use crate::plan::PathFeatures;
+use crate::render::material::standard::Alpha;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::{Hit, World, segment};
-use crate::valid::Alpha;
 
 /// Which surfaces of a world a ray may go through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return (None, 0.0);
         }
         let at = surface.shape.interaction(ray, hit.t, hit.part);
-        let asked = self.asked[surface.material];
+        let asked = self.asked(surface.material);
         let details = surface.shape.details(ray, &at, hit.part, asked);
         let point = self.point(surface.material, &details);
         (Some(at), 1.0 - self.opacity(&point))

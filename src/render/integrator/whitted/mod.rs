@@ -13,13 +13,14 @@ use crate::render::camera::grid::Grid;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::{Heartbeat, Proceed};
 use crate::render::integrator::Integrator;
+use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::{Key, Lobe, is_above};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{Frame, look_up};
 use crate::render::world::{Hit, World};
-use crate::valid::{Mode, Phong, ValidScene};
+use crate::valid::{Mode, Proof};
 use pixel::PixelState;
 use shade::View;
 
@@ -108,7 +109,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
 
     /// The scene traced.
     #[must_use]
-    pub(in crate::render) fn scene(&self) -> &'world ValidScene {
+    pub(in crate::render) fn scene(&self) -> &'world Proof {
         &self.world.scene
     }
 
@@ -200,7 +201,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     pub(in crate::render) fn view_of(&mut self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
         let surface = &self.world.surfaces[hit.surface];
         let interaction = surface.shape.interaction(ray, hit.t, hit.part);
-        let material = &self.world.materials[surface.material];
+        let material = &self.world.phongs[surface.material];
         let mut view = View {
             interaction,
             normal: interaction.normal,
@@ -228,7 +229,6 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
     /// its own.
     fn apply_maps(&mut self, view: &mut View<'_>, details: &Details) {
-        let scene = self.scene();
         if details.normal.is_some() {
             self.counts.add(Effect::NormalInterpolation);
         }
@@ -239,11 +239,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if maps.color.is_some() || maps.specular.is_some() {
             self.counts.add(Effect::Textures);
         }
-        if let Some(map) = maps.color {
-            view.color = self.texture(map, uv);
+        if let Some(map) = &maps.color {
+            view.color = look_up(map, uv);
         }
-        if let Some(map) = maps.specular {
-            view.ks *= self.texture(map, uv).x.max(0.0);
+        if let Some(map) = &maps.specular {
+            view.ks *= look_up(map, uv).x.max(0.0);
         }
         let Some(frame) = details
             .tangent
@@ -254,16 +254,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         if maps.normal.is_some() || maps.bump.is_some() {
             self.counts.add(Effect::NormalMapping);
         }
-        if let Some(map) = maps.normal {
-            view.normal = frame.mapped(scene, map, uv);
-        } else if let Some(bump) = maps.bump {
-            view.normal = frame.bumped(scene, bump, uv);
+        if let Some(map) = &maps.normal {
+            view.normal = frame.mapped(map, uv);
+        } else if let Some(bump) = &maps.bump {
+            view.normal = frame.bumped(bump, uv);
         }
-    }
-
-    /// What a texture shows.
-    fn texture(&self, index: usize, uv: [f64; 2]) -> Vec3 {
-        self.world.plan.constants[index].unwrap_or_else(|| look_up(self.scene(), index, uv))
     }
 
     fn local(&mut self, view: &View<'_>) -> Vec3 {
@@ -302,7 +297,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     fn put_off_mirror(&mut self, path: &Path, view: &View<'_>, mirror: Vec3, weight: f64) {
-        let Phong {
+        let PhongMaterial {
             n, glossy_samples, ..
         } = view.material;
         if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
@@ -430,7 +425,7 @@ fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
 /// where the shading normal would keep on this side of the surface what is to go through. So an eta
 /// of 1 bends no ray, whatever the shading normal.
 fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
-    let Phong { kt, eta, .. } = view.material;
+    let PhongMaterial { kt, eta, .. } = view.material;
     if kt.get() == 0.0 {
         return None;
     }

@@ -5,10 +5,12 @@ use crate::math::{Basis, Vec3};
 use crate::plan::{Effect, Features, Rule};
 use crate::render::bsdf::optics::highlight;
 use crate::render::integrator::Integrator;
+use crate::render::light::course::CourseLight;
+use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::Interaction;
 use crate::render::sampler::{DiscPoints, Key};
 use crate::render::shape::geometry::Geometry;
-use crate::valid::{Gooch, Light, Phong};
+use crate::valid::Gooch;
 
 /// A point seen from one side.
 pub(in crate::render) struct View<'world> {
@@ -19,7 +21,7 @@ pub(in crate::render) struct View<'world> {
     /// The unit vector to the viewer.
     pub(in crate::render) to_viewer: Vec3,
     /// What the surface is made of.
-    pub(in crate::render) material: &'world Phong,
+    pub(in crate::render) material: &'world PhongMaterial,
     /// C at this point.
     pub(in crate::render) color: Vec3,
     /// ks at this point.
@@ -92,8 +94,8 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let samples = world.scene.settings().light_samples.get();
         let mut sum = Vec3::ZERO;
         for (index, (light, plan)) in world
-            .scene
-            .lights()
+            .lights
+            .course
             .iter()
             .zip(&world.plan.lights)
             .enumerate()
@@ -191,7 +193,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let Gooch { b, y, alpha, beta } = *parameters;
         let (kd, n) = (view.material.kd.get(), view.material.n.get());
         let mut sum = Vec3::ZERO;
-        for light in self.scene().lights() {
+        for light in &self.world.lights.course {
             if !self.goes_on() {
                 break;
             }
@@ -214,7 +216,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
 /// The first points of the disc that a soft light shows to `from`.
 fn on_soft_light(
-    light: &Light,
+    light: &CourseLight,
     from: Vec3,
     count: u32,
     points: DiscPoints,

@@ -1,166 +1,21 @@
-//! The proof of the shapes: radii above 0, directions that are some, faces with an area.
+//! How each shape is proven.
 
-use super::check::{Check, Counts, SMALLEST, place};
-use crate::diag::Diagnostic;
-use crate::diag::codes;
+use super::area::has_area;
+use super::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
-use crate::math::{Positive, U, Vec3, cross, unit, unit_scale};
-
-/// A shape and the index of its material.
-#[derive(Clone, Debug)]
-pub struct Surface {
-    /// Its form and place.
-    pub shape: Shape,
-    /// An index into [`super::ValidScene::materials`], in range.
-    pub material: usize,
-    /// Its index in the IR, which holds triangles without an area as well.
-    pub index: usize,
-}
-
-/// A shape of any kind.
-#[derive(Clone, Debug)]
-pub enum Shape {
-    /// A sphere.
-    Sphere(Sphere),
-    /// An infinite plane.
-    Plane(Plane),
-    /// A triangle with an area.
-    Triangle(Triangle),
-    /// A quadrilateral with an area.
-    Quad(Box<Quad>),
-    /// A disc.
-    Disc(Disc),
-    /// A cylinder.
-    Cylinder(Cylinder),
-    /// A cone.
-    Cone(Cone),
-    /// A torus.
-    Torus(Torus),
-    /// A mesh, placed.
-    Instance(Box<Instance>),
-}
-
-/// A sphere.
-#[derive(Clone, Debug)]
-pub struct Sphere {
-    /// Its centre.
-    pub center: Vec3,
-    /// Its radius.
-    pub radius: Positive,
-    /// The rows of the rotation from directions of the world to those of the texture; none for the
-    /// identity.
-    pub texture_from_world: Option<Box<[Vec3; 3]>>,
-}
-
-/// An infinite plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Plane {
-    /// A point of it.
-    pub center: Vec3,
-    /// Its normal, with its largest component in [1, 2).
-    pub normal: Vec3,
-}
-
-/// A triangle whose corners are not in line.
-#[derive(Clone, Debug)]
-pub struct Triangle {
-    /// The corners; the normal is (v1 − v0) × (v2 − v0).
-    pub vertices: [Vec3; 3],
-    /// The texture coordinates of the corners.
-    pub uvs: Option<Box<[[f64; 2]; 3]>>,
-}
-
-/// A quadrilateral.
-#[derive(Clone, Copy, Debug)]
-pub struct Quad {
-    /// The corners in order around it.
-    pub vertices: [Vec3; 4],
-}
-
-impl Quad {
-    /// Whether all corners lie in one plane, to within 64 units of rounding.
-    #[must_use]
-    pub fn is_flat(&self) -> bool {
-        const FLAT: f64 = 64.0;
-        let [a, b, c, d] = self.vertices;
-        let normal = cross(b - a, c - a) + cross(c - a, d - a);
-        let size = self
-            .vertices
-            .iter()
-            .map(|v| v.abs().element_sum())
-            .fold(0.0, f64::max);
-        [b, c, d]
-            .iter()
-            .all(|v| (*v - a).dot(normal).abs() <= FLAT * U * size * normal.length())
-    }
-}
-
-/// A disc.
-#[derive(Clone, Copy, Debug)]
-pub struct Disc {
-    /// Its centre.
-    pub center: Vec3,
-    /// Its normal, with its largest component in [1, 2).
-    pub normal: Vec3,
-    /// Its radius.
-    pub radius: Positive,
-}
-
-/// A cylinder with two caps.
-#[derive(Clone, Copy, Debug)]
-pub struct Cylinder {
-    /// The centre of its base.
-    pub base: Vec3,
-    /// The direction to the top, with its largest component in [1, 2).
-    pub axis: Vec3,
-    /// From base to top.
-    pub height: Positive,
-    /// Its radius.
-    pub radius: Positive,
-}
-
-/// A cone with a cap at its base.
-#[derive(Clone, Copy, Debug)]
-pub struct Cone {
-    /// The centre of its base.
-    pub base: Vec3,
-    /// From there to the apex; not zero.
-    pub up: Vec3,
-    /// The radius of its base.
-    pub radius: Positive,
-}
-
-/// A torus.
-#[derive(Clone, Copy, Debug)]
-pub struct Torus {
-    /// Its centre.
-    pub center: Vec3,
-    /// The direction of its axis, with its largest component in [1, 2).
-    pub axis: Vec3,
-    /// From the centre to the middle of the tube.
-    pub major: Positive,
-    /// The radius of the tube.
-    pub minor: Positive,
-}
-
-/// A mesh, placed in the world.
-#[derive(Clone, Copy, Debug)]
-pub struct Instance {
-    /// An index into [`super::ValidScene::meshes`], in range.
-    pub mesh: usize,
-    /// The images of the three axes, which span space, and of the origin.
-    pub world_from_object: [Vec3; 4],
-}
+use crate::math::{Positive, Vec3, unit};
+use crate::valid::check::{Check, Counts, SMALLEST, place};
 
 /// `Some(None)` for a face without an area: nothing can hit it, so it is warned about and left out.
-pub(super) fn surface(
+pub(in crate::valid) fn surface(
     surface: &ir::Surface,
     index: usize,
     counts: &Counts,
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
-    let mut proof = Proof { index, check };
+    let mut proof = SurfaceCheck { index, check };
     let material = proof.check.handle(
         material.0,
         counts.materials,
@@ -186,13 +41,13 @@ pub(super) fn surface(
     }))
 }
 
-/// The proof of one surface.
-struct Proof<'a, 'run> {
+/// One surface under the check.
+struct SurfaceCheck<'a, 'run> {
     index: usize,
     check: &'a mut Check<'run>,
 }
 
-impl Proof<'_, '_> {
+impl SurfaceCheck<'_, '_> {
     fn at(&self, field: Field) -> Place {
         place(Noun::Surface, self.index, field)
     }
@@ -405,58 +260,4 @@ fn is_rotation(rows: [Vec3; 3]) -> bool {
         && close(y.dot(z), 0.0)
         && close(z.dot(x), 0.0)
         && close(x.cross(y).dot(z), 1.0)
-}
-
-/// Whether three corners are not in line.
-pub(super) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
-    let edges = [b - a, c - a];
-    surely_spans(edges) || spans(edges)
-}
-
-/// Whether two edges span an area that the plain cross product, off by at most 6 u of the product
-/// of their lengths, shows already: so do those of nearly all triangles, and the exact one takes
-/// far longer.
-fn surely_spans([first, second]: [Vec3; 2]) -> bool {
-    let (p, q) = (first.abs().max_element(), second.abs().max_element());
-    p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
-}
-
-/// Whether two edges span an area.
-fn spans([first, second]: [Vec3; 2]) -> bool {
-    let Some((first, p)) = unit_scale(first) else {
-        return false;
-    };
-    let Some((second, q)) = unit_scale(second) else {
-        return false;
-    };
-    // Edges so short that their products leave the range of f64 count as none.
-    let shortest = p.min(q) > libm::ilogb(SMALLEST);
-    shortest && cross(first, second) != Vec3::ZERO
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Slivers of all sizes, from clear triangles to such as only exact arithmetic tells from
-    /// lines.
-    #[test]
-    fn what_is_surely_an_area_is_one() {
-        let mut sure = 0;
-        for step in 0..4000 {
-            let size = libm::ldexp(1.0, step % 401 - 200);
-            let (along, off) = (
-                f64::from(step % 7) / 7.0 - 0.3,
-                libm::ldexp(1.0, -(step % 61)),
-            );
-            let first = Vec3::new(0.1, 0.7, -0.3) * size;
-            let second = first * along + Vec3::new(0.9, -0.2, 0.4) * (size * off);
-            sure += i32::from(surely_spans([first, second]));
-            assert!(
-                !surely_spans([first, second]) || spans([first, second]),
-                "{first:?} {second:?}"
-            );
-        }
-        assert!((2000..4000).contains(&sure), "both answers are met: {sure}");
-    }
 }

@@ -1,6 +1,7 @@
-//! Columns: what a mesh says of its vertices, vertex by vertex, in the precision of its source.
+//! Columns: vectors of a few numbers, one for each vertex of a mesh, in the precision of their
+//! source.
 //!
-//! They are shared, not copied: a proof and a prepared world hold the columns of the scene itself.
+//! They are shared, not copied: who reads them holds the columns of the scene itself.
 //! In JSON a column of 64-bit floats is a list, and one of 32-bit floats a map of `f32` to a list.
 
 use arbitrary::Arbitrary;

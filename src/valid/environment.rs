@@ -10,42 +10,45 @@ use crate::math::Vec3;
 pub struct Environment {
     /// The radiance, each channel at least 0, a factor of the image if there is one.
     pub radiance: Vec3,
-    /// A picture of all directions: an index into [`super::ValidScene::images`].
+    /// A picture of all directions: an index into [`super::Proof::images`].
     pub image: Option<usize>,
     /// The rows of the rotation from directions of the world to those of the image.
     pub image_from_world: [Vec3; 3],
 }
 
+impl Environment {
+    /// Darkness: that of a scene which has none.
+    pub const DARK: Self = Self {
+        radiance: Vec3::ZERO,
+        image: None,
+        image_from_world: [Vec3::X, Vec3::Y, Vec3::Z],
+    };
+}
+
 /// The largest departure of a rotation from one.
 const ROTATION: f64 = 1e-9;
 
-/// The proven environment: the outer `None` is an error, the inner one absence.
-#[expect(
-    clippy::option_option,
-    reason = "an error and an absence are two things"
-)]
 pub(super) fn environment(
     environment: Option<&ir::Environment>,
-    images: &[ir::Image],
+    images: usize,
     check: &mut Check<'_>,
-) -> Option<Option<Environment>> {
+) -> Option<Environment> {
     let Some(ir::Environment {
         radiance,
         image,
         image_from_world,
     }) = environment
     else {
-        return Some(None);
+        return Some(Environment::DARK);
     };
     let at = Place::new(Noun::Environment, 0, Field::Whole);
     let radiance = check.color(*radiance, at);
-    let image = match image {
-        Some(image) => check.handle(image.0, images.len(), "image", at).map(Some),
-        None => Some(None),
-    };
-    let rows = image_from_world
-        .unwrap_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-        .map(Vec3::from_array);
+    let image = check.optional(image.as_ref(), |check, image| {
+        check.handle(image.0, images, "image", at)
+    });
+    let rows = image_from_world.map_or(Environment::DARK.image_from_world, |rows| {
+        rows.map(Vec3::from_array)
+    });
     let [x, y, z] = rows;
     let is_rotation = (x.cross(y) - z).length() < ROTATION
         && (x.length() - 1.0).abs() < ROTATION
@@ -55,9 +58,9 @@ pub(super) fn environment(
         check.report(at, "", Diagnostic::new(&codes::BAD_ROTATION, message));
     }
     let (radiance, image) = (radiance?, image?);
-    is_rotation.then_some(Some(Environment {
+    is_rotation.then_some(Environment {
         radiance,
         image,
         image_from_world: rows,
-    }))
+    })
 }

@@ -1,0 +1,136 @@
+//! Materials as each integrator sees them: Phong's model by Whitted's, that of glTF by paths.
+
+use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
+use crate::valid::{Alpha, Map, Material, Phong, Standard, UvSet};
+use std::num::NonZeroU32;
+
+/// The material as Whitted's integrator sees it: of that of glTF the colour without the light.
+#[must_use]
+pub fn phong(material: &Material) -> Phong {
+    match material {
+        Material::Phong(phong) => phong.clone(),
+        Material::Standard(standard) => phong_of_standard(standard),
+    }
+}
+
+/// The material as the path integrator sees it: of Phong's model the diffuse part is Lambert's, and
+/// a mirror is a smooth metal.
+#[must_use]
+pub fn standard(material: &Material) -> Standard {
+    match material {
+        Material::Phong(phong) => standard_of_phong(phong),
+        Material::Standard(standard) => (**standard).clone(),
+    }
+}
+
+fn phong_of_standard(standard: &Standard) -> Phong {
+    let [r, g, b, _] = standard.base_color.map(UnitInterval::get);
+    let roughness = standard.roughness.get();
+    Phong {
+        color: Vec3::new(r, g, b),
+        ka: NonNegative::ZERO,
+        kd: standard.metallic.complement().into(),
+        ks: standard.metallic.into(),
+        n: NonNegative::saturating(1.0 / (roughness * roughness).max(1e-4)),
+        kt: NonNegative::ZERO,
+        eta: Positive::ONE,
+        glossy_samples: NonZeroU32::MIN,
+        maps: None,
+    }
+}
+
+fn standard_of_phong(phong: &Phong) -> Standard {
+    let share = |weight: NonNegative| UnitInterval::saturating(weight.get());
+    let (kd, ks, kt) = (share(phong.kd), share(phong.ks), share(phong.kt));
+    let (mirrors, refracts) = (ks > UnitInterval::ZERO, kt > UnitInterval::ZERO);
+    let is_mirror = mirrors && kd == UnitInterval::ZERO && !refracts;
+    let weight = if ks > kd { 1.0 } else { kd.get() };
+    let [r, g, b] = phong
+        .color
+        .to_array()
+        .map(|channel| UnitInterval::saturating(channel.min(1.0) * weight));
+    let one_if = |condition| {
+        if condition {
+            UnitInterval::ONE
+        } else {
+            UnitInterval::ZERO
+        }
+    };
+    let roughness = (2.0 / (phong.n.get() + 2.0)).sqrt().sqrt();
+    Standard {
+        base_color: if is_mirror {
+            [ks, ks, ks, UnitInterval::ONE]
+        } else {
+            [r, g, b, UnitInterval::ONE]
+        },
+        base_color_map: phong.maps.as_ref().and_then(|maps| maps.color).map(whole),
+        metallic: one_if(is_mirror),
+        roughness: if is_mirror || refracts {
+            UnitInterval::ZERO
+        } else {
+            UnitInterval::saturating(roughness)
+        },
+        specular: one_if(mirrors || refracts),
+        transmission: kt,
+        thickness: one_if(refracts).into(),
+        ior: NonNegative::saturating(phong.eta.get().max(1.0)),
+        ..WHITE
+    }
+}
+
+/// A texture by the coordinates of the surface as they are.
+fn whole(texture: usize) -> Map {
+    Map {
+        texture,
+        set: UvSet::First,
+        texture_from_surface: Map::IDENTITY,
+    }
+}
+
+/// A white surface without reflection.
+pub const WHITE: Standard = Standard {
+    base_color: [UnitInterval::ONE; 4],
+    base_color_map: None,
+    metallic: UnitInterval::ZERO,
+    roughness: UnitInterval::ONE,
+    metallic_roughness_map: None,
+    specular_glossiness: None,
+    specular_glossiness_map: None,
+    emissive: Vec3::ZERO,
+    emissive_map: None,
+    normal_map: None,
+    normal_scale: 1.0,
+    alpha: Alpha::Opaque,
+    double_sided: true,
+    unlit: false,
+    ior: NonNegative::ONE,
+    dispersion: NonNegative::ZERO,
+    specular: UnitInterval::ZERO,
+    specular_map: None,
+    specular_color: Vec3::ONE,
+    specular_color_map: None,
+    transmission: UnitInterval::ZERO,
+    transmission_map: None,
+    thickness: NonNegative::ZERO,
+    thickness_map: None,
+    attenuation_distance: None,
+    attenuation_color: Vec3::ONE,
+    clearcoat: UnitInterval::ZERO,
+    clearcoat_map: None,
+    clearcoat_roughness: UnitInterval::ZERO,
+    clearcoat_roughness_map: None,
+    clearcoat_normal_map: None,
+    clearcoat_normal_scale: 1.0,
+    sheen_color: Vec3::ZERO,
+    sheen_color_map: None,
+    sheen_roughness: UnitInterval::ZERO,
+    sheen_roughness_map: None,
+    anisotropy: UnitInterval::ZERO,
+    anisotropy_rotation: 0.0,
+    anisotropy_map: None,
+    iridescence: UnitInterval::ZERO,
+    iridescence_map: None,
+    iridescence_ior: Positive::ONE,
+    iridescence_thickness: [NonNegative::ZERO; 2],
+    iridescence_thickness_map: None,
+};

@@ -1,0 +1,275 @@
+//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of
+//! it emits or is absent.
+
+use crate::math::{Basis, Vec3};
+use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+use crate::render::material::standard::{
+    Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
+};
+use crate::render::ray::Interaction;
+use crate::render::shape::instance::Details;
+use crate::render::texture::sampled::Places;
+
+/// A material with what a surface says of one point.
+pub(in crate::render) struct Point<'world> {
+    pub(in crate::render) material: &'world StandardMaterial,
+    places: Places,
+    /// The colour at the point, that of the corners included, and alpha.
+    base: [f64; 4],
+}
+
+/// The frame of shading at a point: the unit normal, and the directions along which maps grow.
+pub(in crate::render) struct Frame {
+    /// Right-handed, as the BSDF wants it.
+    basis: Basis,
+    /// How highlights are stretched.
+    stretch: Option<Anisotropy>,
+}
+
+/// Where on a surface its material looks maps up.
+pub(in crate::render) fn places(details: &Details) -> Places {
+    [details.uv, details.second_uv]
+}
+
+impl<'world> Point<'world> {
+    pub(in crate::render) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
+        let places = places(details);
+        let (own, corners) = (
+            material.base_color.at(&places),
+            details.color.unwrap_or([1.0; 4]),
+        );
+        let base = |k: usize| own[k] * corners[k];
+        Self {
+            material,
+            places,
+            base: [base(0), base(1), base(2), base(3)],
+        }
+    }
+
+    /// The first texture coordinates.
+    pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
+        self.places[0]
+    }
+
+    /// The probability that a ray meets the surface.
+    pub(in crate::render) fn opacity(&self) -> f64 {
+        match self.material.alpha {
+            Alpha::Opaque => 1.0,
+            Alpha::Mask(cutoff) => f64::from(u8::from(self.base[3] >= cutoff)),
+            Alpha::Blend => self.base[3].clamp(0.0, 1.0),
+        }
+    }
+
+    /// The colour, each channel at most 1.
+    pub(in crate::render) fn base_color(&self) -> Vec3 {
+        let [r, g, b, _] = self.base;
+        Vec3::new(r, g, b).min(Vec3::ONE)
+    }
+
+    /// The radiance it sends out by itself.
+    pub(in crate::render) fn emission(&self) -> Vec3 {
+        self.material.emission.at(&self.places)
+    }
+
+    /// What is scattered; `channel` is the colour that a dispersed path has been left with.
+    pub(in crate::render) fn standard(
+        &self,
+        frame: &Frame,
+        clearcoat: Vec3,
+        channel: Option<usize>,
+        multiple: bool,
+    ) -> Standard {
+        let m = self.material;
+        let mut standard = Standard {
+            base_color: self.base_color(),
+            metallic: 0.0,
+            roughness: 0.0,
+            ior: 0.0,
+            specular: 1.0,
+            specular_color: Vec3::ONE,
+            transmission: m.transmission.at(&self.places),
+            thin_walled: !m.bounds_a_volume,
+            anisotropy: None,
+            clearcoat: None,
+            sheen: None,
+            iridescence: None,
+            multiple_scattering: multiple,
+        };
+        self.reflect(&mut standard, channel);
+        self.add_layers(&mut standard, frame, clearcoat);
+        standard
+    }
+
+    fn reflect(&self, standard: &mut Standard, channel: Option<usize>) {
+        let m = self.material;
+        match &m.reflection {
+            Reflection::Metallic {
+                roughness,
+                metallic,
+                map,
+                specular,
+                specular_color,
+            } => {
+                let [_, g, b, _] = map
+                    .as_ref()
+                    .map_or([1.0; 4], |map| shown(map, &self.places));
+                (standard.metallic, standard.roughness) = (metallic * b, roughness * g);
+                standard.ior = match (channel, m.dispersed) {
+                    (Some(channel), Some(dispersed)) => dispersed[channel],
+                    (Some(_), None) | (None, _) => m.ior,
+                };
+                standard.specular = specular.at(&self.places);
+                standard.specular_color = specular_color.at(&self.places);
+            }
+            // An infinite index reflects the colour given.
+            Reflection::Specular(factor) => {
+                let [red, green, blue, glossiness] = factor.at(&self.places);
+                standard.specular_color = Vec3::new(red, green, blue);
+                standard.roughness = (1.0 - glossiness).clamp(0.0, 1.0);
+            }
+        }
+    }
+
+    fn add_layers(&self, standard: &mut Standard, frame: &Frame, clearcoat: Vec3) {
+        let (m, places) = (self.material, &self.places);
+        // A layer whose map shows 0 is not there.
+        let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
+            factor: layer.factor.at(places),
+            roughness: layer.roughness.at(places),
+            normal: frame.to_local(clearcoat),
+        });
+        let sheen = m.sheen.as_ref().map(|layer| Sheen {
+            color: layer.color.at(places),
+            roughness: layer.roughness.at(places),
+        });
+        let film = m.iridescence.as_ref().map(|layer| Iridescence {
+            factor: layer.factor.at(places),
+            ior: layer.ior,
+            thickness: layer.least + layer.spread.at(places),
+        });
+        standard.clearcoat = coat.filter(|coat| coat.factor > 0.0);
+        standard.sheen = sheen.filter(|sheen| sheen.color != Vec3::ZERO);
+        standard.iridescence = film.filter(|film| film.factor > 0.0);
+        standard.anisotropy = frame.stretch;
+    }
+
+    fn stretch(&self, layer: &AnisotropyLayer, side: f64) -> Anisotropy {
+        let map = layer.map.as_ref().and_then(|map| map.look_up(&self.places));
+        let [r, g, share, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
+        let along = Vec3::new(r * 2.0 - 1.0, g * 2.0 - 1.0, 0.0).normalize_or(Vec3::X);
+        let [c, s] = layer.turn;
+        let direction = [
+            c * along.x - s * along.y,
+            (s * along.x + c * along.y) * side,
+        ];
+        Anisotropy {
+            strength: layer.strength * share,
+            direction,
+        }
+    }
+
+    /// Whether a map bends its normals.
+    pub(in crate::render) fn has_normal_map(&self) -> bool {
+        let coat = self.material.clearcoat.as_ref();
+        self.material.normal.is_some() || coat.is_some_and(|coat| coat.normal.is_some())
+    }
+
+    /// Whether light goes through at the point.
+    pub(in crate::render) fn transmits(&self) -> bool {
+        self.material.transmission.at(&self.places) > 0.0
+    }
+
+    /// The frame with the normal map applied, and the normal of the clearcoat.
+    pub(in crate::render) fn frame(
+        &self,
+        at: &Interaction,
+        details: &Details,
+        wo: Vec3,
+    ) -> (Frame, Vec3) {
+        // The winding says which side is outside, and the normals of some meshes were made against
+        // it.
+        let normal = details
+            .normal
+            .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
+        let m = self.material;
+        let mapped = |map: &Option<NormalMap>| {
+            let normal = map
+                .as_ref()
+                .map_or(normal, |map| self.mapped(map, normal, details));
+            bent(normal, at.normal, wo)
+        };
+        let shading = mapped(&m.normal);
+        let coat = m
+            .clearcoat
+            .as_ref()
+            .map_or(shading, |layer| mapped(&layer.normal));
+        // Only highlights that are stretched depend on how the frame is turned.
+        let stretch = m
+            .anisotropy
+            .as_ref()
+            .map(|layer| self.stretch(layer, details.side));
+        let stretch = stretch.filter(|stretch| stretch.strength > 0.0);
+        let tangent = details.tangent.filter(|_| stretch.is_some());
+        let basis = basis(shading, tangent, 1.0);
+        (Frame { basis, stretch }, coat)
+    }
+
+    /// The normal that a map gives.
+    fn mapped(&self, map: &NormalMap, normal: Vec3, details: &Details) -> Vec3 {
+        let Some([x, y, z, _]) = map.map.look_up(&self.places) else {
+            return normal;
+        };
+        let local = Vec3::new(
+            (x * 2.0 - 1.0) * map.scale,
+            (y * 2.0 - 1.0) * map.scale,
+            z * 2.0 - 1.0,
+        );
+        basis(normal, details.tangent, details.side)
+            .to_world(local)
+            .normalize_or(normal)
+    }
+}
+
+impl Frame {
+    pub(in crate::render) fn to_local(&self, w: Vec3) -> Vec3 {
+        self.basis.to_local(w)
+    }
+
+    pub(in crate::render) fn to_world(&self, w: Vec3) -> Vec3 {
+        self.basis.to_world(w)
+    }
+}
+
+/// The frame around a normal, its tangent that of a surface as far as there is one.
+fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
+    let tangent = tangent
+        .map(|t| t - normal * normal.dot(t))
+        .and_then(Vec3::try_normalize);
+    tangent.map_or_else(
+        || Basis::around(normal),
+        |tangent| Basis {
+            tangent,
+            bitangent: normal.cross(tangent) * side,
+            normal,
+        },
+    )
+}
+
+/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
+/// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
+/// light transport simulation and rendering system", 2017, has a like rule).
+fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
+    /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
+    const LEAST: f64 = 0.01;
+    const SHARE: f64 = 0.9;
+    let side = 1.0_f64.copysign(wo.dot(geometric));
+    let (n, above) = (shading * side, geometric * side);
+    let mirrored = n * (2.0 * n.dot(wo)) - wo;
+    let (height, least) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
+    if height >= least {
+        return shading;
+    }
+    // The normal halfway between the viewer and the direction raised.
+    let raised = (mirrored + above * (least - height)).normalize_or_zero();
+    (wo + raised).normalize_or(above) * side
+}

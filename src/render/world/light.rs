@@ -1,0 +1,110 @@
+//! The lights of a world, as its integrator sees them.
+
+use super::texture::Textures;
+use crate::plan::facts;
+use crate::render::light::course::CourseLight;
+use crate::render::light::environment::Environment;
+use crate::render::light::punctual::{Falloff, PointLight, Punctual, SpotLight, SunLight};
+use crate::valid::{self, Mode, Proof};
+
+/// The lights of a world: of two kinds of lists its integrator asks for one, and the other is
+/// empty.
+pub(in crate::render) struct LightList {
+    /// Those of Whitted's integrator, in the order in which their terms are summed.
+    pub(in crate::render) course: Vec<CourseLight>,
+    /// Those of paths that have no extent.
+    pub(in crate::render) punctual: Vec<Punctual>,
+    /// What surrounds the scene where paths ask.
+    pub(in crate::render) environment: Environment,
+}
+
+pub(super) fn lights_for(scene: &Proof, textures: &Textures) -> LightList {
+    match scene.settings().mode {
+        Mode::Path(_) => LightList {
+            course: Vec::new(),
+            punctual: facts::light::punctual(scene.lights())
+                .into_iter()
+                .map(punctual)
+                .collect(),
+            environment: environment(scene.environment(), textures),
+        },
+        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => LightList {
+            course: facts::light::course(scene.lights())
+                .into_iter()
+                .map(course)
+                .collect(),
+            punctual: Vec::new(),
+            environment: environment(&valid::Environment::DARK, textures),
+        },
+    }
+}
+
+fn course(light: valid::CourseLight) -> CourseLight {
+    let valid::CourseLight {
+        position,
+        color,
+        radius,
+    } = light;
+    CourseLight {
+        position,
+        color,
+        radius,
+    }
+}
+
+fn punctual(light: valid::Punctual) -> Punctual {
+    match light {
+        valid::Punctual::Sun(valid::SunLight {
+            direction,
+            irradiance,
+        }) => Punctual::Sun(SunLight {
+            direction,
+            irradiance,
+        }),
+        valid::Punctual::Point(light) => Punctual::Point(point(light)),
+        valid::Punctual::Spot(valid::SpotLight {
+            position,
+            direction,
+            inner,
+            outer,
+            intensity,
+            falloff,
+        }) => Punctual::Spot(SpotLight {
+            point: point(valid::PointLight {
+                position,
+                intensity,
+                falloff,
+            }),
+            direction,
+            inner,
+            outer,
+        }),
+    }
+}
+
+fn point(light: valid::PointLight) -> PointLight {
+    let valid::PointLight {
+        position,
+        intensity,
+        falloff,
+    } = light;
+    PointLight {
+        position,
+        intensity,
+        falloff: match falloff {
+            valid::Falloff::None => Falloff::None,
+            valid::Falloff::Square => Falloff::Square,
+            valid::Falloff::Ranged(range) => Falloff::Ranged(range.get() * range.get()),
+        },
+    }
+}
+
+fn environment(environment: &valid::Environment, textures: &Textures) -> Environment {
+    let valid::Environment {
+        radiance,
+        image,
+        image_from_world,
+    } = *environment;
+    let image = image.map(|image| textures.image(image));
+    Environment::new(radiance, image, image_from_world)
+}

@@ -1,0 +1,364 @@
+//! The materials of a world, as its integrator sees them: defaults gone, factors that are the same
+//! everywhere worked out, maps with their images at hand.
+
+use super::texture::Textures;
+use crate::math::{UnitInterval, Vec3, cos, ln, sin};
+use crate::plan::{PathPlan, Plan, facts};
+use crate::render::bsdf::dispersed;
+use crate::render::material::phong::{PhongMaps, PhongMaterial};
+use crate::render::material::standard::{
+    Alpha, AnisotropyLayer, ClearcoatLayer, IridescenceLayer, NormalMap, Number, Reflection, Rgba,
+    SheenLayer, Source, StandardMaterial, Tint,
+};
+use crate::render::shape::instance::Asked;
+use crate::render::texture::bilinear::Bump;
+use crate::render::texture::sampled::{Content, Places};
+use crate::valid::{self, Maps, Mode, Phong, Proof, Standard};
+
+/// The materials of a scene as its integrator sees them, one for each.
+pub(super) enum Seen {
+    Whitted(Vec<Phong>),
+    Paths(Vec<Standard>),
+}
+
+/// What the materials of a scene are to the integrator that is planned.
+pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> Seen {
+    let materials = scene.materials().iter();
+    if let Some(paths) = &plan.paths {
+        return Seen::Paths(paths.materials.clone());
+    }
+    match scene.settings().mode {
+        Mode::Path(_) => Seen::Paths(materials.map(facts::material::standard).collect()),
+        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
+            Seen::Whitted(materials.map(facts::material::phong).collect())
+        }
+    }
+}
+
+/// Materials of Phong's model, and after them those of surfaces whose maps gave way: a map that
+/// shows one value gives way to the value, where the surface has uv to look it up by.
+pub(super) struct PhongList<'plan> {
+    all: Vec<Phong>,
+    plan: &'plan Plan,
+    /// Per material of the scene, the index of it with values for maps.
+    simple: Vec<Option<usize>>,
+}
+
+impl<'plan> PhongList<'plan> {
+    pub(super) fn new(materials: Vec<Phong>, plan: &'plan Plan) -> Self {
+        Self {
+            simple: vec![None; materials.len()],
+            all: materials,
+            plan,
+        }
+    }
+
+    /// The index of the material that stands for one of the scene.
+    pub(super) fn of(&mut self, material: usize, has_uv: bool) -> usize {
+        if let Some(simple) = self.simple[material].filter(|_| has_uv) {
+            return simple;
+        }
+        match self.simplified(&self.all[material]).filter(|_| has_uv) {
+            Some(phong) => {
+                self.all.push(phong);
+                *self.simple[material].insert(self.all.len() - 1)
+            }
+            None => material,
+        }
+    }
+
+    /// The material with values for maps that show one, if it has such.
+    fn simplified(&self, material: &Phong) -> Option<Phong> {
+        let maps = **material.maps.as_ref()?;
+        let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
+        let (new_color, scale) = (value(maps.color), value(maps.specular));
+        if new_color.is_none() && scale.is_none() {
+            return None;
+        }
+        let rest = Maps {
+            color: maps.color.filter(|_| new_color.is_none()),
+            specular: maps.specular.filter(|_| scale.is_none()),
+            ..maps
+        };
+        Some(Phong {
+            color: new_color.unwrap_or(material.color),
+            ks: scale.map_or(material.ks, |scale| material.ks.times(scale.x)),
+            maps: rest.has_some().then(|| Box::new(rest)),
+            ..material.clone()
+        })
+    }
+
+    pub(super) fn prepared(self, textures: &Textures) -> Vec<PhongMaterial> {
+        self.all
+            .into_iter()
+            .map(|material| phong(material, textures))
+            .collect()
+    }
+}
+
+fn phong(material: Phong, textures: &Textures) -> PhongMaterial {
+    let Phong {
+        color,
+        ka,
+        kd,
+        ks,
+        n,
+        kt,
+        eta,
+        glossy_samples,
+        maps,
+    } = material;
+    PhongMaterial {
+        color,
+        ka,
+        kd,
+        ks,
+        n,
+        kt,
+        eta,
+        glossy_samples,
+        maps: maps.map(|maps| Box::new(phong_maps(&maps, textures))),
+    }
+}
+
+fn phong_maps(maps: &Maps, textures: &Textures) -> PhongMaps {
+    let Maps {
+        color,
+        specular,
+        normal,
+        bump,
+    } = *maps;
+    let texture = |index: Option<usize>| index.map(|index| textures.texture(index));
+    PhongMaps {
+        color: texture(color),
+        specular: texture(specular),
+        normal: texture(normal),
+        bump: bump.map(|valid::Bump { texture, height }| Bump {
+            texture: textures.texture(texture),
+            height,
+        }),
+    }
+}
+
+/// Material `index` of a scene, as the plan of paths left it, prepared.
+pub(super) fn standard(
+    index: usize,
+    material: &Standard,
+    textures: &Textures,
+    plan: Option<&PathPlan>,
+) -> StandardMaterial {
+    let m = material;
+    let slots = Slots {
+        index,
+        textures,
+        plan,
+    };
+    let emission = if m.emissive == Vec3::ZERO {
+        Tint {
+            factor: Vec3::ZERO,
+            map: None,
+        }
+    } else {
+        slots.tint(m.emissive, m.emissive_map.as_ref())
+    };
+    StandardMaterial {
+        asked: slots.asked(m),
+        has_shading_map: shading_maps(m).any(|map| slots.is_looked_up(map)),
+        alpha: match m.alpha {
+            valid::Alpha::Opaque => Alpha::Opaque,
+            valid::Alpha::Mask(cutoff) => Alpha::Mask(cutoff.get()),
+            valid::Alpha::Blend => Alpha::Blend,
+        },
+        is_seen_from_one_side: m.is_seen_from_one_side(),
+        is_unlit: m.unlit,
+        base_color: slots.rgba(m.base_color, m.base_color_map.as_ref()),
+        emission,
+        reflection: slots.reflection(m),
+        transmission: slots.number(m.transmission, m.transmission_map.as_ref(), 0),
+        ior: m.ior.get(),
+        dispersed: (m.dispersion.get() > 0.0).then(|| dispersed(m.ior.get(), m.dispersion.get())),
+        bounds_a_volume: m.thickness.get() > 0.0,
+        absorption: absorption(m),
+        normal: slots.normal(m.normal_map.as_ref(), m.normal_scale),
+        clearcoat: (m.clearcoat > UnitInterval::ZERO).then(|| slots.clearcoat(m)),
+        sheen: (m.sheen_color != Vec3::ZERO).then(|| SheenLayer {
+            color: slots.tint(m.sheen_color, m.sheen_color_map.as_ref()),
+            roughness: slots.number(m.sheen_roughness, m.sheen_roughness_map.as_ref(), 3),
+        }),
+        anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
+        iridescence: (m.iridescence > UnitInterval::ZERO).then(|| slots.iridescence(m)),
+    }
+}
+
+/// The maps that say how a material scatters light, but for those of normals.
+fn shading_maps(m: &Standard) -> impl Iterator<Item = &valid::Map> {
+    let reflection = match m.specular_glossiness {
+        Some(_) => [m.specular_glossiness_map.as_ref(), None, None],
+        None => [
+            m.metallic_roughness_map.as_ref(),
+            m.specular_map.as_ref(),
+            m.specular_color_map.as_ref(),
+        ],
+    };
+    let coat = [&m.clearcoat_map, &m.clearcoat_roughness_map];
+    let coat = coat
+        .into_iter()
+        .flatten()
+        .filter(|_| m.clearcoat > UnitInterval::ZERO);
+    let sheen = [&m.sheen_color_map, &m.sheen_roughness_map];
+    let sheen = sheen
+        .into_iter()
+        .flatten()
+        .filter(|_| m.sheen_color != Vec3::ZERO);
+    let film = [&m.iridescence_map, &m.iridescence_thickness_map];
+    let film = film
+        .into_iter()
+        .flatten()
+        .filter(|_| m.iridescence > UnitInterval::ZERO);
+    let stretch = m
+        .anisotropy_map
+        .iter()
+        .filter(|_| m.anisotropy > UnitInterval::ZERO);
+    let base = reflection.into_iter().flatten().chain(&m.transmission_map);
+    base.chain(coat).chain(sheen).chain(film).chain(stretch)
+}
+
+/// The coefficient of absorption of the medium inside, per unit of length.
+fn absorption(m: &Standard) -> Vec3 {
+    let Some(distance) = m.attenuation_distance else {
+        return Vec3::ZERO;
+    };
+    // −ln of the least positive number stands for black.
+    m.attenuation_color
+        .map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance.get())
+}
+
+/// Makes the parameters of a material that may have maps.
+struct Slots<'world> {
+    /// Which material of the scene.
+    index: usize,
+    textures: &'world Textures,
+    plan: Option<&'world PathPlan>,
+}
+
+impl Slots<'_> {
+    /// What the material needs to know of a surface.
+    fn asked(&self, m: &Standard) -> Asked {
+        let others = [
+            &m.base_color_map,
+            &m.emissive_map,
+            &m.normal_map,
+            &m.clearcoat_normal_map,
+        ];
+        let mut maps = shading_maps(m).chain(others.into_iter().flatten());
+        Asked {
+            uv: maps.any(|map| self.is_looked_up(map)),
+            tangent: m.anisotropy > UnitInterval::ZERO
+                || m.normal_map.is_some()
+                || m.clearcoat_normal_map.is_some(),
+        }
+    }
+
+    /// Whether a map is looked up at each hit.
+    fn is_looked_up(&self, map: &valid::Map) -> bool {
+        self.plan
+            .is_none_or(|plan| !plan.is_folded(self.index, map))
+    }
+
+    /// What a map shows.
+    fn source(&self, map: Option<&valid::Map>, content: Content) -> Option<Source> {
+        /// Anywhere: a map that is folded shows the same everywhere.
+        const ANYWHERE: Places = [Some([0.5; 2]); 2];
+        let map = map?;
+        let prepared = self.textures.map(map, content);
+        if self.is_looked_up(map) {
+            return Some(Source::Map(prepared));
+        }
+        prepared.look_up(&ANYWHERE).map(Source::Value)
+    }
+
+    fn number(&self, factor: UnitInterval, map: Option<&valid::Map>, channel: usize) -> Number {
+        self.scaled(factor.get(), map, channel)
+    }
+
+    fn scaled(&self, factor: f64, map: Option<&valid::Map>, channel: usize) -> Number {
+        let (factor, map) = match self.source(map, Content::Linear) {
+            None => (factor, None),
+            Some(Source::Value(value)) => (factor * value[channel], None),
+            Some(Source::Map(map)) => (factor, Some((map, channel))),
+        };
+        Number { factor, map }
+    }
+
+    fn tint(&self, factor: Vec3, map: Option<&valid::Map>) -> Tint {
+        let (factor, map) = match self.source(map, Content::Color) {
+            None => (factor, None),
+            Some(Source::Value([r, g, b, _])) => (factor * Vec3::new(r, g, b), None),
+            Some(Source::Map(map)) => (factor, Some(map)),
+        };
+        Tint { factor, map }
+    }
+
+    fn rgba(&self, factor: [UnitInterval; 4], map: Option<&valid::Map>) -> Rgba {
+        let factor = factor.map(UnitInterval::get);
+        let (factor, map) = match self.source(map, Content::Color) {
+            None => (factor, None),
+            Some(Source::Value(value)) => ([0, 1, 2, 3].map(|k| factor[k] * value[k]), None),
+            Some(Source::Map(map)) => (factor, Some(map)),
+        };
+        Rgba { factor, map }
+    }
+
+    fn normal(&self, map: Option<&valid::Map>, scale: f64) -> Option<NormalMap> {
+        let map = self.source(map, Content::Linear)?;
+        Some(NormalMap { map, scale })
+    }
+
+    fn reflection(&self, m: &Standard) -> Reflection {
+        if let Some(factor) = m.specular_glossiness {
+            return Reflection::Specular(self.rgba(factor, m.specular_glossiness_map.as_ref()));
+        }
+        let (roughness, metallic) = (m.roughness.get(), m.metallic.get());
+        let source = self.source(m.metallic_roughness_map.as_ref(), Content::Linear);
+        let (roughness, metallic, map) = match source {
+            None => (roughness, metallic, None),
+            Some(Source::Value([_, g, b, _])) => (roughness * g, metallic * b, None),
+            Some(Source::Map(map)) => (roughness, metallic, Some(map)),
+        };
+        Reflection::Metallic {
+            roughness,
+            metallic,
+            map,
+            specular: self.number(m.specular, m.specular_map.as_ref(), 3),
+            specular_color: self.tint(m.specular_color, m.specular_color_map.as_ref()),
+        }
+    }
+
+    fn clearcoat(&self, m: &Standard) -> ClearcoatLayer {
+        let roughness_map = m.clearcoat_roughness_map.as_ref();
+        ClearcoatLayer {
+            factor: self.number(m.clearcoat, m.clearcoat_map.as_ref(), 0),
+            roughness: self.number(m.clearcoat_roughness, roughness_map, 1),
+            normal: self.normal(m.clearcoat_normal_map.as_ref(), m.clearcoat_normal_scale),
+        }
+    }
+
+    fn anisotropy(&self, m: &Standard) -> AnisotropyLayer {
+        AnisotropyLayer {
+            strength: m.anisotropy.get(),
+            turn: [cos(m.anisotropy_rotation), sin(m.anisotropy_rotation)],
+            map: self.source(m.anisotropy_map.as_ref(), Content::Linear),
+        }
+    }
+
+    fn iridescence(&self, m: &Standard) -> IridescenceLayer {
+        let [least, greatest] = m.iridescence_thickness.map(|thickness| thickness.get());
+        let map = m.iridescence_thickness_map.as_ref();
+        IridescenceLayer {
+            factor: self.number(m.iridescence, m.iridescence_map.as_ref(), 0),
+            ior: m.iridescence_ior.get(),
+            least,
+            spread: self.scaled(greatest - least, map, 1),
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
+
+use super::material::{PhongList, Seen, materials_for, standard};
+use super::merged::{Merged, merging};
+use super::texture::Textures;
+use super::{Surface, World, light};
+use crate::plan::Plan;
+use crate::render::accel::bvh::Bvh;
+use crate::render::shape::geometry::Geometry;
+use crate::valid::{self, Proof};
+use std::sync::Arc;
+
+impl<S: Geometry> World<S> {
+    /// Prepares a scene as planned: materials and lights as its integrator sees them, shapes, and
+    /// the hierarchies of those.
+    #[must_use]
+    pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
+        let textures = Textures::new(scene);
+        let lights = light::lights_for(scene, &textures);
+        let (surfaces, phongs, standards) = match materials_for(scene, plan) {
+            Seen::Whitted(materials) => {
+                let mut list = PhongList::new(materials, plan);
+                let surfaces = surfaces(scene, plan, |material, has_uv| list.of(material, has_uv));
+                (surfaces, list.prepared(&textures), Vec::new())
+            }
+            Seen::Paths(materials) => {
+                let paths = plan.paths.as_ref();
+                let materials = materials.iter().enumerate();
+                let prepared =
+                    materials.map(|(index, material)| standard(index, material, &textures, paths));
+                let surfaces = surfaces(scene, plan, |material, _| material);
+                (surfaces, Vec::new(), prepared.collect())
+            }
+        };
+        let Places {
+            unbounded,
+            bounded,
+            bvh,
+            merged,
+        } = Places::of(scene, &surfaces);
+        Self {
+            scene: scene.clone(),
+            plan: plan.clone(),
+            phongs,
+            standards,
+            lights,
+            surfaces,
+            verify: None,
+            unbounded,
+            bounded,
+            bvh,
+            merged,
+        }
+    }
+}
+
+/// The surfaces that are planned and that rays can hit; `material_of` says which of the world's
+/// materials stands for one of the scene on a surface with or without texture coordinates.
+fn surfaces<S: Geometry>(
+    scene: &Proof,
+    plan: &Plan,
+    mut material_of: impl FnMut(usize, bool) -> usize,
+) -> Vec<Surface<S>> {
+    let meshes = scene
+        .meshes()
+        .iter()
+        .map(|mesh| Arc::new(S::prepare_mesh(mesh)))
+        .collect::<Vec<_>>();
+    let prepared = |(index, surface): (usize, &valid::Surface)| {
+        let shape = S::prepare(&surface.shape, &meshes)?;
+        Some(Surface {
+            material: material_of(surface.material, shape.has_uv()),
+            shape,
+            index,
+        })
+    };
+    let planned = scene
+        .surfaces()
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| plan.surfaces[*index]);
+    planned.filter_map(prepared).collect()
+}
+
+/// Where rays look for the surfaces of a world.
+struct Places {
+    unbounded: Vec<u32>,
+    bounded: Vec<u32>,
+    bvh: Bvh,
+    merged: Option<Merged>,
+}
+
+impl Places {
+    fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>]) -> Self {
+        let (mut unbounded, mut bounded) = (Vec::new(), Vec::new());
+        let (mut boxes, mut apart) = (Vec::new(), Vec::new());
+        let merges = merging(scene);
+        for (index, surface) in (0_u32..).zip(surfaces) {
+            match surface.shape.bounds() {
+                _ if merges[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
+                Some(bounds) => {
+                    bounded.push(index);
+                    boxes.push(bounds);
+                }
+                None => unbounded.push(index),
+            }
+        }
+        Self {
+            unbounded,
+            bounded,
+            bvh: Bvh::build(&boxes),
+            merged: Merged::new(surfaces, &apart),
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The proof of Phong's model.
+
+use super::check::{Check, Counts, place};
+use crate::diag::codes;
+use crate::ir::{self, Field, Noun, Place, TextureId};
+use crate::math::{NonNegative, Positive, Vec3};
+use std::num::NonZeroU32;
+
+/// Phong's model with mirror and refraction; see [`ir::Phong`] for the formula.
+#[derive(Clone, Debug)]
+pub struct Phong {
+    /// The colour of the surface.
+    pub color: Vec3,
+    /// The weight of the ambient term.
+    pub ka: NonNegative,
+    /// The weight of the diffuse term.
+    pub kd: NonNegative,
+    /// The weight of the highlight and of the mirror ray.
+    pub ks: NonNegative,
+    /// The exponent of the highlight and of the glossy lobe.
+    pub n: NonNegative,
+    /// The weight of the refracted ray.
+    pub kt: NonNegative,
+    /// The index of refraction of the inside over that of the outside.
+    pub eta: Positive,
+    /// Rays of the glossy lobe.
+    pub glossy_samples: NonZeroU32,
+    /// What is looked up by uv, if anything is.
+    pub maps: Option<Box<Maps>>,
+}
+
+/// Textures of a material, as indices into [`super::Proof::textures`].
+#[derive(Clone, Copy, Debug)]
+pub struct Maps {
+    /// The texture that gives the colour.
+    pub color: Option<usize>,
+    /// The texture whose red channel multiplies ks.
+    pub specular: Option<usize>,
+    /// The texture of the shading normal.
+    pub normal: Option<usize>,
+    /// The height field.
+    pub bump: Option<Bump>,
+}
+
+/// A height field over a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Bump {
+    /// The texture: an index into [`super::Proof::textures`].
+    pub texture: usize,
+    /// The height of white above black, as a share of the width of a texel.
+    pub height: f64,
+}
+
+pub(super) fn phong(
+    phong: &ir::Phong,
+    index: usize,
+    counts: &Counts,
+    check: &mut Check<'_>,
+) -> Option<Phong> {
+    let ir::Phong {
+        color,
+        ka,
+        kd,
+        ks,
+        n,
+        kt,
+        eta,
+        glossy_samples,
+        color_map,
+        specular_map,
+        normal_map,
+        bump,
+    } = phong;
+    let at = |field| place(Noun::Material, index, field);
+    let color = check.color(*color, at(Field::Color));
+    let ka = check.non_negative(*ka, "ka", at(Field::Ka));
+    let kd = check.non_negative(*kd, "kd", at(Field::Kd));
+    let ks = check.non_negative(*ks, "ks", at(Field::Ks));
+    let n = check.exponent(*n, at(Field::N));
+    let kt = check.non_negative(*kt, "refract", at(Field::Kt));
+    let eta = check.length(*eta, at(Field::Eta), &codes::ETA, "index of refraction");
+    let glossy_samples = check.count(*glossy_samples, "glossySamples", at(Field::GlossySamples));
+    let mut texture = |id: &Option<TextureId>, field| {
+        check.optional(id.as_ref(), |check, id| {
+            check.handle(id.0, counts.textures, "texture", at(field))
+        })
+    };
+    let color_map = texture(color_map, Field::ColorMap);
+    let specular_map = texture(specular_map, Field::SpecularMap);
+    let normal_map = texture(normal_map, Field::NormalMap);
+    let bump = check.optional(bump.as_ref(), |check, bump| {
+        height_field(bump, counts, at(Field::Bump), check)
+    });
+    let maps = Maps {
+        color: color_map?,
+        specular: specular_map?,
+        normal: normal_map?,
+        bump: bump?,
+    };
+    Some(Phong {
+        color: color?,
+        ka: ka?,
+        kd: kd?,
+        ks: ks?,
+        n: n?,
+        kt: kt?,
+        eta: eta?,
+        glossy_samples: glossy_samples?,
+        maps: maps.has_some().then(|| Box::new(maps)),
+    })
+}
+
+fn height_field(
+    bump: &ir::Bump,
+    counts: &Counts,
+    place: Place,
+    check: &mut Check<'_>,
+) -> Option<Bump> {
+    let ir::Bump { texture, height } = bump;
+    let texture = check.handle(texture.0, counts.textures, "texture", place);
+    let height = check.number(*height, place);
+    Some(Bump {
+        texture: texture?,
+        height: height?,
+    })
+}
+
+impl Maps {
+    /// Whether any is there.
+    #[must_use]
+    pub fn has_some(&self) -> bool {
+        let Self {
+            color,
+            specular,
+            normal,
+            bump,
+        } = self;
+        color.is_some() || specular.is_some() || normal.is_some() || bump.is_some()
+    }
+}

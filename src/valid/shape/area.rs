@@ -1,0 +1,58 @@
+//! Whether a face has an area.
+
+use crate::math::{U, Vec3, cross, unit_scale};
+use crate::valid::check::SMALLEST;
+
+/// Whether three corners are not in line.
+pub(in crate::valid) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
+    let edges = [b - a, c - a];
+    surely_spans(edges) || spans(edges)
+}
+
+/// Whether two edges span an area that the plain cross product, off by at most 6 u of the product
+/// of their lengths, shows already: so do those of nearly all triangles, and the exact one takes
+/// far longer.
+fn surely_spans([first, second]: [Vec3; 2]) -> bool {
+    let (p, q) = (first.abs().max_element(), second.abs().max_element());
+    p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
+}
+
+/// Whether two edges span an area.
+fn spans([first, second]: [Vec3; 2]) -> bool {
+    let Some((first, p)) = unit_scale(first) else {
+        return false;
+    };
+    let Some((second, q)) = unit_scale(second) else {
+        return false;
+    };
+    // Edges so short that their products leave the range of f64 count as none.
+    let shortest = p.min(q) > libm::ilogb(SMALLEST);
+    shortest && cross(first, second) != Vec3::ZERO
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slivers of all sizes, from clear triangles to such as only exact arithmetic tells from
+    /// lines.
+    #[test]
+    fn what_is_surely_an_area_is_one() {
+        let mut sure = 0;
+        for step in 0..4000 {
+            let size = libm::ldexp(1.0, step % 401 - 200);
+            let (along, off) = (
+                f64::from(step % 7) / 7.0 - 0.3,
+                libm::ldexp(1.0, -(step % 61)),
+            );
+            let first = Vec3::new(0.1, 0.7, -0.3) * size;
+            let second = first * along + Vec3::new(0.9, -0.2, 0.4) * (size * off);
+            sure += i32::from(surely_spans([first, second]));
+            assert!(
+                !surely_spans([first, second]) || spans([first, second]),
+                "{first:?} {second:?}"
+            );
+        }
+        assert!((2000..4000).contains(&sure), "both answers are met: {sure}");
+    }
+}

@@ -1,0 +1,142 @@
+//! The proof of the textures, and of the maps that lead to them: images and textures that exist.
+
+use super::check::{Check, Counts, place};
+use crate::diag::{Diagnostic, codes};
+use crate::ir::{self, Field, Noun, Place};
+
+/// A texture of any kind.
+#[derive(Clone, Copy, Debug)]
+pub enum Texture {
+    /// The colour (u, 0, v).
+    Uv,
+    /// An image as the course looks it up, v = 1 at its top row: an index into
+    /// [`super::Proof::images`].
+    Image(usize),
+    /// An image as glTF samples it, v = 0 at its top row.
+    Sampled(Sampled),
+}
+
+/// An image with the way it is sampled.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampled {
+    /// An index into [`super::Proof::images`].
+    pub image: usize,
+    /// What lies beyond the unit square, along u and v.
+    pub wrap: [Wrap; 2],
+    /// How texels blend.
+    pub filter: Filter,
+}
+
+/// What lies beyond the unit square.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image again.
+    Repeat,
+    /// The image again, mirrored at each edge.
+    Mirror,
+    /// The texel at the edge.
+    Clamp,
+}
+
+/// How texels blend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// The four nearest by their nearness.
+    Linear,
+    /// The nearest alone.
+    Nearest,
+}
+
+/// A texture, and how a surface's texture coordinates lead to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Map {
+    /// An index into [`super::Proof::textures`].
+    pub texture: usize,
+    /// Which coordinates of the surface.
+    pub set: UvSet,
+    /// The rows of the affine map from the coordinates of the surface to those of the texture,
+    /// `(a, b, c)` for `a·u + b·v + c`.
+    pub texture_from_surface: [[f64; 3]; 2],
+}
+
+/// One of the two sets of texture coordinates of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UvSet {
+    /// The one that most surfaces have alone.
+    First,
+    /// The other.
+    Second,
+}
+
+impl UvSet {
+    /// Its number, from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+impl Map {
+    /// The map from coordinates to the same ones.
+    pub const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+}
+
+pub(super) fn texture(
+    texture: &ir::Texture,
+    index: usize,
+    images: usize,
+    check: &mut Check<'_>,
+) -> Option<Texture> {
+    let at = place(Noun::Texture, index, Field::Whole);
+    let mut exists = |image: ir::ImageId| check.handle(image.0, images, "image", at);
+    match texture {
+        ir::Texture::Uv => Some(Texture::Uv),
+        ir::Texture::Image(image) => exists(*image).map(Texture::Image),
+        ir::Texture::Sampled(ir::Sampled {
+            image,
+            wrap,
+            filter,
+        }) => Some(Texture::Sampled(Sampled {
+            image: exists(*image)?,
+            wrap: wrap.map(|wrap| match wrap {
+                ir::Wrap::Repeat => Wrap::Repeat,
+                ir::Wrap::Mirror => Wrap::Mirror,
+                ir::Wrap::Clamp => Wrap::Clamp,
+            }),
+            filter: match filter {
+                ir::Filter::Linear => Filter::Linear,
+                ir::Filter::Nearest => Filter::Nearest,
+            },
+        })),
+    }
+}
+
+/// The map of a material at a place.
+pub(super) fn map(map: &ir::Map, counts: &Counts, at: Place, check: &mut Check<'_>) -> Option<Map> {
+    let ir::Map {
+        texture,
+        set,
+        texture_from_surface,
+    } = map;
+    let texture = check.handle(texture.0, counts.textures, "texture", at);
+    let proven_set = match set {
+        0 => Some(UvSet::First),
+        1 => Some(UvSet::Second),
+        _ => None,
+    };
+    if proven_set.is_none() {
+        let message =
+            format!("a map uses set {set} of texture coordinates, and there are two, from 0");
+        check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
+    }
+    let rows = texture_from_surface.unwrap_or(Map::IDENTITY);
+    let finite = rows.iter().flatten().fold(true, |sound, number| {
+        sound & check.number(*number, at).is_some()
+    });
+    let (texture, set) = (texture?, proven_set?);
+    finite.then_some(Map {
+        texture,
+        set,
+        texture_from_surface: rows,
+    })
+}
