@@ -3,14 +3,10 @@
 //!
 //! `# expect: CODE severity LINE:COLUMN message`, one line a finding, in the order of the places,
 //! in a binary file `byte N`; `# options: strict lenient` sets options. A file that can't hold
-//! comments has them beside it, in `<case>.expect`. With `RTC_UPDATE=1` the expectations are
-//! rewritten.
+//! comments has them beside it, in `<case>.expect`.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    reason = "a test stops at the first surprise and reads what it checks"
-)]
+use super::suite::{files, name, root, trial, updates};
+use libtest_mimic::{Failed, Trial};
 use rtc::diag::{Severity, Sink, codes};
 use rtc::source::{Loader, SourceMap};
 use rtc::{front, pipeline};
@@ -26,28 +22,24 @@ const ELSEWHERE: &[&str] = &[
     "VA021",
 ];
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics")
-}
-
-fn cases() -> Vec<PathBuf> {
-    let list = |folder: &Path| {
-        fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path())
-            .collect::<Vec<_>>()
-    };
-    let folders = list(&root()).into_iter().filter(|path| path.is_dir());
-    let mut cases: Vec<_> = folders.flat_map(|folder| list(&folder)).collect();
-    cases.retain(|path| {
-        path.extension().is_some_and(|extension| {
-            ["yaml", "gltf", "glb"]
-                .iter()
-                .any(|known| extension == *known)
+pub(crate) fn trials() -> Vec<Trial> {
+    let folder = root("tests/diagnostics");
+    let cases = files(&folder, &["yaml", "gltf", "glb"]).into_iter();
+    // What cases name lies in folders below.
+    let depth = folder.components().count() + 2;
+    let cases = cases.filter(|case| case.components().count() == depth);
+    let mut covered = BTreeSet::new();
+    let mut trials: Vec<_> = cases
+        .map(|case| {
+            let name = name(&case, &folder);
+            covered.extend(name.split('/').next().map(str::to_owned));
+            Trial::test(format!("diagnostics/{name}"), move || check(&case))
         })
-    });
-    cases.sort();
-    cases
+        .collect();
+    trials.push(trial("diagnostics: every code has a case", move || {
+        every_code_has_a_case(&covered);
+    }));
+    trials
 }
 
 fn options(text: &str) -> pipeline::Options {
@@ -155,42 +147,25 @@ fn update(path: &Path, found: &str) {
     fs::write(path, kept).unwrap();
 }
 
-#[test]
-fn every_case_is_found_as_its_comments_say() {
-    let mut faults = String::new();
-    for case in cases() {
-        let found = findings(&case);
-        let path = expectations(&case);
-        if std::env::var_os("RTC_UPDATE").is_some() {
-            update(&path, &found);
-        }
-        let expected = expected(&path);
-        if found != expected {
-            writeln!(
-                faults,
-                "{}\n expected\n{expected} found\n{found}",
-                case.display()
-            )
-            .unwrap();
-        }
-        let folder = case
-            .parent()
-            .and_then(Path::file_name)
-            .unwrap()
-            .to_string_lossy();
-        if !found.contains(&format!("# expect: {folder} ")) {
-            writeln!(faults, "{} raises no {folder}", case.display()).unwrap();
-        }
+fn check(case: &Path) -> Result<(), Failed> {
+    let found = findings(case);
+    let path = expectations(case);
+    if updates() {
+        update(&path, &found);
     }
-    assert!(faults.is_empty(), "{faults}");
+    let expected = expected(&path);
+    if found != expected {
+        return Err(format!("expected\n{expected} found\n{found}").into());
+    }
+    let folder = case.parent().and_then(Path::file_name).unwrap();
+    let folder = folder.to_string_lossy();
+    if !found.contains(&format!("# expect: {folder} ")) {
+        return Err(format!("it raises no {folder}").into());
+    }
+    Ok(())
 }
 
-#[test]
-fn every_code_has_a_case() {
-    let folders = cases()
-        .into_iter()
-        .filter_map(|case| Some(case.parent()?.file_name()?.to_string_lossy().into_owned()));
-    let covered: BTreeSet<String> = folders.collect();
+fn every_code_has_a_case(covered: &BTreeSet<String>) {
     let missing: Vec<_> = codes::all()
         .map(|code| code.id)
         .filter(|id| {

@@ -1,8 +1,10 @@
 //! What the scenes of the course call for, read off their text by hand: effects needed, and those
 //! left out with the rule.
 
-use super::{course, proven, verdict};
-use rtc::plan::{Effect, Plan, Rules, State};
+use super::scenes::{course, proven};
+use libtest_mimic::Trial;
+use rtc::plan::{Effect, Plan, Rules, State, Verdict};
+use rtc::valid::ValidScene;
 
 use Effect::{
     DepthBuffer, DirectLight, GlossyReflection, Highlight, Lens, Mirror, NormalBuffer,
@@ -118,25 +120,42 @@ const EFFECTS: [Effect; 14] = [
     Supersampling,
 ];
 
-#[test]
-fn the_course_calls_for_what_its_text_says() {
+pub(crate) fn trials() -> Vec<Trial> {
+    let trial = |(name, needed, pruned): &Row| {
+        let (needed, pruned) = (*needed, *pruned);
+        course("plan: effects", name, move |scene| {
+            it_calls_for(&proven(scene), needed, pruned);
+        })
+    };
+    SCENES.iter().map(trial).collect()
+}
+
+fn it_calls_for(scene: &ValidScene, needed: &[Effect], pruned: &[(Effect, &str)]) {
+    let plan = Plan::new(scene, Rules::ALL);
+    assert!(plan.needs(Surfaces));
     let mut faults = Vec::new();
-    for (name, needed, pruned) in SCENES {
-        let Some(scene) = course(name) else { continue };
-        let plan = Plan::new(&proven(&scene), Rules::ALL);
-        assert!(plan.needs(Surfaces), "{name}");
-        for effect in EFFECTS {
-            let found = verdict(&plan, effect);
-            let is_needed = found.state == State::Needed;
-            let rule = pruned
-                .iter()
-                .find(|(of, _)| *of == effect)
-                .map(|(_, rule)| *rule);
-            let wanted = rule.is_none() || rule == found.rule.map(|rule| rule.name());
-            if is_needed != needed.contains(&effect) || !wanted {
-                faults.push(format!("{name}: {found:?}"));
-            }
+    for effect in EFFECTS {
+        let found = verdict(&plan, effect);
+        let is_needed = found.state == State::Needed;
+        let rule = pruned
+            .iter()
+            .find(|(of, _)| *of == effect)
+            .map(|(_, rule)| *rule);
+        let wanted = rule.is_none() || rule == found.rule.map(|rule| rule.name());
+        if is_needed != needed.contains(&effect) || !wanted {
+            faults.push(format!("{found:?}"));
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// The verdict on an effect of the whole scene.
+fn verdict(plan: &Plan, effect: Effect) -> &Verdict {
+    let mut all = plan
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.effect == effect && verdict.of.is_none());
+    let first = all.next().unwrap();
+    assert!(all.next().is_none(), "there is one verdict on {effect:?}");
+    first
 }

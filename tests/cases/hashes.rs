@@ -1,26 +1,21 @@
 //! The table of pictures: for each scene the hash of its values, the same for 1, 2 and 7 threads,
-//! in debug and release, and on every machine. `RTC_UPDATE=1 cargo test --test hashes` rewrites
-//! `tests/hashes.txt`.
+//! in debug and release, and on every machine. `RTC_UPDATE=1 cargo test --test cases hashes/`
+//! rewrites `tests/hashes.txt`.
 //!
 //! On another architecture, under emulation: `rustup target add aarch64-unknown-linux-musl`, then
-//! `cargo test --test hashes --target aarch64-unknown-linux-musl` with
+//! `cargo test --test cases hashes/ --target aarch64-unknown-linux-musl` with
 //! `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_LINKER=rust-lld` and
 //! `CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_RUNNER=qemu-aarch64`.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::disallowed_methods,
-    reason = "a test stops at the first surprise and keeps its table"
-)]
-
-mod small;
-
+use super::small::{WHOLE, bits, film, paths, reduced, small};
+use super::suite::{root, trial, updates};
+use libtest_mimic::Trial;
 use rtc::ir::Scene;
 use rtc::pipeline::Options;
 use rtc::source::SourceMap;
-use small::{WHOLE, bits, film, paths, reduced, small};
-use std::fmt::Write as _;
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use xxhash_rust::xxh3::xxh3_64;
 
 /// One shape each, for which the made-up scenes are named; the room is about 10 across.
@@ -133,27 +128,97 @@ fn made(shape: (&str, &str), effect: (&str, &str, &str)) -> Scene {
     reduced(file, &mut map, &options)
 }
 
-/// The name and scene of every row: the files of the repo, then each shape with some effect and
-/// each effect with some shape, so that all meet several of the others.
-fn scenes() -> Vec<(String, Scene)> {
-    let files = paths().into_iter().map(|path| {
-        (
-            path.file_stem().unwrap().to_string_lossy().into_owned(),
-            small(&path),
-        )
-    });
-    let pairs = (0..SHAPES.len()).flat_map(|k| {
-        [
-            (k, k),
-            (k, (k + 1) % EFFECTS.len()),
-            (k, (k + 5) % EFFECTS.len()),
-        ]
-    });
-    let made = pairs.map(|(shape, effect)| {
-        let (shape, effect) = (SHAPES[shape], EFFECTS[effect]);
-        (format!("{}, {}", shape.0, effect.0), made(shape, effect))
-    });
-    files.chain(made).collect()
+/// What a row is the hash of.
+#[derive(Clone)]
+enum Source {
+    File(PathBuf),
+    /// A shape and an effect, by their indices.
+    Made(usize, usize),
+}
+
+impl Source {
+    fn name(&self) -> String {
+        match self {
+            Self::File(path) => path.file_stem().unwrap().to_string_lossy().into_owned(),
+            Self::Made(shape, effect) => format!("{}, {}", SHAPES[*shape].0, EFFECTS[*effect].0),
+        }
+    }
+
+    fn scene(&self) -> Scene {
+        match self {
+            Self::File(path) => small(path),
+            Self::Made(shape, effect) => made(SHAPES[*shape], EFFECTS[*effect]),
+        }
+    }
+}
+
+/// Every row: the files of the repo, then each shape with some effect and each effect with some
+/// shape, so that all meet several of the others.
+fn sources() -> Vec<Source> {
+    let made = (0..SHAPES.len())
+        .flat_map(|k| [0, 1, 5].map(|step| Source::Made(k, (k + step) % EFFECTS.len())));
+    paths().into_iter().map(Source::File).chain(made).collect()
+}
+
+pub(crate) fn trials() -> Vec<Trial> {
+    let sources = sources();
+    let names: Vec<String> = sources.iter().map(Source::name).collect();
+    let mut trials: Vec<_> = sources
+        .into_iter()
+        .map(|source| {
+            let names = names.clone();
+            trial(format!("hashes/{}", source.name()), move || {
+                check(&source, &names);
+            })
+        })
+        .collect();
+    trials.push(trial("hashes: a row for each scene", move || {
+        let rows: Vec<_> = table().into_iter().map(|(name, _)| name).collect();
+        assert!(updates() || rows == names, "{rows:?} instead of {names:?}");
+    }));
+    trials
+}
+
+fn path() -> PathBuf {
+    root("tests/hashes.txt")
+}
+
+/// The rows of the table, names with their hashes.
+fn table() -> Vec<(String, String)> {
+    let text = std::fs::read_to_string(path()).unwrap_or_default();
+    let rows = text.lines().filter_map(|row| row.split_once(' '));
+    rows.map(|(hash, name)| (name.to_owned(), hash.to_owned()))
+        .collect()
+}
+
+/// Writes a row into the table, in which only scenes that there are stay.
+fn update(names: &[String], name: &str, hash: &str) {
+    static TABLE: Mutex<()> = Mutex::new(());
+    let _alone = TABLE.lock().unwrap();
+    let mut rows: BTreeMap<String, String> = table().into_iter().collect();
+    rows.insert(name.to_owned(), hash.to_owned());
+    let row = |name: &String| Some(format!("{} {name}\n", rows.get(name)?));
+    let text: String = names.iter().filter_map(row).collect();
+    std::fs::write(path(), text).unwrap();
+}
+
+fn check(source: &Source, names: &[String]) {
+    let (name, scene) = (source.name(), source.scene());
+    // A picture that is all one value would have a hash as well.
+    let mut values = bits(&film(&scene, &WHOLE, 0));
+    values.sort_unstable();
+    values.dedup();
+    assert!(values.len() > 50, "only {} values", values.len());
+    let one = hash(&scene, 1);
+    for threads in [2, 7] {
+        assert_eq!(hash(&scene, threads), one, "on {threads} threads");
+    }
+    let found = format!("{one:016x}");
+    if updates() {
+        return update(names, &name, &found);
+    }
+    let kept = table().into_iter().find(|row| row.0 == name);
+    assert_eq!(Some((name, found)), kept, "now, and in tests/hashes.txt");
 }
 
 fn hash(scene: &Scene, threads: usize) -> u64 {
@@ -162,41 +227,4 @@ fn hash(scene: &Scene, threads: usize) -> u64 {
         .flat_map(|bits| bits.to_le_bytes())
         .collect();
     xxh3_64(&bytes)
-}
-
-#[test]
-fn pictures_have_the_hashes_of_the_table() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hashes.txt");
-    let mut table = String::new();
-    for (name, scene) in scenes() {
-        let one = hash(&scene, 1);
-        for threads in [2, 7] {
-            assert_eq!(hash(&scene, threads), one, "{name} on {threads} threads");
-        }
-        writeln!(table, "{one:016x} {name}").unwrap();
-    }
-    if std::env::var_os("RTC_UPDATE").is_some() {
-        std::fs::write(&path, &table).unwrap();
-    }
-    let kept = std::fs::read_to_string(&path).unwrap_or_default();
-    let changed: Vec<_> = table
-        .lines()
-        .filter(|row| !kept.lines().any(|kept| kept == *row))
-        .collect();
-    assert!(
-        changed.is_empty() && table.lines().count() == kept.lines().count(),
-        "now:\n{}",
-        changed.join("\n")
-    );
-}
-
-/// A picture that is all one value would have a hash as well.
-#[test]
-fn the_made_up_scenes_show_something() {
-    for (name, scene) in scenes() {
-        let mut values = bits(&film(&scene, &WHOLE, 0));
-        values.sort_unstable();
-        values.dedup();
-        assert!(values.len() > 50, "{name}: {} values", values.len());
-    }
 }
