@@ -18,7 +18,9 @@ from pathlib import Path
 CHOICES, ALONE = Path("target/mutants/choices"), Path("target/mutants/alone")
 # Unit tests of a file, or those of the plan, then its suite, what takes longest last: (program, arguments).
 SLOW = ["law::", "validation::", "counters::"]
-STAGES = [("file", []), ("rtc", ["plan::"]), ("plan", [f"--skip={name}" for name in SLOW]), ("plan", SLOW)]
+STAGES = [
+    ("file", []), ("rtc", ["plan::"]), ("plan", [f"--skip={name}" for name in SLOW]), ("plan", SLOW), ("shared", ["plan: "]),
+]
 CHOICE = """//! Which mutant runs.
 /// Its number, or 0.
 pub fn chosen() -> u32 {
@@ -92,7 +94,7 @@ def write(path, text):
 
 
 def copy_tree(tree, texts, level):
-    """Copies the library, but for the texts, and the suite of the plan; what else they read is seen through links.
+    """Copies the library, but for the texts, and the suites; what else they read is seen through links.
 
     Without its own optimisation, of `level`, the crate is built in a third of the time.
     """
@@ -102,8 +104,11 @@ def copy_tree(tree, texts, level):
         if not (tree / name).is_symlink():
             (tree / name).symlink_to(Path(name).resolve())
     for file in tracked:
-        if file.startswith(("src/", "tests/plan/")) and file != "src/main.rs" and file not in texts:
+        if file.startswith("src/") and file != "src/main.rs" and file not in texts:
             write(tree / file, Path(file).read_text() + ("pub mod mutant;\n" if file == "src/lib.rs" else ""))
+        elif file.startswith("tests/"):
+            (tree / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, tree / file)
     write(tree / "src/mutant.rs", CHOICE)
     toml = Path("Cargo.toml").read_text() + f"\n[profile.dev.package.rtc]\nopt-level = {level}\n"
     lints = ["arithmetic_overflow", "unconditional_panic", "unconditional_recursion"]
@@ -113,7 +118,7 @@ def copy_tree(tree, texts, level):
 
 def build(tree):
     """The test programs, by name; or the errors, each as the places it names."""
-    command = ["cargo", "test", "-j1", "--no-run", "--lib", "--test", "plan", "--message-format=json"]
+    command = ["cargo", "test", "-j1", "--no-run", "--lib", "--test", "plan", "--test", "shared", "--message-format=json"]
     command.append(f"--target-dir={Path('target').resolve()}")
     said = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     programs, errors = {}, []

@@ -1,26 +1,23 @@
 //! The laws that hold for every scene of `scenes/`: forms of the IR, threads, crops and powers of
 //! two change no byte.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::unwrap_used,
-    reason = "a test stops at the first surprise, and says what it skips"
-)]
+#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
+#[path = "small/laws.rs"]
+mod every;
 mod scale;
 mod small;
 
+use every::{is_the_same_in_any_order, makes_the_same_picture_times, powers};
 use rtc::codec::{self, Form};
 use rtc::diag::Sink;
-use rtc::ir::{self, Lowered, Origins, Scene};
-use rtc::math::ldexp;
+use rtc::ir::{Lowered, Origins, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Crop, Geometry, Job, Seeds, Shear, Tiles, World, camera_ray, image_point};
+use rtc::render::{Crop, Job, Seeds, Tiles};
 use rtc::source::SourceMap;
-use scale::scaled;
-use small::{WHOLE, bits, film, paths, scenes_in, small};
-use std::path::Path;
+use small::{WHOLE, bits, film, paths, small};
+use std::collections::BTreeSet;
 
 #[test]
 fn the_ir_in_any_form_makes_the_same_picture() {
@@ -186,104 +183,22 @@ fn seeds_change_the_noise_alone() {
     );
 }
 
-/// Scenes, each with the powers of two it is scaled by: all from −40 to 40 occur, `RTC_ALL_POWERS`
-/// tries all on each; and −180 and 140, at which powers of a length leave the range of f64.
-fn powers(scenes: usize, index: usize) -> impl Iterator<Item = i32> {
-    let all = std::env::var_os("RTC_ALL_POWERS").is_some();
-    let (scenes, index) = (
-        i32::try_from(scenes).unwrap(),
-        i32::try_from(index).unwrap(),
-    );
-    (-40..=40)
-        .filter(move |k| all || (k + 40) % scenes == index)
-        .chain([-180, 140])
-}
-
-/// The scenes of the course, where they are.
-fn course() -> Vec<std::path::PathBuf> {
-    let paths = scenes_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/course/scenes"));
-    if paths.is_empty() {
-        println!("skipped: the scenes of the course are not here");
-    }
-    paths
-}
-
-/// Kills every fixed epsilon in the program.
 #[test]
 fn a_scene_times_a_power_of_two_makes_the_same_picture() {
-    let mut seen = std::collections::BTreeSet::new();
-    for paths in [paths(), course()] {
-        for (index, path) in paths.iter().enumerate() {
-            let scene = small(path);
-            let picture = bits(&film(&scene, &WHOLE, 0));
-            for k in powers(paths.len(), index) {
-                let other = film(&scaled(&scene, ldexp(1.0, k)), &WHOLE, 0);
-                assert!(bits(&other) == picture, "2^{k}: {}", path.display());
-                seen.insert(k);
-            }
-        }
+    let mut seen = BTreeSet::new();
+    let paths = paths();
+    for (index, path) in paths.iter().enumerate() {
+        makes_the_same_picture_times(path, powers(paths.len(), index));
+        seen.extend(powers(paths.len(), index));
     }
     assert_eq!(seen.len(), 83);
 }
 
-/// Whether a camera ray of a pixel, of those in a grid, meets two surfaces at the very same t.
-fn has_tie(world: &World, index: usize) -> bool {
-    let camera = world.scene.camera();
-    let width = camera.width.get() as usize;
-    let pixel = [index % width, index / width].map(|k| u32::try_from(k).unwrap());
-    let factor = world.scene.settings().supersampling.get();
-    let middle = |k: u32| (f64::from(k) + 0.5) / f64::from(factor);
-    let places = (0..factor).flat_map(|i| (0..factor).map(move |j| [i, j].map(middle)));
-    places
-        .map(|place| camera_ray(camera.eye, image_point(camera, pixel, place)))
-        .any(|ray| {
-            let shear = Shear::new(&ray);
-            let roots = world
-                .surfaces
-                .iter()
-                .filter_map(|surface| surface.shape.intersect(&ray, &shear, f64::INFINITY));
-            let nearest = world.nearest(&ray).map(|hit| hit.t);
-            roots.filter(|(t, _)| Some(*t) == nearest).count() > 1
-        })
-}
-
-fn world(scene: &Scene) -> World {
-    let lowered = Lowered {
-        scene: scene.clone(),
-        origins: Origins::default(),
-    };
-    let valid = pipeline::prove(&lowered, &Options::default(), &mut Sink::default()).unwrap();
-    World::prepare(&valid, &Plan::new(&valid, Rules::NONE))
-}
-
-/// The order of surfaces is no part of a scene's meaning, but where several are met at the very
-/// same t.
 #[test]
 fn the_order_of_surfaces_does_not_matter() {
-    for path in paths().iter().chain(&course()) {
-        let mut scene = small(path);
-        let picture = film(&scene, &WHOLE, 0).image.pixels;
-        let ties = world(&scene);
-        let count = scene.surfaces.len();
-        let orders: [fn(&mut [ir::Surface]); 2] =
-            [|all| all.reverse(), |all| all.rotate_left(all.len() / 2)];
-        for order in orders {
-            order(&mut scene.surfaces);
-            let other = film(&scene, &WHOLE, 0).image.pixels;
-            let differs = |index: &usize| {
-                picture[*index].map(f64::to_bits) != other[*index].map(f64::to_bits)
-            };
-            let unexplained = (0..picture.len())
-                .filter(differs)
-                .find(|index| !has_tie(&ties, *index));
-            assert_eq!(
-                unexplained,
-                None,
-                "a pixel of {}, {count} surfaces",
-                path.display()
-            );
-        }
-    }
+    paths()
+        .iter()
+        .for_each(|path| is_the_same_in_any_order(path));
 }
 
 /// Stopping gives no film at all.

@@ -1,25 +1,11 @@
 //! The plain arithmetics: right where rays are benign, wrong where the books are, and warned of
 //! there.
-//!
-//! Scenes of the course are read from `../shared/course`; without them those tests skip with a
-//! note.
 
-#![expect(
-    clippy::print_stdout,
-    clippy::unwrap_used,
-    reason = "a test says what it skips and stops at a surprise"
-)]
+#![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
-use rtc::color::quantize8;
-use rtc::diag::Sink;
-use rtc::ir::Overrides;
 use rtc::math::{Positive, Vec3};
-use rtc::pipeline::{self, Options};
-use rtc::plan::{Arithmetic, Plan, Rules, Symptom, loss};
-use rtc::render::{Film, Geometry, Job, PlainShape, Ray, Real, Shape, Shear};
-use rtc::source::{Loader, SourceMap};
-use rtc::valid::{self, Proof};
-use std::path::{Path, PathBuf};
+use rtc::render::{Geometry, PlainShape, Ray, Real, Shape, Shear};
+use rtc::valid;
 use std::sync::Arc;
 
 fn length(x: f64) -> Positive {
@@ -226,123 +212,5 @@ fn hits_within_the_threshold_are_ignored_whatever_the_length_of_the_direction() 
     };
     for size in [1e-3, 1.0, 1e6] {
         assert!(!above(0.9e-5, size) && above(1.1e-5, size), "{size}");
-    }
-}
-
-fn course() -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/course/scenes");
-    if !path.exists() {
-        println!("skipped: {} is not here", path.display());
-        return None;
-    }
-    Some(path)
-}
-
-/// A scene at no more than `side` pixels wide or high, one sample each.
-fn small(path: &Path, side: u32) -> Proof {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
-    let file = Loader.file(path, &mut map).unwrap();
-    let mut lowered = pipeline::load(file, &mut map, &options, &mut sink).unwrap();
-    let [width, height] = lowered.scene.camera.size;
-    let size = [width, height].map(|pixels| (pixels * side).div_ceil(width.max(height)));
-    let overrides = Overrides {
-        size: Some(size),
-        supersampling: Some(1),
-        ..Overrides::default()
-    };
-    overrides.apply(&mut lowered.scene);
-    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
-}
-
-fn film(scene: &Proof, arithmetic: Arithmetic) -> Film {
-    pipeline::render(
-        scene,
-        &Plan::by(arithmetic, scene, Rules::ALL),
-        &Job::default(),
-        0,
-        &|_| true,
-    )
-    .unwrap()
-    .unwrap()
-}
-
-/// The share of pixels that differ in 8 bits.
-fn difference(a: &Film, b: &Film) -> f64 {
-    let pairs = || a.image.pixels.iter().zip(&b.image.pixels);
-    pairs()
-        .filter(|(a, b)| a.map(quantize8) != b.map(quantize8))
-        .count() as f64
-        / pairs().count() as f64
-}
-
-#[test]
-fn the_day_side_of_a_far_planet_goes_dark_in_f32_alone() {
-    let Some(course) = course() else { return };
-    let scene = small(&course.join("blue-earth.yaml"), 80);
-    let robust = film(&scene, Arithmetic::Robust);
-    let darker = |film: &Film| {
-        let brightness = |pixel: &[f64; 3]| pixel.iter().sum::<f64>();
-        let pairs = robust.image.pixels.iter().zip(&film.image.pixels);
-        let day = pairs
-            .filter(|(robust, _)| brightness(robust) > 0.3)
-            .map(|(a, b)| brightness(b) < 0.6 * brightness(a));
-        let dark = day.collect::<Vec<_>>();
-        dark.iter().filter(|dark| **dark).count() as f64 / dark.len() as f64
-    };
-    assert_eq!(darker(&film(&scene, Arithmetic::Plain)), 0.0);
-    let share = darker(&film(&scene, Arithmetic::F32));
-    assert!((0.3..0.7).contains(&share), "{share}");
-    let warning = loss(&scene, Arithmetic::F32).unwrap();
-    assert!(
-        warning.symptom == Symptom::SelfHit && warning.error > 1.0,
-        "{warning:?}"
-    );
-}
-
-#[test]
-fn a_scene_of_the_course_without_shadows_is_the_same_by_any_arithmetic() {
-    let Some(course) = course() else { return };
-    let scene = small(&course.join("scene01.yaml"), 160);
-    let robust = film(&scene, Arithmetic::Robust);
-    assert_eq!(difference(&robust, &film(&scene, Arithmetic::Plain)), 0.0);
-    let share = difference(&robust, &film(&scene, Arithmetic::F32));
-    assert!(share > 0.0 && share < 1e-3, "{share}");
-}
-
-#[test]
-fn what_shows_is_warned_of_and_what_is_equal_is_not() {
-    let Some(course) = course() else { return };
-    let mut scenes = course
-        .read_dir()
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect::<Vec<_>>();
-    scenes.retain(|path| {
-        path.extension()
-            .is_some_and(|extension| extension == "yaml")
-    });
-    scenes.sort();
-    for path in scenes {
-        let scene = small(&path, 64);
-        let robust = film(&scene, Arithmetic::Robust);
-        for arithmetic in [Arithmetic::Plain, Arithmetic::F32] {
-            let differs = difference(&robust, &film(&scene, arithmetic));
-            let warning = loss(&scene, arithmetic);
-            let name = path.file_stem().unwrap().to_string_lossy();
-            let excess = warning.map_or(0.0, |loss| loss.excess);
-            println!(
-                "{name:<45} {arithmetic:<6?} {:8.3} % excess {excess:.1e} {:?}",
-                100.0 * differs,
-                warning.map(|w| w.symptom)
-            );
-            assert!(
-                differs <= 0.01 || warning.is_some(),
-                "{name} {arithmetic:?}: no warning, {differs} differ"
-            );
-            assert!(
-                differs > 0.0 || warning.is_none(),
-                "{name} {arithmetic:?}: {warning:?}, and nothing differs"
-            );
-        }
     }
 }

@@ -1,5 +1,5 @@
 //! Scenes with the files that they name, from one input: what the targets `folder`, `mesh` and
-//! `image` do with it, and their replay in `tests/corpora.rs`. The files lie in a temporary folder,
+//! `image` do with it, and their replay in `tests/cases/corpora.rs`. The files lie in a temporary folder,
 //! and nothing is read or written outside.
 
 use rtc::pipeline::trial;

@@ -7,9 +7,9 @@
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
 mod mesh;
+mod names;
 mod picture;
 mod search;
-mod shared;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};

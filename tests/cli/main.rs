@@ -558,24 +558,6 @@ mod unix {
     }
 
     #[test]
-    fn a_folder_that_takes_nothing_is_said_before_the_render() {
-        let folder = folder();
-        let locked = folder.path().join("locked");
-        fs::create_dir(&locked).unwrap();
-        fs::set_permissions(&locked, fs::Permissions::from_mode(0o555)).unwrap();
-        if fs::write(locked.join("probe"), "").is_ok() {
-            println!("skipped: this user may write everywhere");
-            return;
-        }
-        let refused = rtc(&folder, &["render", "ball.json", "-o", "locked/x.png"]);
-        assert_eq!(
-            stderr(&refused),
-            "error: can't write `locked/x.png`: permission denied\n"
-        );
-        assert_eq!((code(&refused), names(&locked).len()), (2, 0));
-    }
-
-    #[test]
     fn what_is_read_only_is_not_replaced() {
         let folder = folder();
         fs::write(folder.path().join("kept.png"), "before").unwrap();

@@ -42,8 +42,11 @@ const SOFT: &str = "Camera: {eye: [0, 0, 50], center: [0, 0, 0], up: [0, 1, 0], 
                     - {type: sphere, position: [0, 0, 0], radius: 10, material: {color: [1, 0, 0], ka: 0.2, kd: 0.7, \
                     ks: 1, n: 16, glossySamples: 1}}\n";
 
-#[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(
+    not(target_os = "linux"),
+    ignore = "only Linux has the /proc and /dev this needs"
+)]
 fn a_signal_ends_a_pixel_that_would_last_for_years() {
     let folder = folder();
     fs::write(folder.path().join("soft.yaml"), SOFT).unwrap();
@@ -98,8 +101,11 @@ fn a_signal_ends_a_pixel_that_would_last_for_years() {
     }
 }
 
-#[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(
+    not(target_os = "linux"),
+    ignore = "only Linux has the /proc and /dev this needs"
+)]
 fn who_is_killed_while_rendering_leaves_no_draft() {
     let folder = folder();
     let before = names(folder.path());
@@ -136,8 +142,11 @@ fn pipe(folder: &TempDir) {
     );
 }
 
-#[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(
+    not(target_os = "linux"),
+    ignore = "only Linux has the /proc and /dev this needs"
+)]
 fn a_signal_ends_the_wait_for_a_reader() {
     let folder = folder();
     pipe(&folder);
@@ -176,8 +185,11 @@ fn a_pipe_gets_all_of_the_picture() {
 }
 
 /// The text is more than a pipe holds, and nobody reads it.
-#[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(
+    not(target_os = "linux"),
+    ignore = "only Linux has the /proc and /dev this needs"
+)]
 fn the_second_signal_ends_who_does_not_hear_the_first() {
     let folder = folder();
     let sphere = "    {\"shape\": {\"sphere\": {\"center\": [0, 0, 0], \"radius\": 10}}, \"material\": 0},\n";
@@ -318,8 +330,11 @@ fn a_closed_standard_output_is_said() {
     assert_eq!(code(&sh(&folder, "RTC compile ball.json -o x.json >&-")), 0);
 }
 
-#[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(
+    not(target_os = "linux"),
+    ignore = "only Linux has the /proc and /dev this needs"
+)]
 fn messages_name_the_output_and_not_the_draft() {
     let folder = folder();
     symlink("/dev/full", folder.path().join("full.png")).unwrap();

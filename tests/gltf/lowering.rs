@@ -5,7 +5,7 @@ use super::make;
 use rtc::codec::{self, Form};
 use rtc::diag::{Diagnostic, Severity, Sink};
 use rtc::front;
-use rtc::ir::{Environment, Lowered, Mesh, Origins, Overrides, Scene, Shape};
+use rtc::ir::{Environment, Lowered, Origins, Overrides, Scene, Shape};
 use rtc::math::Vec3;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
@@ -184,82 +184,6 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
         names > 0 && images > 0 && surroundings > 0,
         "names, images and surroundings are met"
     );
-}
-
-/// The torus as Draco, meshopt and quantized data; the last two hold the same numbers.
-#[test]
-fn compressed_tori_are_the_same_torus() {
-    let Some(folder) = super::shared("assets") else {
-        return;
-    };
-    let mesh = |name: &str| {
-        let scene = lower_file(&folder.join(name));
-        scene.meshes.into_iter().next().unwrap()
-    };
-    let (draco, meshopt) = (mesh("own_TorusDraco.glb"), mesh("own_TorusMeshopt.glb"));
-    let quantized = mesh("own_TorusQuantized.glb");
-    assert!(
-        corners(&meshopt) == corners(&quantized),
-        "meshopt keeps every bit, in another order"
-    );
-    assert_eq!(
-        (draco.positions.len(), draco.triangles.len()),
-        (quantized.positions.len(), quantized.triangles.len())
-    );
-}
-
-/// The triangles by the numbers of their corners, in an order that does not depend on that of the
-/// file.
-fn corners(mesh: &Mesh) -> Vec<[Vec<u64>; 3]> {
-    let corner = |at: u32| {
-        let at = at as usize;
-        let numbers = [
-            &mesh.positions.at(at)[..],
-            &mesh.normals.at(at),
-            &mesh.uvs.at(at),
-        ]
-        .concat();
-        numbers.into_iter().map(f64::to_bits).collect()
-    };
-    let mut triangles: Vec<[Vec<u64>; 3]> = mesh
-        .triangles
-        .iter()
-        .map(|triangle| triangle.map(corner))
-        .collect();
-    triangles.iter_mut().for_each(|triangle| triangle.sort());
-    triangles.sort();
-    triangles
-}
-
-fn lower_file(path: &std::path::Path) -> Scene {
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = rtc::source::Loader.file(path, &mut map).unwrap();
-    let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
-    lowered
-        .unwrap_or_else(|| panic!("{}: {sink:?}", path.display()))
-        .scene
-}
-
-#[test]
-fn every_asset_at_hand_is_lowered_and_proven() {
-    let Some(folder) = super::shared("assets") else {
-        return;
-    };
-    let is_asset = |path: &std::path::PathBuf| {
-        path.extension()
-            .is_some_and(|own| own == "glb" || own == "gltf")
-    };
-    let assets: Vec<_> = super::files(&folder).into_iter().filter(is_asset).collect();
-    assert!(assets.len() > 30, "the assets are gone");
-    for asset in assets {
-        let sink = super::findings(&asset);
-        assert!(
-            !sink.has_errors(),
-            "{}: {:?}",
-            asset.display(),
-            super::errors(&sink)
-        );
-    }
 }
 
 /// Without a camera the ball around all of it just fits into 35° from bottom to top.

@@ -5,7 +5,7 @@ use super::exact::{Truth, sides, truth};
 use super::family::{FAMILIES, Family};
 use super::random::{Random, rays};
 use super::scenes::{cone, cylinder, plane, sphere, torus, triangle, world};
-use super::truth::{Report, all, id, number};
+use super::truth::{Report, Table, tables};
 use rayon::prelude::*;
 use rtc::ir;
 use rtc::math::{Double, U, Vec3};
@@ -139,18 +139,20 @@ fn shape(kind: &str, f: &[f64]) -> ir::Shape {
     }
 }
 
-/// The files' families of f64, whose truth has 200 digits; ours must agree with it.
+/// The families of the table, whose truth has 200 digits; ours must agree with it.
 #[test]
-fn families_of_the_files() {
+fn families_of_the_table() {
     let mut report = Report::default();
-    for family in all()
-        .iter()
-        .filter(|case| case["rows"].is_array() && case["precision"] == "f64")
+    let tables = tables();
+    assert_eq!(tables.iter().map(|t| t.rows.len()).sum::<usize>(), 1984);
+    for Table {
+        id,
+        shape: kind,
+        rows,
+    } in tables
     {
-        let kind = family["shape"].as_str().unwrap();
         let (mut outcome, mut apart) = (Outcome::default(), 0.0_f64);
-        for row in family["rows"].as_array().unwrap() {
-            let row: Vec<f64> = row.as_array().unwrap().iter().map(number).collect();
+        for row in rows {
             let [hit, high, low, kappa] = row[row.len() - 4..].try_into().unwrap();
             let ray = Ray {
                 origin: Vec3::from_slice(&row[0..3]),
@@ -158,7 +160,7 @@ fn families_of_the_files() {
             };
             let t = (hit == 1.0).then(|| Double::from(high) + Double::from(low));
             let ours = truth(&shape(kind, &row), &ray).unwrap().t;
-            assert_eq!(ours.is_some(), t.is_some(), "{}: {ray:?}", id(family));
+            assert_eq!(ours.is_some(), t.is_some(), "{id}: {ray:?}");
             if let (Some(ours), Some(t)) = (ours, t) {
                 apart = apart.max(((ours - t) / t).rounded().abs() / (1.0 + kappa));
             }
@@ -167,7 +169,7 @@ fn families_of_the_files() {
         // The file gives a cone by axis and height, the scene by their product, rounded.
         let agree = apart <= if kind == "cone" { 2.0 * U } else { 1e-24 };
         let detail = format!("{}, truths {apart:.1e}·(1 + κ) apart", outcome.columns());
-        report.line(id(family), agree && outcome.passes(kind), &detail);
+        report.line(id, agree && outcome.passes(kind), &detail);
     }
     report.finish();
 }

@@ -1,8 +1,7 @@
 //! Hard numeric cases against high-precision truth, and counts over many rays.
 //!
-//! The truth is made here in double-double ([`hardcases::exact`]); the files of
-//! `../shared/numerics`, or of the variables `RTC_HARDCASES` and `RTC_HARDCASES_FAMILIES`, are run
-//! where they are present. A line is printed for each case (`cargo test --release hardcases --
+//! The truth is made here in double-double ([`hardcases::exact`]), or was once made by arithmetic of
+//! 200 digits: `cases.json` and `families.txt`. A line is printed for each case (`cargo test --release hardcases --
 //! --nocapture`). `RTC_RAYS` is the number of rays of a count.
 
 #![expect(

@@ -43,14 +43,10 @@ fn every_case_is_of_a_known_kind() {
         "refract",
     ];
     let mut report = Report::default();
-    for case in all().iter().filter(|case| !case["rows"].is_array()) {
+    for case in &all() {
         let kind = case["kind"].as_str().unwrap();
         if !KINDS.contains(&kind) {
-            report.line(
-                id(case),
-                kind == "policy",
-                &format!("{kind}: {}", case["title"]),
-            );
+            report.line(id(case), kind == "policy", kind);
         }
     }
     report.finish();

@@ -3,39 +3,41 @@
 use rtc::math::{U, Vec3};
 use serde_json::Value;
 
-/// The cases of the files present: of those the variables name, which must exist, or else of
-/// `../shared`.
+/// All single cases.
 pub(crate) fn all() -> Vec<Value> {
-    let named = ["RTC_HARDCASES", "RTC_HARDCASES_FAMILIES"].map(|name| std::env::var(name).ok());
-    let mut paths: Vec<_> = named.into_iter().flatten().collect();
-    if paths.is_empty() {
-        let shared = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/numerics/");
-        paths = ["hardcases.json", "hardcases-families.json"]
-            .map(|name| format!("{shared}{name}"))
-            .to_vec();
-        paths.retain(|path| {
-            std::path::Path::new(path).exists() || {
-                println!("skipped: {path} is not here (set RTC_HARDCASES to name another file)");
-                false
-            }
-        });
-    }
-    paths.iter().flat_map(|path| read(path)).collect()
+    serde_json::from_str(include_str!("cases.json")).unwrap()
 }
 
-fn read(path: &str) -> Vec<Value> {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let file: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(file["schema"], "rtc-hardcases/1", "{path}");
-    file["cases"].as_array().unwrap().clone()
+/// A family of the table: its name, the shape, and rows of a ray, a shape, and where they meet.
+pub(crate) struct Table {
+    pub(crate) id: &'static str,
+    pub(crate) shape: &'static str,
+    pub(crate) rows: Vec<Vec<f64>>,
+}
+
+/// The families of the table.
+pub(crate) fn tables() -> Vec<Table> {
+    let mut tables: Vec<Table> = Vec::new();
+    let lines = include_str!("families.txt").lines();
+    for line in lines.filter(|line| !line.starts_with('#')) {
+        if let Some(head) = line.strip_prefix("family ") {
+            let (id, shape) = head.split_once(' ').unwrap();
+            let rows = Vec::new();
+            tables.push(Table { id, shape, rows });
+        } else {
+            let row = line.split(' ').map(|number| number.parse().unwrap());
+            tables.last_mut().unwrap().rows.push(row.collect());
+        }
+    }
+    tables
 }
 
 /// The single cases of one kind.
 pub(crate) fn cases(kind: &str) -> Vec<Value> {
-    all()
-        .into_iter()
-        .filter(|case| case["kind"] == kind)
-        .collect()
+    let mut cases = all();
+    cases.retain(|case| case["kind"] == kind);
+    assert!(!cases.is_empty(), "there is no case of kind {kind}");
+    cases
 }
 
 pub(crate) fn number(value: &Value) -> f64 {

@@ -2,14 +2,10 @@
 //! right reason.
 //!
 //! The strength of this suite and of the unit tests of the rules is measured by
-//! `benches/mutants.sh`: mutants that survive want a test. Scenes of the course and of the wild are
-//! read from `../shared`; where that is absent, the tests that need it say so and pass.
+//! `benches/mutants.sh`: mutants that survive want a test. What the scenes of the course and of the
+//! wild call for is in `tests/shared`.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::print_stdout,
-    reason = "a test stops at the first surprise and says what it skips"
-)]
+#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod approved;
 mod counters;
@@ -18,7 +14,6 @@ mod dice;
 mod extreme;
 mod law;
 mod need;
-mod oracle;
 mod precision;
 #[path = "../scale/mod.rs"]
 mod scale;
@@ -40,12 +35,8 @@ fn root(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
 }
 
-/// The scene files of a folder and the folders in it; none, with a note, if it is absent.
+/// The scene files of a folder and the folders in it.
 fn files(folder: &str) -> Vec<PathBuf> {
-    if !root(folder).exists() {
-        println!("skipped: {folder} is not here");
-        return Vec::new();
-    }
     let (mut open, mut found) = (vec![root(folder)], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
@@ -71,16 +62,6 @@ fn scene(path: &Path) -> Option<Scene> {
     let file = Loader.file(path, &mut map).unwrap();
     let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
     (!sink.has_errors()).then_some(lowered.scene)
-}
-
-/// A scene of the course as it is; `None` with a note if that is absent.
-fn course(name: &str) -> Option<Scene> {
-    let path = root("../shared/course/scenes").join(name);
-    if !path.exists() {
-        println!("skipped: {name} is not here");
-        return None;
-    }
-    scene(&path)
 }
 
 /// The scene with few pixels, samples and bounces.

@@ -1,5 +1,6 @@
 //! Scenes small enough to be rendered many times, and their films, for suites that state laws of
 //! pictures.
+#![allow(dead_code, reason = "no suite needs all of it")]
 
 use rtc::diag::Sink;
 use rtc::ir::{Lowered, Origins, Overrides, Scene};

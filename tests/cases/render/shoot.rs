@@ -1,0 +1,151 @@
+//! One case rendered as `rtc render` does it: read, put under its light, proven, planned, rendered,
+//! developed, encoded.
+
+use super::options::Options;
+use libtest_mimic::Failed;
+use rtc::color::Tone;
+use rtc::diag::Sink;
+use rtc::front::assets;
+use rtc::image::{Association, Backdrop, Form, Image, Layers, Look, Picture};
+use rtc::ir::{Lowered, Stage, Surroundings};
+use rtc::pipeline::{self, Renderer};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Aov, Behind, Crop, Job, Values};
+use rtc::source::{Loader, SourceMap};
+use rtc::valid::{Mode, Proof};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// A picture as a file, and how many levels another one may be off it.
+pub(super) struct Shot {
+    pub(super) png: Vec<u8>,
+    pub(super) tolerance: u8,
+}
+
+pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
+    let options = Options::read(case)?;
+    let scene = prove(case, &options)?;
+    let plan = Plan::by(options.arithmetic, &scene, Rules::ALL);
+    let renderer = Renderer::new(&scene, &plan, options.threads)?;
+    let picture = match options.aov {
+        Some((aov, range)) => layer(&renderer, &scene, aov, range),
+        None => colors(&renderer, &scene, &options),
+    };
+    Ok(Shot {
+        png: picture
+            .encode(&Form::Png8)
+            .map_err(|error| error.to_string())?,
+        tolerance: match scene.settings().mode {
+            Mode::Path(_) => 1,
+            Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => 0,
+        },
+    })
+}
+
+/// The proven scene of a case, in which no more is found than it says.
+fn prove(case: &Path, options: &Options) -> Result<Proof, Failed> {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = Loader.file(case, &mut map).map_err(|e| format!("{e:?}"))?;
+    let reading = pipeline::Options {
+        front: options.front.clone(),
+        ..pipeline::Options::default()
+    };
+    let lowered = pipeline::load(file, &mut map, &reading, &mut sink);
+    let proven = lowered.map(|mut lowered| -> Result<_, Failed> {
+        stage(&mut lowered, case, options, &map, &mut sink)?;
+        options.overrides.apply(&mut lowered.scene);
+        Ok(pipeline::prove(&lowered, &reading, &mut sink))
+    });
+    let proven = proven.transpose()?.flatten();
+    let codes = sink.kept().iter().map(|finding| finding.code.id.to_owned());
+    let codes: BTreeSet<_> = codes.collect();
+    match proven {
+        Some(scene) if codes == options.finds.iter().cloned().collect() => Ok(scene),
+        _ => {
+            let found = sink.kept().iter();
+            let found: Vec<_> = found
+                .map(|finding| format!("{}: {}", finding.code, finding.message))
+                .collect();
+            Err(format!("found in it: {}", found.join("\n")).into())
+        }
+    }
+}
+
+/// Puts a scene into the light of its options; one without light comes into the studio.
+fn stage(
+    lowered: &mut Lowered,
+    case: &Path,
+    options: &Options,
+    map: &SourceMap,
+    sink: &mut Sink,
+) -> Result<(), Failed> {
+    let mut surroundings = options.env_color.map(Surroundings::Color);
+    if let Some(name) = &options.env {
+        let bytes = fs::read(case.with_file_name(name))?;
+        let image = assets::environment(name, &bytes, map.budget())
+            .map_err(|fault| assets::refusal(&fault, name).message)?;
+        surroundings = Some(Surroundings::Picture(image));
+    }
+    let stage = Stage {
+        view: options.view,
+        integrator: options.integrator,
+        surroundings,
+        suns: options.suns.clone(),
+        without_lights: false,
+    };
+    pipeline::stage(lowered, &stage, sink);
+    Ok(())
+}
+
+fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
+    let mode = &scene.settings().mode;
+    let tone = options.tone.unwrap_or(mode.tone());
+    let is_plain = options.stops == 0.0 && options.tone.unwrap_or(Tone::None) == Tone::None;
+    let job = Job {
+        values: if is_plain && mode.tone() == Tone::None {
+            Values::Display
+        } else {
+            Values::Linear
+        },
+        behind: if options.backdrop == Backdrop::Film {
+            Behind::Surroundings
+        } else {
+            Behind::Nothing
+        },
+        ..Job::default()
+    };
+    let film = renderer.render(&job, &|_| true).unwrap();
+    let look = Look {
+        stops: options.stops,
+        tone,
+        backdrop: options.backdrop,
+    };
+    look.develop(film.image, film.coverage, Association::Straight)
+}
+
+/// A layer as colours: its values from the first of a range, black, to the last, white.
+fn layer(renderer: &Renderer, scene: &Proof, aov: Aov, [low, high]: [f64; 2]) -> Picture {
+    let camera = scene.camera();
+    let (width, height) = (camera.width.get(), camera.height.get());
+    let whole = Crop {
+        x: 0,
+        y: 0,
+        width,
+        height,
+    };
+    let Layers { names, values } = renderer.layers(&[aov], whole, &|| true).unwrap();
+    assert_eq!(names, aov.channels());
+    let shade = |value: &f32| ((f64::from(*value) - low) / (high - low)).clamp(0.0, 1.0);
+    let color = |values: &[f32]| match values {
+        [x] => [shade(x); 3],
+        [u, v] => [shade(u), shade(v), 0.0],
+        [x, y, z] => [shade(x), shade(y), shade(z)],
+        _ => unreachable!("a layer has at most three channels"),
+    };
+    Picture::opaque(Image {
+        width,
+        height,
+        pixels: values.chunks_exact(names.len()).map(color).collect(),
+    })
+}

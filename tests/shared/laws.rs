@@ -1,0 +1,26 @@
+//! The laws of `tests/laws.rs` for the scenes of the course.
+
+use super::every::{is_the_same_in_any_order, makes_the_same_picture_times, powers};
+use super::scenes::{COURSE, each};
+use super::small::scenes_in;
+use super::suite::shared;
+use libtest_mimic::Trial;
+use std::path::Path;
+
+pub(crate) fn trials() -> Vec<Trial> {
+    let mut trials = each("laws: scale", COURSE, &["yaml"], is_the_same_at_any_scale);
+    trials.extend(each(
+        "laws: order",
+        COURSE,
+        &["yaml"],
+        is_the_same_in_any_order,
+    ));
+    trials
+}
+
+/// Each scene has its share of the powers, all of which occur.
+fn is_the_same_at_any_scale(path: &Path) {
+    let scenes = scenes_in(&shared(COURSE).unwrap());
+    let index = scenes.iter().position(|scene| scene == path).unwrap();
+    makes_the_same_picture_times(path, powers(scenes.len(), index));
+}

@@ -1,0 +1,101 @@
+//! The plan of scenes that others wrote: what they call for, that no rule changes a bit of their
+//! pictures or costs a ray, and that what is left out adds nothing.
+
+use super::oracle;
+use super::scenes::{COURSE, accepted, course, each, film, proven, whole};
+use super::small::bits;
+use libtest_mimic::Trial;
+use rtc::ir::{Overrides, Scene};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Job, Values, verify};
+use rtc::valid::Proof;
+use std::path::Path;
+
+pub(crate) fn trials() -> Vec<Trial> {
+    let mut trials = oracle::trials();
+    for folder in [COURSE, "wild"] {
+        let scenes = ["yaml", "yml"];
+        trials.extend(each("plan: law", folder, &scenes, obeys_the_law));
+        trials.extend(each(
+            "plan: validation",
+            folder,
+            &scenes,
+            is_left_out_rightly,
+        ));
+    }
+    trials.push(course(
+        "plan: rays counted elsewhere",
+        "scene01-reflect-lights-shadows.yaml",
+        takes_the_rays_counted_elsewhere,
+    ));
+    trials.push(course(
+        "plan: rays of the camera alone",
+        "scene01.yaml",
+        takes_rays_of_the_camera_alone,
+    ));
+    trials
+}
+
+/// The scene of a file with few pixels, samples and bounces; none if it is refused.
+fn small(path: &Path) -> Option<Proof> {
+    let mut scene = accepted(path)?;
+    Overrides {
+        size: Some([22, 18]),
+        supersampling: Some(scene.settings.supersampling.min(2)),
+        depth: Some(scene.settings.max_depth.min(4)),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
+    scene.camera.lens.samples = scene.camera.lens.samples.min(3);
+    scene.settings.light_samples = scene.settings.light_samples.min(4);
+    Some(proven(scene))
+}
+
+/// All rules together change no bit, and cost no ray.
+fn obeys_the_law(path: &Path) {
+    let Some(scene) = small(path) else { return };
+    for values in [Values::Linear, Values::Display] {
+        let job = Job {
+            values,
+            ..Job::default()
+        };
+        let [pruned, unpruned] =
+            [Rules::ALL, Rules::NONE].map(|rules| film(&scene, &Plan::new(&scene, rules), &job));
+        assert!(bits(&pruned) == bits(&unpruned), "{values:?}");
+        assert!(
+            pruned.counts.rays() <= unpruned.counts.rays(),
+            "{:?} rays instead of {:?}",
+            pruned.counts,
+            unpruned.counts
+        );
+    }
+}
+
+fn is_left_out_rightly(path: &Path) {
+    let Some(scene) = small(path) else { return };
+    let plan = Plan::new(&scene, Rules::ALL);
+    let verified = verify(&scene, &plan, &Job::default(), &|_| true);
+    assert_eq!(verified.unwrap().map(drop), Ok(()));
+}
+
+fn takes_the_rays_counted_elsewhere(mut scene: Scene) {
+    // Its 200 × 200 pixels in the middle, 16 rays each, one bounce: counted once by a program of
+    // its own.
+    scene.camera.size = [200, 200];
+    (scene.settings.supersampling, scene.settings.max_depth) = (4, 1);
+    let scene = proven(scene);
+    let plan = Plan::new(&scene, Rules::AT_HITS);
+    let counts = film(&scene, &plan, &Job::default()).counts;
+    assert_eq!(counts.rays(), 2_200_208);
+}
+
+fn takes_rays_of_the_camera_alone(scene: Scene) {
+    let counts = whole(&proven(scene)).counts;
+    assert_eq!(counts.rays(), counts.camera);
+    assert!(
+        counts.camera < 160_000,
+        "pixels that show nothing are not traced: {}",
+        counts.camera
+    );
+    assert!(counts.hits > 0);
+}

@@ -1,0 +1,83 @@
+//! Scenes of `../shared`: a trial for each file of a folder, and each read, proven, rendered.
+
+use super::suite::{absent, files, shared, trial};
+use libtest_mimic::Trial;
+use rtc::diag::Sink;
+use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Plan, Rules};
+use rtc::render::{Film, Job};
+use rtc::source::{Loader, SourceMap};
+use rtc::valid::Proof;
+use std::path::Path;
+
+/// The scenes of the course, of which each shows something.
+pub(crate) const COURSE: &str = "course/scenes";
+
+/// A trial for each file of a folder, or one that is ignored if there is none.
+pub(crate) fn each(suite: &str, folder: &str, extensions: &[&str], check: fn(&Path)) -> Vec<Trial> {
+    let Some(path) = shared(folder) else {
+        return vec![absent(format!("{suite}/{folder}"), folder)];
+    };
+    let found = files(&path, extensions).into_iter();
+    let trials = found.map(|file| {
+        // Files may differ in their extension alone.
+        let own = file.strip_prefix(&path).unwrap().to_string_lossy();
+        let name = format!("{suite}/{folder}/{}", own.replace('\\', "/"));
+        trial(name, move || check(&file))
+    });
+    trials.collect()
+}
+
+/// A trial of one scene of the course.
+pub(crate) fn course(
+    suite: &str,
+    file: &'static str,
+    check: impl FnOnce(Scene) + Send + 'static,
+) -> Trial {
+    let path = format!("{COURSE}/{file}");
+    super::suite::needs(format!("{suite}/{path}"), &path, |path| check(read(path)))
+}
+
+/// A scene as it is; none if it is refused.
+pub(crate) fn accepted(path: &Path) -> Option<Scene> {
+    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
+    let file = Loader.file(path, &mut map).unwrap();
+    let lowered = pipeline::load(file, &mut map, &options, &mut sink)?;
+    (!sink.has_errors()).then_some(lowered.scene)
+}
+
+pub(crate) fn read(path: &Path) -> Scene {
+    accepted(path).unwrap_or_else(|| panic!("{} is refused", path.display()))
+}
+
+/// The scene at another size, with so many samples along each side of a pixel.
+pub(crate) fn at(mut scene: Scene, size: [u32; 2], supersampling: u32) -> Scene {
+    Overrides {
+        size: Some(size),
+        supersampling: Some(supersampling),
+        ..Overrides::default()
+    }
+    .apply(&mut scene);
+    scene
+}
+
+pub(crate) fn proven(scene: Scene) -> Proof {
+    let (mut sink, options) = (Sink::default(), Options::default());
+    let lowered = Lowered {
+        scene,
+        origins: Origins::default(),
+    };
+    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+pub(crate) fn film(scene: &Proof, plan: &Plan, job: &Job) -> Film {
+    pipeline::render(scene, plan, job, 0, &|_| true)
+        .unwrap()
+        .unwrap()
+}
+
+/// A film with all rules.
+pub(crate) fn whole(scene: &Proof) -> Film {
+    film(scene, &Plan::new(scene, Rules::ALL), &Job::default())
+}
