@@ -145,6 +145,7 @@ const JOB: Job = Job {
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
     behind: Behind::Surroundings,
+    samples: None,
 };
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {

@@ -14,11 +14,14 @@ mod dice;
 mod extreme;
 mod law;
 mod need;
+mod paths;
 mod precision;
 #[path = "../scale/mod.rs"]
 mod scale;
 mod sensitivity;
 mod stage;
+#[path = "../small/told.rs"]
+mod told;
 mod validation;
 
 use rtc::diag::Sink;

@@ -17,6 +17,7 @@ mod figures;
 mod gltf;
 mod laws;
 mod oracle;
+mod paths;
 mod pictures;
 mod plain;
 mod plan;
@@ -27,6 +28,8 @@ mod scenes;
 mod small;
 #[path = "../suite/mod.rs"]
 mod suite;
+#[path = "../small/told.rs"]
+mod told;
 mod wild;
 
 use std::process::ExitCode;
@@ -38,6 +41,7 @@ fn main() -> ExitCode {
         figures::trials(),
         gltf::trials(),
         laws::trials(),
+        paths::trials(),
         pictures::trials(),
         plain::trials(),
         plan::trials(),

@@ -65,6 +65,7 @@ pub(crate) const WHOLE: Job = Job {
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
     behind: Behind::Surroundings,
+    samples: None,
 };
 
 pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {

@@ -1,0 +1,183 @@
+//! Made-up scenes of traced paths: layers, maps, alpha, lights of all kinds, each often of weight 0
+//! or of one value, so that rules have something to leave out.
+
+use super::Dice;
+use rtc::ir::{
+    self, Alpha, Emitter, Environment, Filter, ImageId, Map, Material, MaterialId, Mode, Path,
+    Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
+};
+
+/// Textures that a map may show.
+const TEXTURES: u32 = 6;
+
+impl Dice {
+    /// A scene whose paths are traced.
+    pub(in super::super) fn path_scene(&mut self) -> Scene {
+        let mut scene = self.scene();
+        let (images, textures) = self.path_textures();
+        (scene.images, scene.textures) = (images, textures);
+        let materials = 1 + self.roll(3);
+        let all_unlit = self.chance(8);
+        scene.materials = (0..materials)
+            .map(|_| Material::Standard(Box::new(self.layered(all_unlit))))
+            .collect();
+        for surface in &mut scene.surfaces {
+            surface.material = MaterialId(self.roll(materials));
+        }
+        if self.chance(5) {
+            scene.surfaces.truncate(1);
+        }
+        scene.lights = (0..self.roll(3)).map(|_| self.path_light()).collect();
+        scene.environment = self.chance(2).then(|| self.environment());
+        scene.meshes.iter_mut().for_each(|mesh| self.paint(mesh));
+        scene.settings.max_depth = self.pick(&[0, 1, 2, 4]);
+        scene.settings.mode = Mode::Path(Path {
+            samples: self.pick(&[1, 3]),
+            multiple_scattering: self.chance(2),
+        });
+        scene.camera.projection = self.pick(&[
+            ir::Projection::Perspective,
+            ir::Projection::Perspective,
+            ir::Projection::Orthographic,
+        ]);
+        scene
+    }
+
+    /// Of noise, of one value, black, opaque, clear in parts, and white.
+    fn path_textures(&mut self) -> (Vec<ir::Image>, Vec<Texture>) {
+        let image = |value: &dyn Fn(u8) -> u8| ir::Image {
+            name: "dice".to_owned(),
+            width: 4,
+            height: 4,
+            kind: Pixels::Rgba8,
+            pixels: (0..64).map(value).collect::<Vec<_>>().into(),
+        };
+        let images = vec![
+            image(&|k| k.wrapping_mul(37)),
+            image(&|k| [128, 100, 250, 255][usize::from(k) % 4]),
+            image(&|_| 0),
+            image(&|k| if k % 4 == 3 { 255 } else { k * 4 }),
+            image(&|k| if k % 4 == 3 && k > 32 { 0 } else { 200 }),
+            image(&|_| 255),
+        ];
+        let sampled = |image: u32| {
+            let wrap = self.pick(&[Wrap::Repeat, Wrap::Clamp, Wrap::Mirror]);
+            let filter = self.pick(&[Filter::Linear, Filter::Nearest]);
+            Texture::Sampled(Sampled {
+                image: ImageId(image),
+                wrap: [wrap; 2],
+                filter,
+            })
+        };
+        (images, (0..TEXTURES).map(sampled).collect())
+    }
+
+    fn path_map(&mut self) -> Option<Map> {
+        let texture_from_surface = self.chance(3).then(|| {
+            [
+                [self.length(), 0.0, self.number(2)],
+                [0.0, 0.1, self.number(1)],
+            ]
+        });
+        self.chance(4).then(|| Map {
+            texture: TextureId(self.roll(TEXTURES)),
+            set: u32::from(self.chance(4)),
+            texture_from_surface,
+        })
+    }
+
+    fn weight(&mut self) -> f64 {
+        self.pick(&[0.0, 0.0, 0.5, 1.0])
+    }
+
+    fn layered(&mut self, unlit: bool) -> Standard {
+        Standard {
+            base_color: self.pick(&[
+                [0.0, 0.0, 0.0, 1.0],
+                [0.8, 0.6, 0.4, 1.0],
+                [1.0, 1.0, 1.0, 0.5],
+            ]),
+            base_color_map: self.path_map(),
+            metallic: self.weight(),
+            roughness: self.weight(),
+            metallic_roughness_map: self.path_map(),
+            emissive: self.pick(&[[0.0; 3], [0.0; 3], [2.0, 1.0, 0.5]]),
+            emissive_map: self.path_map(),
+            normal_map: self.path_map(),
+            alpha: self.pick(&[Alpha::Opaque, Alpha::Opaque, Alpha::Mask(0.5), Alpha::Blend]),
+            double_sided: self.chance(2),
+            unlit: unlit || self.chance(8),
+            ior: self.pick(&[1.0, 1.5]),
+            dispersion: self.pick(&[0.0, 0.0, 0.3]),
+            specular: self.weight(),
+            specular_map: self.path_map(),
+            transmission: self.pick(&[0.0, 0.0, 1.0]),
+            transmission_map: self.path_map(),
+            thickness: self.weight(),
+            attenuation_distance: self.pick(&[None, Some(0.5)]),
+            attenuation_color: [0.9, 0.5, 0.2],
+            ..self.layers()
+        }
+    }
+
+    fn layers(&mut self) -> Standard {
+        Standard {
+            clearcoat: self.pick(&[0.0, 0.0, 1.0]),
+            clearcoat_map: self.path_map(),
+            clearcoat_roughness: self.weight(),
+            clearcoat_normal_map: self.path_map(),
+            sheen_color: self.pick(&[[0.0; 3], [0.0; 3], [0.5, 0.2, 0.9]]),
+            sheen_color_map: self.path_map(),
+            sheen_roughness: self.weight(),
+            anisotropy: self.pick(&[0.0, 0.0, 0.7]),
+            anisotropy_map: self.path_map(),
+            iridescence: self.pick(&[0.0, 0.0, 1.0]),
+            iridescence_map: self.path_map(),
+            ..Standard::default()
+        }
+    }
+
+    fn path_light(&mut self) -> ir::Light {
+        let position = [self.number(3), self.number(3), 6.0];
+        let range = self.pick(&[None, None, Some(0.5), Some(20.0)]);
+        let emitter = match self.roll(3) {
+            0 => Emitter::Sun {
+                direction: [1.0, 2.0, 3.0],
+            },
+            1 => Emitter::Point { position, range },
+            _ => Emitter::Spot {
+                position,
+                direction: [0.0, self.pick(&[0.0, 1.0]), self.pick(&[-1.0, 1.0])],
+                inner_angle: 0.2,
+                outer_angle: 0.5,
+                range,
+            },
+        };
+        let intensity = self.pick(&[[0.0; 3], [3.0, 2.0, 4.0], [20.0; 3]]);
+        ir::Light::Punctual(Punctual { emitter, intensity })
+    }
+
+    fn environment(&mut self) -> Environment {
+        Environment {
+            radiance: self.pick(&[[0.0; 3], [0.5, 0.7, 1.0], [1.0; 3]]),
+            image: self.chance(3).then(|| ImageId(self.roll(TEXTURES))),
+            image_from_world: None,
+        }
+    }
+
+    /// Colours at the corners, and a second set of texture coordinates.
+    fn paint(&mut self, mesh: &mut ir::Mesh) {
+        if self.chance(4) {
+            mesh.colors = vec![
+                [1.0, 0.5, 0.2, 1.0],
+                [1.0; 4],
+                [0.2, 0.4, 0.6, 0.9],
+                [1.0; 4],
+            ]
+            .into();
+        }
+        if self.chance(4) {
+            mesh.second_uvs = vec![[0.3, 0.3], [0.4, 0.3], [0.4, 0.4], [0.3, 0.4]].into();
+        }
+    }
+}

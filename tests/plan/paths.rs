@@ -1,0 +1,82 @@
+//! The law and the verdicts for traced paths: what a rule leaves out changes no bit of the picture,
+//! and an explanation names no effect that the picture shows as absent.
+
+use super::dice::Dice;
+use super::told::{difference, film, lies, traced, unmet};
+use super::{file_name, files, proven, scene};
+use rtc::ir::Scene;
+use rtc::plan::{Plan, Rule, Rules, State};
+use std::env;
+
+/// How many made-up scenes are tried: `RTC_SCENES=1000 cargo test --test plan paths` tries more.
+fn scenes() -> u64 {
+    env::var("RTC_SCENES").map_or(64, |count| count.parse().unwrap())
+}
+
+/// The sets of rules that a scene is tried with: each alone that leaves something out of it, and
+/// all of them.
+fn sets(scene: &Scene) -> Vec<(String, Rules)> {
+    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let mut applied: Vec<_> = plan
+        .verdicts
+        .iter()
+        .filter_map(|verdict| verdict.rule)
+        .collect();
+    applied.sort_unstable();
+    applied.dedup();
+    let alone = applied
+        .into_iter()
+        .map(|rule| (rule.name().to_owned(), Rules::NONE.with(rule)));
+    alone.chain([("all".to_owned(), Rules::ALL)]).collect()
+}
+
+#[test]
+fn no_rule_changes_a_bit_of_a_made_up_scene() {
+    for seed in 0..scenes() {
+        let scene = Dice::new(seed).path_scene();
+        let proof = proven(&scene);
+        let unpruned = film(&proof, Rules::NONE);
+        for (name, rules) in sets(&scene) {
+            let difference = difference(&proof, &unpruned, rules);
+            assert_eq!(difference, None, "scene {seed}, {name}");
+        }
+    }
+}
+
+#[test]
+fn what_is_told_absent_is_never_simulated() {
+    for seed in 0..scenes() {
+        let proof = proven(&Dice::new(seed).path_scene());
+        let mut lies = lies(&proof, &film(&proof, Rules::ALL).counts);
+        lies.retain(|(_, state, _)| *state != State::Needed);
+        assert!(lies.is_empty(), "scene {seed}: {lies:?}");
+    }
+}
+
+#[test]
+fn the_scenes_of_the_repo_obey_the_law_and_show_what_they_are_told_to_need() {
+    let mut all = Vec::new();
+    for path in files("scenes") {
+        let Some(scene) = scene(&path) else { continue };
+        let proof = proven(&traced(scene));
+        let difference = difference(&proof, &film(&proof, Rules::NONE), Rules::ALL);
+        assert_eq!(difference, None, "{}", file_name(&path));
+        all.extend(unmet(&file_name(&path), &proof));
+    }
+    assert!(all.len() <= 3, "needed, but not met:\n{}", all.join("\n"));
+}
+
+#[test]
+fn each_rule_for_paths_leaves_something_out_of_some_scene() {
+    let is_for_paths = |rule: &Rule| rule.name().starts_with("P-");
+    let mut idle: Vec<_> = Rule::ALL.into_iter().filter(is_for_paths).collect();
+    for seed in 0..2000 {
+        let plan = Plan::new(&proven(&Dice::new(seed).path_scene()), Rules::ALL);
+        idle.retain(|rule| {
+            plan.verdicts
+                .iter()
+                .all(|verdict| verdict.rule != Some(*rule))
+        });
+    }
+    assert!(idle.is_empty(), "never fired: {idle:?}");
+}
