@@ -36,7 +36,11 @@ impl NonNegative {
     /// The nearest to a value; 0 for what is no number.
     #[must_use]
     pub fn saturating(value: f64) -> Self {
-        Self(if value > 0.0 { value.min(f64::MAX) } else { 0.0 })
+        Self(if value > 0.0 {
+            value.min(f64::MAX)
+        } else {
+            0.0
+        })
     }
 
     /// The product with a number, 0 if that is negative.

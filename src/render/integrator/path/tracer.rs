@@ -88,11 +88,7 @@ impl<'world, S: Geometry> Tracer<'world, S> {
             path,
             strategy,
             veils: Veils::of(world),
-            asked: world
-                .standards
-                .iter()
-                .map(|material| material.asked)
-                .collect(),
+            asked: world.standards.iter().map(|m| m.asked).collect(),
             behind: Behind::default(),
             heartbeat: Heartbeat::new(proceed),
             counts: Counts::default(),
