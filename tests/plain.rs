@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
 use rtc::math::{Positive, Vec3};
-use rtc::render::{Geometry, PlainShape, Ray, Real, Shape, Shear};
+use rtc::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear};
 use rtc::valid;
 use std::sync::Arc;
 
@@ -107,18 +107,18 @@ fn shapes() -> Vec<(&'static str, valid::Shape)> {
 }
 
 /// A tetrahedron.
-fn mesh() -> Arc<valid::Mesh> {
-    Arc::new(valid::Mesh {
+fn mesh() -> valid::Mesh {
+    valid::Mesh {
         positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z]
             .map(|corner| corner.to_array())
             .into_iter()
             .collect(),
         triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]].into(),
         ..valid::Mesh::default()
-    })
+    }
 }
 
-fn prepare<S: Geometry>(shape: &valid::Shape) -> S {
+fn prepare<S: Prepare>(shape: &valid::Shape) -> S {
     S::prepare(shape, &[Arc::new(S::prepare_mesh(&mesh()))]).unwrap()
 }
 

@@ -4,9 +4,8 @@
 use proptest::prelude::*;
 use rtc::math::Vec3;
 use rtc::render::{
-    Cone, Cylinder, Disc, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle,
+    Attributes, Cone, Cylinder, Disc, Instance, PreparedMesh, Quad, Ray, Shear, Torus, Triangle,
 };
-use rtc::valid::Mesh;
 use std::sync::Arc;
 
 /// Steps of the brute force over the stretch near the shape.
@@ -174,8 +173,8 @@ proptest! {
         });
         let nearest = nearest.min_by(f64::total_cmp);
         let positions = corners.iter().map(|corner| corner.to_array()).collect();
-        let mesh = Mesh { positions, triangles: triangles.into(), ..Mesh::default() };
-        let instance = Instance::new(&Arc::new(PreparedMesh::new(&Arc::new(mesh))), [x, y, z, to]);
+        let mesh = PreparedMesh::new(&positions, &triangles.into(), Attributes::default());
+        let instance = Instance::new(&Arc::new(mesh), [x, y, z, to]);
         let found = instance.intersect(&ray, f64::INFINITY).map(|(t, _)| t);
         match (found, nearest) {
             (Some(found), Some(nearest)) => prop_assert!((found - nearest).abs() < 1e-9 * nearest, "{} {}", found, nearest),

@@ -52,13 +52,11 @@ const OUTGROWN: &[&str] = &[
     "src/front/gltf/skin.rs",
     "src/plan/mod.rs",
     "src/plan/window.rs",
-    "src/render/shape/instance.rs",
     "src/render/integrator/path/tracer.rs",
     "src/render/integrator/whitted.rs",
     "src/render/accel/wide.rs",
     "src/study/flip.rs",
     "src/study/knob.rs",
-    "src/valid/shape.rs",
     "tests/assets/search.rs",
     "tests/cli/main.rs",
     "tests/cli/stage.rs",
@@ -157,6 +155,34 @@ fn rooms_name_only_lower_floors() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// The rooms of `render` that see what was prepared, never the proof it was prepared from.
+const PREPARED: &[&str] = &[
+    "accel", "bsdf", "film", "light", "material", "ray.rs", "sampler", "shape", "texture",
+];
+
+#[test]
+fn what_is_prepared_knows_no_proof() {
+    let files = PREPARED
+        .iter()
+        .flat_map(|room| rust_files(&format!("src/render/{room}")));
+    let files = files.collect::<Vec<_>>();
+    assert!(files.len() > 40, "the rooms are where they were");
+    let knowing = files
+        .iter()
+        .filter(|(_, text)| rooms_named(&shipped_code(text)).contains(&"valid"))
+        .map(|(path, _)| path);
+    assert_eq!(knowing.collect::<Vec<_>>(), [""; 0]);
+}
+
+#[test]
+fn the_proof_passes_on_nothing_of_the_representation() {
+    for (path, text) in rust_files("src/valid") {
+        let exports = text.split("pub use ").skip(1);
+        let of_ir = exports.filter(|rest| rest.starts_with("crate::ir")).count();
+        assert_eq!(of_ir, 0, "{path}");
+    }
 }
 
 #[test]

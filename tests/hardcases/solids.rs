@@ -5,10 +5,9 @@ use super::mesh::Mesh;
 use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
-    Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad, Ray, Shape,
-    Shear, Sphere, Torus, Triangle,
+    Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad,
+    Ray, Shape, Shear, Sphere, Torus, Triangle,
 };
-use rtc::valid;
 use std::sync::Arc;
 
 /// The kinds of shape.
@@ -75,15 +74,16 @@ pub(crate) fn icosphere() -> Arc<PreparedMesh> {
         triangles,
     } = Mesh::icosphere(1);
     let index = |corner: usize| u32::try_from(corner).unwrap();
-    let mesh = valid::Mesh {
-        positions: vertices.iter().map(|vertex| vertex.to_array()).collect(),
-        triangles: triangles
-            .iter()
-            .map(|triangle| triangle.map(index))
-            .collect(),
-        ..valid::Mesh::default()
-    };
-    Arc::new(PreparedMesh::new(&Arc::new(mesh)))
+    let positions = vertices.iter().map(|vertex| vertex.to_array()).collect();
+    let triangles = triangles
+        .iter()
+        .map(|triangle| triangle.map(index))
+        .collect();
+    Arc::new(PreparedMesh::new(
+        &positions,
+        &triangles,
+        Attributes::default(),
+    ))
 }
 
 impl Form {

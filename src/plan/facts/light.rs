@@ -27,3 +27,44 @@ pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
     };
     lights.iter().map(physical).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{NonNegative, Vec3};
+    use crate::valid::{CourseLight, SunLight};
+
+    #[test]
+    fn each_integrator_sees_its_lights_in_the_order_of_the_scene() {
+        let lamp = |x: f64| {
+            Light::Course(CourseLight {
+                position: Vec3::X * x,
+                color: Vec3::ONE,
+                radius: NonNegative::ZERO,
+            })
+        };
+        let sun = Light::Punctual(Punctual::Sun(SunLight {
+            direction: Vec3::Z,
+            irradiance: Vec3::ONE,
+        }));
+        let lights = [lamp(1.0), sun, lamp(2.0)];
+        let places = course(&lights)
+            .iter()
+            .map(|light| light.position.x)
+            .collect::<Vec<_>>();
+        assert_eq!(places, [1.0, 2.0]);
+        let [
+            Punctual::Point(first),
+            Punctual::Sun(_),
+            Punctual::Point(second),
+        ] = punctual(&lights)[..]
+        else {
+            panic!("three lights of their kinds")
+        };
+        assert_eq!((first.position.x, second.position.x), (1.0, 2.0));
+        assert_eq!(
+            (first.intensity, first.falloff),
+            (Vec3::splat(PI), Falloff::None)
+        );
+    }
+}

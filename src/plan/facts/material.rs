@@ -134,3 +134,68 @@ pub const WHITE: Standard = Standard {
     iridescence_thickness: [NonNegative::ZERO; 2],
     iridescence_thickness_map: None,
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::valid::Maps;
+
+    fn matt() -> Phong {
+        phong_of_standard(&WHITE)
+    }
+
+    fn number(value: f64) -> NonNegative {
+        NonNegative::saturating(value)
+    }
+
+    #[test]
+    fn a_white_wall_is_one_in_both_models() {
+        let wall = matt();
+        assert_eq!(
+            (wall.color, wall.kd.get(), wall.ks.get()),
+            (Vec3::ONE, 1.0, 0.0)
+        );
+        let back = standard_of_phong(&wall);
+        assert_eq!(back.base_color.map(UnitInterval::get), [1.0; 4]);
+        assert_eq!((back.metallic.get(), back.specular.get()), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_mirror_is_a_smooth_metal_of_its_weight() {
+        let mirror = Phong {
+            color: Vec3::new(0.3, 0.2, 0.1),
+            kd: NonNegative::ZERO,
+            ks: number(0.75),
+            ..matt()
+        };
+        let metal = standard_of_phong(&mirror);
+        let [r, g, b, alpha] = metal.base_color.map(UnitInterval::get);
+        assert_eq!([r, g, b, alpha], [0.75, 0.75, 0.75, 1.0]);
+        assert_eq!((metal.metallic.get(), metal.roughness.get()), (1.0, 0.0));
+    }
+
+    #[test]
+    fn what_refracts_bounds_a_volume_and_keeps_its_colour_map() {
+        let glass = Phong {
+            color: Vec3::new(2.0, 0.5, 0.0),
+            kd: number(0.5),
+            kt: number(3.0),
+            eta: Positive::new(0.7).unwrap(),
+            maps: Some(Box::new(Maps {
+                color: Some(4),
+                specular: Some(5),
+                normal: None,
+                bump: None,
+            })),
+            ..matt()
+        };
+        let seen = standard_of_phong(&glass);
+        assert_eq!((seen.transmission.get(), seen.thickness.get()), (1.0, 1.0));
+        assert_eq!((seen.ior.get(), seen.roughness.get()), (1.0, 0.0));
+        assert_eq!(
+            seen.base_color.map(UnitInterval::get),
+            [0.5, 0.25, 0.0, 1.0]
+        );
+        assert_eq!(seen.base_color_map.map(|map| map.texture), Some(4));
+    }
+}

@@ -24,7 +24,7 @@ use draft::{Applied, Draft};
 use facts::Uses;
 
 /// The work that traced paths need.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
     /// Per material of the scene, what is left of it.
     pub materials: Vec<Standard>,

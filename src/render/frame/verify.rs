@@ -5,10 +5,10 @@ use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
 use crate::render::film::heartbeat::Proceed;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::shape::Shape;
-use crate::render::shape::geometry::Geometry;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
 use crate::render::world::any;
+use crate::render::world::shape::Prepare;
 use crate::valid::Proof;
 use std::sync::{Mutex, PoisonError};
 
@@ -87,7 +87,7 @@ pub fn verify(
 }
 
 /// The film without rules, and what it shows of a plan.
-fn naively<S: Geometry>(
+fn naively<S: Prepare>(
     scene: &Proof,
     plan: &Plan,
     job: &Job,

@@ -4,14 +4,12 @@ use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details, PreparedMesh};
+use crate::render::shape::instance::{Asked, Details};
 use crate::render::shape::plane::Plane;
 use crate::render::shape::sphere::Sphere;
 use crate::render::shape::tie;
 use crate::render::shape::triangle::{Shear, Triangle};
-use crate::render::shape::{Shape, sphere_details, triangle_details};
-use crate::valid;
-use std::sync::Arc;
+use crate::render::shape::{sphere_details, triangle_details};
 
 /// A sphere, a plane or a triangle.
 #[derive(Clone, Debug)]
@@ -25,26 +23,6 @@ pub enum Basic {
 }
 
 impl Geometry for Basic {
-    type Mesh = PreparedMesh;
-
-    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> PreparedMesh {
-        PreparedMesh::new(mesh)
-    }
-
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
-        match Shape::prepare(shape, meshes)? {
-            Shape::Sphere(sphere, rows) => Some(Self::Sphere(sphere, rows)),
-            Shape::Plane(plane) => Some(Self::Plane(plane)),
-            Shape::Triangle(triangle, uvs) => Some(Self::Triangle(triangle, uvs)),
-            Shape::Quad(_)
-            | Shape::Disc(_)
-            | Shape::Cylinder(_)
-            | Shape::Cone(_)
-            | Shape::Torus(_)
-            | Shape::Instance(_) => None,
-        }
-    }
-
     #[inline]
     fn intersect(&self, ray: &Ray, shear: &Shear, _t_max: f64) -> Option<(f64, u32)> {
         let t = match self {

@@ -5,22 +5,9 @@ use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::shape::triangle::Shear;
-use crate::valid;
-use std::sync::Arc;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
 pub trait Geometry: Sized + Send + Sync {
-    /// A mesh prepared once for all its instances.
-    type Mesh: Send + Sync;
-
-    /// Prepares a mesh.
-    #[must_use]
-    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> Self::Mesh;
-
-    /// Prepares a shape; `None` for one that no ray hits.
-    #[must_use]
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<Self::Mesh>]) -> Option<Self>;
-
     /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray.
     /// Roots beyond `t_max` may be left out.
     #[must_use]

@@ -1,68 +1,13 @@
 //! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
 //! hierarchy.
 
-use crate::math::{Column, Shared, Vec3, cross, unit};
+use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
-use crate::render::accel::wide::Wide;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::mesh::PreparedMesh;
 use crate::render::shape::tie::{self, Nearest, Tie};
 use crate::render::shape::triangle::{Shear, Triangle};
-use crate::valid::Mesh;
-use std::sync::{Arc, OnceLock};
-
-/// A mesh ready to be hit, in object coordinates.
-#[derive(Debug)]
-pub struct PreparedMesh {
-    /// The mesh as proven.
-    pub mesh: Arc<Mesh>,
-    triangles: Vec<Triangle>,
-    /// The corners of each triangle, by their numbers in the mesh.
-    corners: Shared<[u32; 3]>,
-    /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
-    /// world.
-    hierarchy: OnceLock<Option<Wide>>,
-}
-
-impl PreparedMesh {
-    /// Prepares a mesh.
-    #[must_use]
-    pub fn new(mesh: &Arc<Mesh>) -> Self {
-        let prepared = |corners: &[u32; 3]| Triangle::new(mesh.corners(*corners));
-        let triangles = mesh
-            .triangles
-            .iter()
-            .filter_map(prepared)
-            .collect::<Vec<_>>();
-        let all = &mesh.triangles;
-        let corners = match triangles.len() == all.len() {
-            true => all.clone(),
-            false => all
-                .iter()
-                .copied()
-                .filter(|corners| prepared(corners).is_some())
-                .collect(),
-        };
-        Self {
-            mesh: Arc::clone(mesh),
-            triangles,
-            corners,
-            hierarchy: OnceLock::new(),
-        }
-    }
-
-    /// The triangles that have an area.
-    pub(in crate::render) fn triangles(&self) -> &[Triangle] {
-        &self.triangles
-    }
-
-    /// The hierarchy of the triangles, if there are any.
-    pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
-        let corners = |item: u32| *self.triangles[item as usize].vertices();
-        self.hierarchy
-            .get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners))
-            .as_ref()
-    }
-}
+use std::sync::Arc;
 
 /// A mesh in the world.
 #[derive(Clone, Debug)]
@@ -108,7 +53,7 @@ impl Instance {
         };
         let mesh = Arc::clone(&instance.mesh);
         let corners = mesh
-            .triangles
+            .triangles()
             .iter()
             .flat_map(|triangle| triangle.vertices());
         for corner in corners {
@@ -169,7 +114,7 @@ impl Instance {
         let shear = Shear::new(&ray);
         let mut best = (t_max, u32::MAX);
         self.mesh.hierarchy()?.walk::<true>(&ray, t_max, |item| {
-            if let Some(t) = self.mesh.triangles[item as usize].intersect(&ray, &shear)
+            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&ray, &shear)
                 && (t < best.0 || (t == best.0 && item < best.1))
             {
                 best = (t, item);
@@ -187,7 +132,7 @@ impl Instance {
         let shear = Shear::new(&local);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
         self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
-            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &shear) {
                 nearest.add(t, item);
             }
             nearest.t
@@ -223,7 +168,7 @@ impl Instance {
             return;
         };
         hierarchy.walk::<true>(&local, t_max, |item| {
-            if let Some(t) = self.mesh.triangles[item as usize].intersect(&local, &shear) {
+            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &shear) {
                 visit(t, item);
             }
             t_max
@@ -234,14 +179,14 @@ impl Instance {
     #[inline]
     pub(in crate::render) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
         let ray = self.to_object(ray);
-        self.mesh.triangles[part as usize].intersect(&ray, &Shear::new(&ray))
+        self.mesh.triangles()[part as usize].intersect(&ray, &Shear::new(&ray))
     }
 
     /// The point at `t` on triangle `part`.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
         let local_ray = self.to_object(ray);
-        let local = self.mesh.triangles[part as usize].interaction(&local_ray, t);
+        let local = self.mesh.triangles()[part as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
         let reach = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * self.sizes.dot(reach);
@@ -256,31 +201,31 @@ impl Instance {
 
     /// Whether the mesh has texture coordinates.
     pub(in crate::render) fn has_uv(&self) -> bool {
-        !self.mesh.mesh.uvs.is_empty()
+        !self.mesh.attributes.uvs.is_empty()
     }
 
     /// How many triangles it has.
     pub(in crate::render) fn parts(&self) -> usize {
-        self.mesh.triangles.len()
+        self.mesh.triangles().len()
     }
 
     /// The corners of triangle `part` in the world.
     pub(in crate::render) fn corners(&self, part: u32) -> [Vec3; 3] {
-        self.mesh.triangles[part as usize]
+        self.mesh.triangles()[part as usize]
             .vertices()
             .map(|corner| self.to_world(corner))
     }
 
     /// Whether the mesh has normals of its own.
     pub(in crate::render) fn has_shading_normals(&self) -> bool {
-        !self.mesh.mesh.normals.is_empty()
+        !self.mesh.attributes.normals.is_empty()
     }
 
     /// What the mesh says about a point of triangle `part`, as far as that is asked.
     pub(in crate::render) fn details(&self, point: Vec3, part: u32, asked: Asked) -> Details {
-        let triangle = &self.mesh.triangles[part as usize];
-        let mesh = &self.mesh.mesh;
-        let corners = self.mesh.corners[part as usize];
+        let triangle = &self.mesh.triangles()[part as usize];
+        let mesh = &self.mesh.attributes;
+        let corners = self.mesh.corners(part);
         let normals = at(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let has_no_coordinates =
@@ -335,7 +280,7 @@ impl Instance {
         uvs: Option<[[f64; 2]; 3]>,
         weights: [f64; 3],
     ) -> (Option<Vec3>, f64) {
-        let (tangent, side) = match at(&self.mesh.mesh.tangents, corners) {
+        let (tangent, side) = match at(&self.mesh.attributes.tangents, corners) {
             None => (
                 uvs.and_then(|uvs| triangle.tangent(uvs)),
                 uvs.map_or(1.0, handedness),

@@ -7,6 +7,7 @@ pub(in crate::render) mod disc;
 pub(in crate::render) mod geometry;
 pub(in crate::render) mod instance;
 pub(in crate::render) mod interval;
+pub(in crate::render) mod mesh;
 pub(in crate::render) mod plain;
 pub(in crate::render) mod plane;
 pub(in crate::render) mod quad;
@@ -22,15 +23,13 @@ use crate::render::shape::cone::Cone;
 use crate::render::shape::cylinder::Cylinder;
 use crate::render::shape::disc::Disc;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details, Instance, PreparedMesh, interpolate};
+use crate::render::shape::instance::{Asked, Details, Instance, interpolate};
 use crate::render::shape::plane::Plane;
 use crate::render::shape::quad::Quad;
 use crate::render::shape::sphere::Sphere;
 use crate::render::shape::torus::Torus;
 use crate::render::shape::triangle::{Shear, Triangle};
-use crate::valid;
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 /// A shape ready to be hit.
 #[derive(Clone, Debug)]
@@ -56,67 +55,6 @@ pub enum Shape {
 }
 
 impl Geometry for Shape {
-    type Mesh = PreparedMesh;
-
-    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> PreparedMesh {
-        PreparedMesh::new(mesh)
-    }
-
-    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
-        Some(match shape {
-            valid::Shape::Sphere(valid::Sphere {
-                center,
-                radius,
-                texture_from_world,
-            }) => {
-                let rows =
-                    texture_from_world
-                        .as_deref()
-                        .copied()
-                        .unwrap_or([Vec3::X, Vec3::Y, Vec3::Z]);
-                Self::Sphere(
-                    Sphere {
-                        center: *center,
-                        radius: radius.get(),
-                    },
-                    rows,
-                )
-            }
-            valid::Shape::Plane(valid::Plane { center, normal }) => {
-                Self::Plane(Plane::new(*center, *normal))
-            }
-            valid::Shape::Triangle(valid::Triangle { vertices, uvs }) => {
-                Self::Triangle(Triangle::new(*vertices)?, uvs.as_deref().copied())
-            }
-            valid::Shape::Quad(quad) => Self::Quad(Box::new(Quad::new(quad.vertices))),
-            valid::Shape::Disc(valid::Disc {
-                center,
-                normal,
-                radius,
-            }) => Self::Disc(Disc::new(*center, *normal, radius.get())),
-            valid::Shape::Cylinder(valid::Cylinder {
-                base,
-                axis,
-                height,
-                radius,
-            }) => Self::Cylinder(Cylinder::new(*base, *axis, height.get(), radius.get())),
-            valid::Shape::Cone(valid::Cone { base, up, radius }) => {
-                Self::Cone(Cone::new(*base, *up, radius.get()))
-            }
-            valid::Shape::Torus(valid::Torus {
-                center,
-                axis,
-                major,
-                minor,
-            }) => Self::Torus(Torus::new(*center, *axis, major.get(), minor.get())),
-            valid::Shape::Instance(instance) => Self::Instance(Box::new(Instance::new(
-                &meshes[instance.mesh],
-                instance.world_from_object,
-            ))),
-        })
-    }
-
     #[inline]
     fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let whole = |t: Option<f64>| t.map(|t| (t, 0));

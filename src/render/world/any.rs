@@ -10,7 +10,7 @@ use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
-use crate::valid::{Mode, Proof};
+use crate::valid::Proof;
 
 /// A scene prepared as planned. All is rendered on the threads of the current pool.
 pub enum AnyWorld {
@@ -59,11 +59,10 @@ impl AnyWorld {
     pub fn change(&mut self, scene: Proof) {
         let old = each!(self, world => &world.plan);
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
-        let is_same = (plan.shapes, &plan.surfaces, &plan.constants)
-            == (old.shapes, &old.surfaces, &old.constants);
-        // Each integrator has materials and lights of its own.
-        let traces_paths = |scene: &Proof| matches!(scene.settings().mode, Mode::Path(_));
-        if is_same && traces_paths(&scene) == traces_paths(self.scene()) {
+        // The plan of paths says which materials and lights there are.
+        let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
+            == (old.shapes, &old.surfaces, &old.constants, &old.paths);
+        if is_same {
             each!(self, world => (world.scene, world.plan) = (scene, plan));
         } else {
             *self = Self::prepare(&scene, &plan);

@@ -5,7 +5,9 @@ pub(in crate::render) mod any;
 mod light;
 mod material;
 mod merged;
+mod plain;
 mod prepare;
+pub(in crate::render) mod shape;
 mod texture;
 
 use crate::math::Vec3;

@@ -2,6 +2,7 @@
 
 use super::material::{PhongList, Seen, materials_for, standard};
 use super::merged::{Merged, merging};
+use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Surface, World, light};
 use crate::plan::Plan;
@@ -10,7 +11,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
 use std::sync::Arc;
 
-impl<S: Geometry> World<S> {
+impl<S: Prepare> World<S> {
     /// Prepares a scene as planned: materials and lights as its integrator sees them, shapes, and
     /// the hierarchies of those.
     #[must_use]
@@ -56,7 +57,7 @@ impl<S: Geometry> World<S> {
 
 /// The surfaces that are planned and that rays can hit; `material_of` says which of the world's
 /// materials stands for one of the scene on a surface with or without texture coordinates.
-fn surfaces<S: Geometry>(
+fn surfaces<S: Prepare>(
     scene: &Proof,
     plan: &Plan,
     mut material_of: impl FnMut(usize, bool) -> usize,

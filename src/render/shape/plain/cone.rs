@@ -10,7 +10,7 @@ use crate::math::Vec3;
 const PARTS: [u32; 2] = [0, 1];
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cone<R> {
+pub(in crate::render) struct Cone<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
@@ -20,7 +20,7 @@ pub(super) struct Cone<R> {
 }
 
 impl<R: Real> Cone<R> {
-    pub(super) fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
+    pub(in crate::render) fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
         let height = up.length();
         let axis = up / height;
         Self {

@@ -11,7 +11,7 @@ use crate::math::Vec3;
 const PARTS: [u32; 3] = [0, 1, 2];
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cylinder<R> {
+pub(in crate::render) struct Cylinder<R> {
     base: Vector<R>,
     axis: Vector<R>,
     height: R,
@@ -20,7 +20,7 @@ pub(super) struct Cylinder<R> {
 }
 
 impl<R: Real> Cylinder<R> {
-    pub(super) fn new(base: Vec3, unit_axis: Vec3, height: f64, radius: f64) -> Self {
+    pub(in crate::render) fn new(base: Vec3, unit_axis: Vec3, height: f64, radius: f64) -> Self {
         let cap = |center: Vec3, normal: Vec3| Disc::new(center, normal, radius);
         Self {
             base: Vector::of(base),

@@ -5,7 +5,8 @@ use super::real::{Real, Vector};
 use super::triangle::Triangle;
 use crate::math::Vec3;
 use crate::render::ray::Ray;
-use crate::render::shape::instance::{self, PreparedMesh};
+use crate::render::shape::instance;
+use crate::render::shape::mesh::PreparedMesh;
 use std::sync::Arc;
 
 /// A mesh ready to be hit by plain formulas, in object coordinates.
@@ -13,12 +14,12 @@ use std::sync::Arc;
 pub struct Mesh<R> {
     /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
     /// of them.
-    pub(super) twin: Arc<PreparedMesh>,
+    pub(in crate::render) twin: Arc<PreparedMesh>,
     triangles: Vec<Triangle<R>>,
 }
 
 impl<R: Real> Mesh<R> {
-    pub(super) fn new(twin: PreparedMesh) -> Self {
+    pub(in crate::render) fn new(twin: PreparedMesh) -> Self {
         let triangles = twin
             .triangles()
             .iter()
@@ -32,7 +33,7 @@ impl<R: Real> Mesh<R> {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Instance<R> {
+pub(in crate::render) struct Instance<R> {
     mesh: Arc<Mesh<R>>,
     origin: Vector<R>,
     /// The rows of the map from the world to the object, without its origin.
@@ -40,7 +41,11 @@ pub(super) struct Instance<R> {
 }
 
 impl<R: Real> Instance<R> {
-    pub(super) fn new(mesh: &Arc<Mesh<R>>, twin: &instance::Instance, origin: Vec3) -> Self {
+    pub(in crate::render) fn new(
+        mesh: &Arc<Mesh<R>>,
+        twin: &instance::Instance,
+        origin: Vec3,
+    ) -> Self {
         Self {
             mesh: Arc::clone(mesh),
             origin: Vector::of(origin),

@@ -5,43 +5,39 @@
 //! What is not a question of arithmetic (texture coordinates, shading normals, boxes) is asked of
 //! the robust shape.
 
-mod cone;
-mod cylinder;
-mod instance;
+pub(in crate::render) mod cone;
+pub(in crate::render) mod cylinder;
+pub(in crate::render) mod instance;
 mod line;
-mod plane;
-mod quad;
-mod real;
+pub(in crate::render) mod plane;
+pub(in crate::render) mod quad;
+pub(in crate::render) mod real;
 mod roots;
-mod sphere;
-mod torus;
-mod triangle;
+pub(in crate::render) mod sphere;
+pub(in crate::render) mod torus;
+pub(in crate::render) mod triangle;
 
-pub(in crate::render) use instance::Mesh;
-pub use real::Real;
-
-use crate::math::{Vec3, unit};
+use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details, PreparedMesh};
+use crate::render::shape::instance::{Asked, Details};
 use crate::render::shape::triangle::Shear;
-use crate::valid;
 use line::Line;
-use real::Vector;
-use std::sync::Arc;
+use real::{Real, Vector};
 
 /// A shape of any kind, ready to be hit by the plain formulas in `R`.
 #[derive(Clone, Debug)]
 pub struct PlainShape<R> {
-    form: Form<R>,
+    pub(in crate::render) form: Form<R>,
     /// Answers what is not a question of arithmetic.
-    twin: Box<Shape>,
+    pub(in crate::render) twin: Box<Shape>,
 }
 
+/// How rays meet it.
 #[derive(Clone, Debug)]
-enum Form<R> {
+pub(in crate::render) enum Form<R> {
     Sphere(sphere::Sphere<R>),
     Plane(plane::Plane<R>),
     Triangle(triangle::Triangle<R>),
@@ -54,75 +50,6 @@ enum Form<R> {
 }
 
 impl<R: Real> Form<R> {
-    fn new(shape: &valid::Shape, twin: &Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
-        Some(match (shape, twin) {
-            (valid::Shape::Sphere(valid::Sphere { center, radius, .. }), _) => {
-                Self::Sphere(sphere::Sphere {
-                    center: Vector::of(*center),
-                    radius: R::of(radius.get()),
-                })
-            }
-            (valid::Shape::Plane(valid::Plane { center, .. }), Shape::Plane(twin)) => {
-                Self::Plane(plane::Plane::new(*center, twin.normal()))
-            }
-            (valid::Shape::Triangle(valid::Triangle { vertices, .. }), _) => {
-                Self::Triangle(triangle::Triangle::new(vertices))
-            }
-            (valid::Shape::Quad(shape), Shape::Quad(twin)) => {
-                Self::Quad(Box::new(quad::Quad::new(twin, shape.vertices)))
-            }
-            (
-                valid::Shape::Disc(valid::Disc {
-                    center,
-                    normal,
-                    radius,
-                }),
-                _,
-            ) => Self::Disc(plane::Disc::new(*center, unit(*normal)?, radius.get())),
-            (
-                valid::Shape::Cylinder(valid::Cylinder {
-                    base,
-                    axis,
-                    height,
-                    radius,
-                }),
-                _,
-            ) => {
-                let cylinder =
-                    cylinder::Cylinder::new(*base, unit(*axis)?, height.get(), radius.get());
-                Self::Cylinder(Box::new(cylinder))
-            }
-            (valid::Shape::Cone(valid::Cone { base, up, radius }), _) => {
-                Self::Cone(Box::new(cone::Cone::new(*base, *up, radius.get())))
-            }
-            (
-                valid::Shape::Torus(valid::Torus {
-                    center,
-                    axis,
-                    major,
-                    minor,
-                }),
-                _,
-            ) => Self::Torus(torus::Torus {
-                center: Vector::of(*center),
-                axis: Vector::of(unit(*axis)?),
-                major: R::of(major.get()),
-                minor: R::of(minor.get()),
-            }),
-            (valid::Shape::Instance(shape), Shape::Instance(twin)) => {
-                let origin = shape.world_from_object[3];
-                Self::Instance(Box::new(instance::Instance::new(
-                    &meshes[shape.mesh],
-                    twin,
-                    origin,
-                )))
-            }
-            (valid::Shape::Plane(_) | valid::Shape::Quad(_) | valid::Shape::Instance(_), _) => {
-                return None;
-            }
-        })
-    }
-
     fn normal(&self, line: &Line<R>, point: Vector<R>, part: u32) -> Vector<R> {
         match self {
             Self::Sphere(sphere) => sphere.normal(point),
@@ -139,21 +66,6 @@ impl<R: Real> Form<R> {
 }
 
 impl<R: Real> Geometry for PlainShape<R> {
-    type Mesh = Mesh<R>;
-
-    fn prepare_mesh(mesh: &Arc<valid::Mesh>) -> Mesh<R> {
-        Mesh::new(PreparedMesh::new(mesh))
-    }
-
-    fn prepare(shape: &valid::Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
-        let twin_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.twin);
-        let twin = Shape::prepare(shape, &meshes.iter().map(twin_mesh).collect::<Vec<_>>())?;
-        Some(Self {
-            form: Form::new(shape, &twin, meshes)?,
-            twin: Box::new(twin),
-        })
-    }
-
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let line = Line::of(ray);

@@ -5,14 +5,14 @@ use super::real::{Real, Vector};
 use crate::math::Vec3;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plane<R> {
+pub(in crate::render) struct Plane<R> {
     pub(super) normal: Vector<R>,
     /// N·c.
     level: R,
 }
 
 impl<R: Real> Plane<R> {
-    pub(super) fn new(center: Vec3, unit_normal: Vec3) -> Self {
+    pub(in crate::render) fn new(center: Vec3, unit_normal: Vec3) -> Self {
         let normal = Vector::of(unit_normal);
         Self {
             normal,
@@ -33,14 +33,14 @@ impl<R: Real> Plane<R> {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Disc<R> {
+pub(in crate::render) struct Disc<R> {
     pub(super) plane: Plane<R>,
     center: Vector<R>,
     radius: R,
 }
 
 impl<R: Real> Disc<R> {
-    pub(super) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
+    pub(in crate::render) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
         Self {
             plane: Plane::new(center, unit_normal),
             center: Vector::of(center),

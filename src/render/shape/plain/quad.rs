@@ -9,14 +9,14 @@ use crate::math::Vec3;
 use crate::render::shape::quad;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Quad<R> {
+pub(in crate::render) enum Quad<R> {
     Flat([Option<Triangle<R>>; 2]),
     Patch([Vector<R>; 4]),
 }
 
 impl<R: Real> Quad<R> {
     /// The quadrilateral split, or not, as the robust one is.
-    pub(super) fn new(twin: &quad::Quad, vertices: [Vec3; 4]) -> Self {
+    pub(in crate::render) fn new(twin: &quad::Quad, vertices: [Vec3; 4]) -> Self {
         match twin {
             quad::Quad::Flat { halves, .. } => Self::Flat(
                 halves.map(|half| half.map(|(triangle, _)| Triangle::new(triangle.vertices()))),

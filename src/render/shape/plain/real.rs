@@ -109,7 +109,7 @@ fn narrow(x: f64) -> f32 {
 
 /// A vector or a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vector<R> {
+pub(in crate::render) struct Vector<R> {
     pub(super) x: R,
     pub(super) y: R,
     pub(super) z: R,
@@ -118,7 +118,7 @@ pub(super) struct Vector<R> {
 impl<R: Real> Vector<R> {
     /// Each component rounded to the nearest number.
     #[inline]
-    pub(super) fn of(v: Vec3) -> Self {
+    pub(in crate::render) fn of(v: Vec3) -> Self {
         Self {
             x: R::of(v.x),
             y: R::of(v.y),

@@ -5,9 +5,9 @@ use super::real::{Real, Vector};
 use super::roots::quadratic;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sphere<R> {
-    pub(super) center: Vector<R>,
-    pub(super) radius: R,
+pub(in crate::render) struct Sphere<R> {
+    pub(in crate::render) center: Vector<R>,
+    pub(in crate::render) radius: R,
 }
 
 impl<R: Real> Sphere<R> {

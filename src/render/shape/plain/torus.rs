@@ -5,12 +5,12 @@ use super::real::{Real, Vector};
 use super::roots::quartic;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Torus<R> {
-    pub(super) center: Vector<R>,
+pub(in crate::render) struct Torus<R> {
+    pub(in crate::render) center: Vector<R>,
     /// A unit vector.
-    pub(super) axis: Vector<R>,
-    pub(super) major: R,
-    pub(super) minor: R,
+    pub(in crate::render) axis: Vector<R>,
+    pub(in crate::render) major: R,
+    pub(in crate::render) minor: R,
 }
 
 impl<R: Real> Torus<R> {

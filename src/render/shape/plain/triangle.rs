@@ -6,13 +6,13 @@ use super::real::{Real, Vector};
 use crate::math::Vec3;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Triangle<R> {
+pub(in crate::render) struct Triangle<R> {
     corner: Vector<R>,
     edges: [Vector<R>; 2],
 }
 
 impl<R: Real> Triangle<R> {
-    pub(super) fn new(vertices: &[Vec3; 3]) -> Self {
+    pub(in crate::render) fn new(vertices: &[Vec3; 3]) -> Self {
         let [a, b, c] = vertices.map(Vector::of);
         Self {
             corner: a,
