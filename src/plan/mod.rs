@@ -11,6 +11,7 @@ mod body;
 mod effect;
 pub mod facts;
 mod features;
+mod findings;
 mod light;
 mod look;
 mod path;
@@ -30,10 +31,10 @@ pub use region::{Region, Sight};
 pub use rules::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{CourseLight, Mode, Path, Pattern, Phong, Projection, Proof, Shape, Surface};
-use body::{Body, bodies};
+use crate::valid::{Mode, Path, Projection, Proof, Shape};
+use findings::{Facts, Findings};
 use light::Lights;
-use look::{Look, constants};
+use look::Look;
 use path::Planned;
 use reach::Reach;
 use serde::{Deserialize, Serialize};
@@ -223,209 +224,6 @@ impl Plan {
         self.verdicts
             .iter()
             .any(|verdict| verdict.effect == effect && verdict.state == State::Needed)
-    }
-}
-
-/// What the rules start from.
-struct Facts<'scene> {
-    scene: &'scene Proof,
-    rules: Rules,
-    /// The lights that the integrator sees.
-    sources: Vec<CourseLight>,
-    /// The materials as the integrator sees them.
-    materials: Vec<Phong>,
-    /// Per surface, where it is.
-    bodies: Vec<Body>,
-    /// Per surface, what it shows.
-    looks: Vec<Look>,
-    /// Per texture, its value if it has only one.
-    constants: Vec<Option<Vec3>>,
-    /// Per mesh, whether no triangle has several shading normals.
-    even: Vec<bool>,
-}
-
-impl<'scene> Facts<'scene> {
-    fn new(scene: &'scene Proof, rules: Rules) -> Self {
-        let constants = if rules.contains(Rule::TextureConstant) {
-            constants(scene)
-        } else {
-            vec![None; scene.textures().len()]
-        };
-        let materials = scene
-            .materials()
-            .iter()
-            .map(facts::material::phong)
-            .collect::<Vec<_>>();
-        let look =
-            |surface: &Surface| Look::of(surface, &materials[surface.material], scene, &constants);
-        let looks = scene.surfaces().iter().map(look).collect();
-        let even = scene
-            .meshes()
-            .iter()
-            .map(|mesh| look::is_even(mesh))
-            .collect();
-        Self {
-            scene,
-            rules,
-            sources: facts::light::course(scene.lights()),
-            materials,
-            bodies: bodies(scene),
-            looks,
-            constants,
-            even,
-        }
-    }
-
-    /// The rule, if it may be applied.
-    fn allowed(&self, rule: Rule) -> Option<Rule> {
-        Some(rule).filter(|rule| self.rules.contains(*rule))
-    }
-
-    /// Whether no triangle of a surface has several shading normals.
-    fn is_even(&self, surface: usize) -> bool {
-        let shape = &self.scene.surfaces()[surface].shape;
-        let Shape::Instance(instance) = shape else {
-            return true;
-        };
-        self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
-    }
-
-    /// Whether all rays of a pixel's point start at the eye.
-    fn is_pinhole(&self) -> bool {
-        let lens = &self.scene.camera().lens;
-        lens.radius.get() == 0.0
-            || lens.samples.get() == 1
-            || matches!(self.scene.settings().mode, Mode::Zbuffer)
-    }
-}
-
-/// What the rules found.
-struct Findings<'scene> {
-    facts: Facts<'scene>,
-    reach: Reach,
-    lights: Lights,
-    /// Bounces planned.
-    max_depth: u32,
-    /// Bounces that the language asks for.
-    asked: u32,
-}
-
-impl Findings<'_> {
-    fn mode(&self) -> &Mode {
-        &self.facts.scene.settings().mode
-    }
-
-    /// The surfaces that are looked at, directly or in a mirror.
-    fn reached(&self) -> impl Iterator<Item = usize> {
-        (0..self.facts.bodies.len()).filter(|surface| self.reach.reached[*surface])
-    }
-
-    /// Whether any surface that is looked at shows something.
-    fn any(&self, shows: impl Fn(&Look) -> bool) -> bool {
-        self.reached()
-            .any(|surface| shows(&self.facts.looks[surface]))
-    }
-
-    fn is_shaded(&self) -> bool {
-        matches!(self.mode(), Mode::Phong | Mode::Gooch(_))
-    }
-
-    fn is_phong(&self) -> bool {
-        matches!(self.mode(), Mode::Phong)
-    }
-
-    /// Whether a light adds more than its ambient term to a surface.
-    fn is_lit(&self, look: &Look) -> bool {
-        look.is_lit() && self.lights.plans.iter().any(|light| light.direct)
-    }
-
-    /// Whether the picture depends on the shading normal of a surface.
-    fn shows_normal(&self, look: &Look) -> bool {
-        match self.mode() {
-            Mode::Zbuffer => false,
-            Mode::Normal | Mode::Path(_) => true,
-            Mode::Gooch(_) => !self.lights.plans.is_empty(),
-            Mode::Phong => self.is_lit(look) || (look.mirrors() && self.max_depth > 0),
-        }
-    }
-
-    /// Whether the picture depends on what the texture of a surface's colour shows.
-    fn shows_color_map(&self, look: &Look) -> bool {
-        let is_constant = look
-            .color_map
-            .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && (look.ambient || look.diffuse)
-    }
-
-    /// Whether the picture depends on what the texture of a surface's ks shows.
-    fn shows_specular_map(&self, look: &Look) -> bool {
-        let is_constant = look
-            .specular_map
-            .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && look.shines
-    }
-
-    /// Whether shadow rays are needed.
-    fn casts_shadows(&self) -> bool {
-        self.lights.shadow.is_some()
-    }
-
-    /// Whether a light is sampled.
-    fn is_soft(&self) -> bool {
-        let settings = self.facts.scene.settings();
-        let lights = self.facts.sources.iter().zip(&self.lights.plans);
-        let soft = lights
-            .filter(|(light, plan)| light.radius.get() > 0.0 && plan.direct)
-            .count();
-        self.is_phong() && settings.light_samples.get() > 1 && soft > 0
-    }
-
-    /// Whether a lobe is sampled.
-    fn is_glossy(&self) -> bool {
-        self.max_depth > 0 && self.any(|look| look.glossy && look.mirrors())
-    }
-
-    /// Whether a pixel takes several rays, or rays that are not through its middle.
-    fn is_sampled(&self) -> bool {
-        let settings = self.facts.scene.settings();
-        let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;
-        several && !matches!(settings.mode, Mode::Zbuffer)
-    }
-
-    /// The smallest set of features that makes the picture.
-    fn features(&self) -> Features {
-        let rules = self.facts.rules;
-        let bends = |look: &Look| {
-            look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat))
-        };
-        let colors = |look: &Look| {
-            let unseen = look.color_map.is_some() || look.specular_map.is_some();
-            let shows = self.shows_color_map(look) || self.shows_specular_map(look);
-            shows || (unseen && !rules.contains(Rule::TextureUnseen))
-        };
-        let shines = |look: &Look| look.shines && self.is_lit(look);
-        let lit = self.any(|look| self.is_lit(look)) || !rules.contains(Rule::LightUnreached);
-        let mut features = Features::NONE;
-        let mut add = |feature, condition: bool| {
-            features = if condition {
-                features.with(feature)
-            } else {
-                features
-            }
-        };
-        add(
-            Features::CAMERA,
-            self.is_sampled() || !self.facts.is_pinhole(),
-        );
-        add(Features::MAPS, self.any(|look| bends(look) || colors(look)));
-        add(Features::LIGHT, self.is_phong() && lit);
-        add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
-        add(Features::GOOCH, matches!(self.mode(), Mode::Gooch(_)));
-        add(Features::SHADOW, self.casts_shadows());
-        add(Features::BOUNCE, self.max_depth > 0);
-        add(Features::SAMPLED, self.is_soft() || self.is_glossy());
-        add(Features::NAIVE, !rules.contains_all(Rules::AT_HITS));
-        features
     }
 }
 

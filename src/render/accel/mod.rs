@@ -3,5 +3,5 @@
 
 pub(in crate::render) mod bounds;
 pub(in crate::render) mod bvh;
+pub(in crate::render) mod bvh4;
 pub(in crate::render) mod lanes;
-pub(in crate::render) mod wide;

@@ -1,7 +1,7 @@
 //! A mesh in its own coordinates, prepared once for all its instances.
 
 use crate::math::{Column, Shared, Vec3};
-use crate::render::accel::wide::Wide;
+use crate::render::accel::bvh4::Bvh4;
 use crate::render::shape::triangle::Triangle;
 use std::sync::OnceLock;
 
@@ -31,7 +31,7 @@ pub struct PreparedMesh {
     corners: Shared<[u32; 3]>,
     /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
     /// world.
-    hierarchy: OnceLock<Option<Wide>>,
+    hierarchy: OnceLock<Option<Bvh4>>,
 }
 
 impl PreparedMesh {
@@ -75,10 +75,10 @@ impl PreparedMesh {
     }
 
     /// The hierarchy of the triangles, if there are any.
-    pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
+    pub(in crate::render) fn hierarchy(&self) -> Option<&Bvh4> {
         let corners = |item: u32| *self.triangles[item as usize].vertices();
         self.hierarchy
-            .get_or_init(|| Wide::build(self.triangles.len(), 0.0, corners))
+            .get_or_init(|| Bvh4::build(self.triangles.len(), 0.0, corners))
             .as_ref()
     }
 }

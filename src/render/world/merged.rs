@@ -1,7 +1,7 @@
 //! Meshes whose triangles stand in the world one by one, in one hierarchy.
 
 use super::Surface;
-use crate::render::accel::wide::Wide;
+use crate::render::accel::bvh4::Bvh4;
 use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
 
@@ -9,7 +9,7 @@ use crate::valid::{self, Proof};
 pub(super) struct Merged {
     /// The surface of each, and the part of it.
     pub(super) parts: Vec<[u32; 2]>,
-    pub(super) hierarchy: Wide,
+    pub(super) hierarchy: Bvh4,
 }
 
 /// A mesh that stands several times is merged into the world if all its triangles are no more than
@@ -38,7 +38,7 @@ impl Merged {
             let [surface, part] = parts[item as usize];
             shape(surface).corners(part).unwrap_or_default()
         };
-        let hierarchy = Wide::build(parts.len(), blur, corners)?;
+        let hierarchy = Bvh4::build(parts.len(), blur, corners)?;
         Some(Self { parts, hierarchy })
     }
 }

@@ -3,63 +3,25 @@
 //! long path takes no call stack.
 
 mod aov;
+mod branch;
 mod pixel;
 mod shade;
 
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Plan, Rule};
-use crate::render::bsdf::optics::{reflect, refract};
 use crate::render::camera::grid::Grid;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::{Heartbeat, Proceed};
-use crate::render::integrator::Integrator;
-use crate::render::material::phong::PhongMaterial;
-use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::{Key, Lobe, is_above};
+use crate::render::ray::Ray;
+use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{Frame, look_up};
 use crate::render::world::{Hit, World};
 use crate::valid::{Mode, Proof};
+use branch::{Branch, BranchKind, Pending};
 use pixel::PixelState;
 use shade::View;
-
-/// One path under way.
-#[derive(Clone, Copy)]
-struct Path {
-    ray: Ray,
-    /// The factor by which what the ray sees counts.
-    beta: f64,
-    bounces_left: u32,
-    key: Key,
-    kind: Kind,
-}
-
-/// How a path came about at its last bounce.
-#[derive(Clone, Copy)]
-enum Kind {
-    Mirrored,
-    Refracted,
-}
-
-/// Work put off: a path, or the rest of a glossy lobe.
-enum Pending {
-    Path(Path),
-    Lobe(Box<Fan>),
-}
-
-/// The directions of a lobe not yet followed.
-#[derive(Clone, Copy)]
-struct Fan {
-    lobe: Lobe,
-    from: Interaction,
-    /// The normals above which all directions lie.
-    normals: [Vec3; 2],
-    next: u32,
-    count: u32,
-    /// The path each direction goes on with, but for its ray.
-    path: Path,
-}
 
 /// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
 /// its memory.
@@ -147,12 +109,12 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
         self.weightless = false;
-        let first = Path {
+        let first = Branch {
             ray,
             beta: 1.0,
             bounces_left: depth,
             key,
-            kind: Kind::Mirrored,
+            kind: BranchKind::Mirrored,
         };
         if let Some(view) = self.view(&first.ray, first.key) {
             self.counts.hits += 1;
@@ -165,7 +127,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             }
         }
         while Self::can(Features::BOUNCE)
-            && let Some(path) = self.next_path()
+            && let Some(path) = self.next_branch()
         {
             self.weightless = path.beta == 0.0;
             if let Some(view) = self.view(&path.ray, path.key) {
@@ -179,7 +141,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// Looks whether a bounce that counts meets what the plan leaves out.
-    fn verify_bounce(&self, path: &Path, view: &View<'_>, value: Vec3) {
+    fn verify_bounce(&self, path: &Branch, view: &View<'_>, value: Vec3) {
         let bounces = self.world.plan.max_depth - path.bounces_left;
         self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
             bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
@@ -271,177 +233,4 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             }
         }
     }
-
-    /// Puts off the mirrored and refracted paths that go on from here.
-    fn branch(&mut self, path: &Path, view: &View<'_>) {
-        if path.bounces_left == 0 || path.beta == 0.0 {
-            return;
-        }
-        let direction = path.ray.direction;
-        let refracted = transmit(direction, view, self.scene().settings().shadows);
-        let mirror_weight = match refracted {
-            Some(_) => view.ks,
-            None => view.ks + view.material.kt.get(),
-        };
-        let mirror = mirror_direction(direction, view);
-        self.put_off_mirror(path, view, mirror, mirror_weight);
-        if let Some(refracted) = refracted {
-            self.put_off(
-                path,
-                &view.interaction,
-                refracted,
-                view.material.kt.get(),
-                Kind::Refracted,
-            );
-        }
-    }
-
-    fn put_off_mirror(&mut self, path: &Path, view: &View<'_>, mirror: Vec3, weight: f64) {
-        let PhongMaterial {
-            n, glossy_samples, ..
-        } = view.material;
-        if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
-            self.put_off(path, &view.interaction, mirror, weight, Kind::Mirrored);
-            return;
-        }
-        let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
-        // With shadows no light comes through a surface that mirrors.
-        let geometric = if self.scene().settings().shadows {
-            view.geometric()
-        } else {
-            view.normal
-        };
-        let normals = [view.normal, geometric];
-        let above = lobe.count_above(normals, || self.goes_on());
-        let ray = Ray {
-            direction: mirror,
-            ..path.ray
-        };
-        let Some(path) = self.next(path, weight / f64::from(above.max(1)), ray, Kind::Mirrored)
-        else {
-            return;
-        };
-        let fan = Fan {
-            lobe,
-            from: view.interaction,
-            normals,
-            next: 0,
-            count: glossy_samples.get(),
-            path,
-        };
-        self.pending.push(Pending::Lobe(Box::new(fan)));
-    }
-
-    fn put_off(
-        &mut self,
-        path: &Path,
-        from: &Interaction,
-        direction: Vec3,
-        weight: f64,
-        kind: Kind,
-    ) {
-        let path = self.next(path, weight, from.ray(direction), kind);
-        self.pending.extend(path.map(Pending::Path));
-    }
-
-    /// The path one bounce further, or `None` if nothing it sees can count.
-    fn next(&self, path: &Path, weight: f64, ray: Ray, kind: Kind) -> Option<Path> {
-        let beta = (path.beta * weight).min(f64::MAX);
-        let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
-        let key = path.key.child(kind as u64);
-        goes_on.then(|| Path {
-            ray,
-            beta,
-            bounces_left: path.bounces_left - 1,
-            key,
-            kind,
-        })
-    }
-
-    /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
-    fn next_path(&mut self) -> Option<Path> {
-        let path = loop {
-            if !self.goes_on() {
-                self.pending.clear();
-                return None;
-            }
-            match self.pending.pop()? {
-                Pending::Path(path) => break path,
-                Pending::Lobe(mut fan) => {
-                    let Some(path) = fan.take(|| self.goes_on()) else {
-                        continue;
-                    };
-                    self.counts.add(Effect::GlossyReflection);
-                    self.pending.push(Pending::Lobe(fan));
-                    break path;
-                }
-            }
-        };
-        match path.kind {
-            Kind::Mirrored => self.counts.mirror += 1,
-            Kind::Refracted => self.counts.refracted += 1,
-        }
-        Some(path)
-    }
-}
-
-impl Fan {
-    /// The path along the next direction above the surface.
-    fn take(&mut self, mut goes_on: impl FnMut() -> bool) -> Option<Path> {
-        while self.next < self.count && goes_on() {
-            let k = self.next;
-            self.next += 1;
-            let direction = self.lobe.direction(k);
-            if is_above(direction, self.normals) {
-                let key = self.path.key.child(u64::from(k));
-                return Some(Path {
-                    ray: self.from.ray(direction),
-                    key,
-                    ..self.path
-                });
-            }
-        }
-        None
-    }
-}
-
-/// The mirror direction at the shading normal, or at the geometric one where that would lead into
-/// the surface.
-fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
-    let mirror = reflect(direction, view.normal);
-    let leads_inside =
-        mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
-    if leads_inside {
-        reflect(direction, view.interaction.normal)
-    } else {
-        mirror
-    }
-}
-
-/// The refracted direction, if the material lets light through and the angle does.
-///
-/// The geometric normal decides where the shading normal can't: where it is turned away from the
-/// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
-/// where the shading normal would keep on this side of the surface what is to go through. So an eta
-/// of 1 bends no ray, whatever the shading normal.
-fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
-    let PhongMaterial { kt, eta, .. } = view.material;
-    if kt.get() == 0.0 {
-        return None;
-    }
-    let enters = direction.dot(view.interaction.normal) <= 0.0;
-    let (from, to) = if enters {
-        (1.0, eta.get())
-    } else {
-        (eta.get(), 1.0)
-    };
-    let (shading, geometric) = (view.normal, view.geometric());
-    if direction.dot(shading) < 0.0 {
-        match refract(direction, shading, from, to) {
-            Some(refracted) if !sided || refracted.dot(geometric) < 0.0 => return Some(refracted),
-            None if reflect(direction, shading).dot(geometric) > 0.0 => return None,
-            Some(_) | None => {}
-        }
-    }
-    refract(direction, geometric, from, to)
 }

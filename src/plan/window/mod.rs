@@ -1,0 +1,192 @@
+//! Where things may show in the picture: boxes projected through the lens to rectangles of pixels,
+//! with a margin.
+
+use crate::math::{U, Vec3, cross, dot};
+use crate::plan::body::{Body, Extent};
+use crate::plan::space::{ROOM, Space};
+use crate::valid::Camera;
+
+/// How far rounding may move what a pixel shows, in pixels, before nothing is said of it.
+const DOUBT: f64 = 0.25;
+
+/// A rectangle of pixels: columns and rows, each from the first to before the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plan) struct Rect {
+    pub(in crate::plan) x: [u32; 2],
+    pub(in crate::plan) y: [u32; 2],
+}
+
+/// Where a surface may show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::plan) enum Shown {
+    /// Nowhere: no camera ray meets it.
+    Nowhere,
+    /// In these pixels alone.
+    In(Rect),
+    /// Anywhere.
+    Anywhere,
+}
+
+/// The camera, seen as a map from the world to the picture.
+pub(in crate::plan) struct Window {
+    camera: Camera,
+    /// A direction at a right angle to the image plane, in which that plane is 1 from the eye.
+    depth: Vec3,
+    /// The length of that direction.
+    steepness: f64,
+    /// The points of the lens are among these, and in their hull.
+    lens: Vec<Vec3>,
+    /// The box of all points of the lens.
+    lens_box: Space,
+    /// How far the lens and the middle of the picture are from the origin at most.
+    far: f64,
+    /// How far apart pixels are, across and upward.
+    steps: [f64; 2],
+    /// The pixels, in pixels.
+    size: [f64; 2],
+    /// Whether rounding leaves the map in doubt everywhere.
+    blurred: bool,
+}
+
+impl Window {
+    pub(in crate::plan) fn new(camera: &Camera, pinhole: bool) -> Self {
+        let (right, up) = (camera.right.length(), camera.up.length());
+        let normal = cross(camera.right / right, camera.up / up);
+        let forward = camera.center - camera.eye;
+        let distance = dot(normal, forward);
+        let radius = if pinhole {
+            0.0
+        } else {
+            camera.lens.radius.get() / up
+        };
+        let corner = |[x, y]: [f64; 2]| camera.eye + (camera.right * x + camera.up * y) * radius;
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]].map(corner);
+        let lens = if radius > 0.0 {
+            corners.to_vec()
+        } else {
+            vec![camera.eye]
+        };
+        let size = [camera.width.get(), camera.height.get()].map(f64::from);
+        let reach = camera.eye.abs().max(camera.center.abs()).max_element()
+            + right * size[0]
+            + up * size[1];
+        let blurred = 64.0 * U * reach > DOUBT * right.min(up) || U * reach > ROOM * distance.abs();
+        let depth = normal / distance;
+        let far =
+            lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
+        let lens_box = Space::of(lens.iter().copied());
+        let (steepness, steps) = (depth.length(), [right, up]);
+        Self {
+            camera: camera.clone(),
+            depth,
+            steepness,
+            lens,
+            lens_box,
+            far,
+            steps,
+            size,
+            blurred,
+        }
+    }
+
+    /// The box of all points of the lens.
+    pub(in crate::plan) fn lens(&self) -> Space {
+        self.lens_box
+    }
+
+    /// Where a surface may show.
+    pub(in crate::plan) fn shown(&self, body: &Body) -> Shown {
+        match &body.extent {
+            Extent::Within(space) if !self.blurred => self.project(space),
+            Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
+        }
+    }
+
+    /// Where a point shows from the middle of the lens, in pixels; `None` where that is in doubt.
+    pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
+        let size = point.abs().max_element() + self.lens_box.size();
+        let depth = (point - self.camera.eye).dot(self.depth);
+        let doubt = 64.0 * U * size * self.steepness;
+        let (at, error) = self.place(self.camera.eye, point, depth, doubt);
+        (!self.blurred && depth > 16.0 * doubt && error <= DOUBT).then_some(at)
+    }
+
+    /// The rectangle of a box: the hull of its corners, seen from the corners of the lens.
+    fn project(&self, space: &Space) -> Shown {
+        let size = space.size() + self.lens_box.size();
+        let space = space.grown(ROOM * size);
+        let depths = space
+            .corners()
+            .map(|corner| (corner - self.camera.eye).dot(self.depth));
+        let doubt = 64.0 * U * size * self.steepness;
+        if depths.iter().all(|depth| *depth < -doubt) {
+            return Shown::Nowhere;
+        }
+        if depths.iter().any(|depth| *depth <= 16.0 * doubt) {
+            return Shown::Anywhere;
+        }
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for (corner, depth) in space.corners().into_iter().zip(depths) {
+            for from in &self.lens {
+                let (at, error) = self.place(*from, corner, depth, doubt);
+                if error.is_nan() || error > DOUBT {
+                    return Shown::Anywhere;
+                }
+                low = [0, 1].map(|axis| low[axis].min(at[axis]));
+                high = [0, 1].map(|axis| high[axis].max(at[axis]));
+            }
+        }
+        self.rectangle(low, high)
+    }
+
+    /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on
+    /// its error.
+    fn place(&self, from: Vec3, point: Vec3, depth: f64, doubt: f64) -> ([f64; 2], f64) {
+        /// The steps of a camera are at a right angle to within this.
+        const RIGHT_ANGLE: f64 = 1e-9;
+        let Camera {
+            center, right, up, ..
+        } = &self.camera;
+        let away = (point - from) / depth;
+        let on_plane = (from - *center) + away;
+        let [across_step, upward_step] = self.steps;
+        let across = on_plane.dot(*right) / (across_step * across_step);
+        let upward = on_plane.dot(*up) / (upward_step * upward_step);
+        let error = (doubt / depth + 16.0 * U) * away.length() + 16.0 * U * self.far;
+        let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (across_step + upward_step);
+        let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
+        (at, (error + skew) / across_step.min(upward_step))
+    }
+
+    /// The pixels within one of a stretch of the picture.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to the picture before"
+    )]
+    fn rectangle(&self, low: [f64; 2], high: [f64; 2]) -> Shown {
+        let side = |axis: usize| {
+            let first = (low[axis] - 1.0 - DOUBT)
+                .floor()
+                .clamp(0.0, self.size[axis]);
+            let last = (high[axis] + 1.0 + DOUBT)
+                .ceil()
+                .clamp(0.0, self.size[axis]);
+            [first as u32, last as u32]
+        };
+        let rect = Rect {
+            x: side(0),
+            y: side(1),
+        };
+        let is_empty = rect.x[0] >= rect.x[1] || rect.y[0] >= rect.y[1];
+        if is_empty {
+            Shown::Nowhere
+        } else {
+            Shown::In(rect)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

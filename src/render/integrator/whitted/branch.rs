@@ -1,0 +1,234 @@
+//! The branches of a camera ray: mirrored and refracted rays, put off until their turn comes.
+
+use super::Tracer;
+use super::shade::View;
+use crate::math::Vec3;
+use crate::plan::{Effect, Features, Rule};
+use crate::render::bsdf::optics::{reflect, refract};
+use crate::render::integrator::Integrator;
+use crate::render::material::phong::PhongMaterial;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::sampler::{Key, Lobe, is_above};
+use crate::render::shape::geometry::Geometry;
+
+/// One path under way.
+#[derive(Clone, Copy)]
+pub(super) struct Branch {
+    pub(super) ray: Ray,
+    /// The factor by which what the ray sees counts.
+    pub(super) beta: f64,
+    pub(super) bounces_left: u32,
+    pub(super) key: Key,
+    pub(super) kind: BranchKind,
+}
+
+/// How a path came about at its last bounce.
+#[derive(Clone, Copy)]
+pub(super) enum BranchKind {
+    Mirrored,
+    Refracted,
+}
+
+/// Work put off: a path, or the rest of a glossy lobe.
+pub(super) enum Pending {
+    Ray(Branch),
+    Glossy(Box<GlossyBatch>),
+}
+
+/// The directions of a lobe not yet followed.
+#[derive(Clone, Copy)]
+pub(super) struct GlossyBatch {
+    lobe: Lobe,
+    from: Interaction,
+    /// The normals above which all directions lie.
+    normals: [Vec3; 2],
+    next: u32,
+    count: u32,
+    /// The path each direction goes on with, but for its ray.
+    path: Branch,
+}
+
+impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
+    /// Puts off the mirrored and refracted paths that go on from here.
+    pub(super) fn branch(&mut self, path: &Branch, view: &View<'_>) {
+        if path.bounces_left == 0 || path.beta == 0.0 {
+            return;
+        }
+        let direction = path.ray.direction;
+        let refracted = transmit(direction, view, self.scene().settings().shadows);
+        let mirror_weight = match refracted {
+            Some(_) => view.ks,
+            None => view.ks + view.material.kt.get(),
+        };
+        let mirror = mirror_direction(direction, view);
+        self.push_mirror(path, view, mirror, mirror_weight);
+        if let Some(refracted) = refracted {
+            self.push_ray(
+                path,
+                &view.interaction,
+                refracted,
+                view.material.kt.get(),
+                BranchKind::Refracted,
+            );
+        }
+    }
+
+    fn push_mirror(&mut self, path: &Branch, view: &View<'_>, mirror: Vec3, weight: f64) {
+        let PhongMaterial {
+            n, glossy_samples, ..
+        } = view.material;
+        if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
+            self.push_ray(
+                path,
+                &view.interaction,
+                mirror,
+                weight,
+                BranchKind::Mirrored,
+            );
+            return;
+        }
+        let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
+        // With shadows no light comes through a surface that mirrors.
+        let geometric = if self.scene().settings().shadows {
+            view.geometric()
+        } else {
+            view.normal
+        };
+        let normals = [view.normal, geometric];
+        let above = lobe.count_above(normals, || self.goes_on());
+        let ray = Ray {
+            direction: mirror,
+            ..path.ray
+        };
+        let Some(path) = self.next(
+            path,
+            weight / f64::from(above.max(1)),
+            ray,
+            BranchKind::Mirrored,
+        ) else {
+            return;
+        };
+        let fan = GlossyBatch {
+            lobe,
+            from: view.interaction,
+            normals,
+            next: 0,
+            count: glossy_samples.get(),
+            path,
+        };
+        self.pending.push(Pending::Glossy(Box::new(fan)));
+    }
+
+    fn push_ray(
+        &mut self,
+        path: &Branch,
+        from: &Interaction,
+        direction: Vec3,
+        weight: f64,
+        kind: BranchKind,
+    ) {
+        let path = self.next(path, weight, from.ray(direction), kind);
+        self.pending.extend(path.map(Pending::Ray));
+    }
+
+    /// The path one bounce further, or `None` if nothing it sees can count.
+    fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
+        let beta = (path.beta * weight).min(f64::MAX);
+        let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
+        let key = path.key.child(kind as u64);
+        goes_on.then(|| Branch {
+            ray,
+            beta,
+            bounces_left: path.bounces_left - 1,
+            key,
+            kind,
+        })
+    }
+
+    /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
+    pub(super) fn next_branch(&mut self) -> Option<Branch> {
+        let path = loop {
+            if !self.goes_on() {
+                self.pending.clear();
+                return None;
+            }
+            match self.pending.pop()? {
+                Pending::Ray(path) => break path,
+                Pending::Glossy(mut fan) => {
+                    let Some(path) = fan.take(|| self.goes_on()) else {
+                        continue;
+                    };
+                    self.counts.add(Effect::GlossyReflection);
+                    self.pending.push(Pending::Glossy(fan));
+                    break path;
+                }
+            }
+        };
+        match path.kind {
+            BranchKind::Mirrored => self.counts.mirror += 1,
+            BranchKind::Refracted => self.counts.refracted += 1,
+        }
+        Some(path)
+    }
+}
+
+impl GlossyBatch {
+    /// The path along the next direction above the surface.
+    fn take(&mut self, mut goes_on: impl FnMut() -> bool) -> Option<Branch> {
+        while self.next < self.count && goes_on() {
+            let k = self.next;
+            self.next += 1;
+            let direction = self.lobe.direction(k);
+            if is_above(direction, self.normals) {
+                let key = self.path.key.child(u64::from(k));
+                return Some(Branch {
+                    ray: self.from.ray(direction),
+                    key,
+                    ..self.path
+                });
+            }
+        }
+        None
+    }
+}
+
+/// The mirror direction at the shading normal, or at the geometric one where that would lead into
+/// the surface.
+fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
+    let mirror = reflect(direction, view.normal);
+    let leads_inside =
+        mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
+    if leads_inside {
+        reflect(direction, view.interaction.normal)
+    } else {
+        mirror
+    }
+}
+
+/// The refracted direction, if the material lets light through and the angle does.
+///
+/// The geometric normal decides where the shading normal can't: where it is turned away from the
+/// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
+/// where the shading normal would keep on this side of the surface what is to go through. So an eta
+/// of 1 bends no ray, whatever the shading normal.
+fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
+    let PhongMaterial { kt, eta, .. } = view.material;
+    if kt.get() == 0.0 {
+        return None;
+    }
+    let enters = direction.dot(view.interaction.normal) <= 0.0;
+    let (from, to) = if enters {
+        (1.0, eta.get())
+    } else {
+        (eta.get(), 1.0)
+    };
+    let (shading, geometric) = (view.normal, view.geometric());
+    if direction.dot(shading) < 0.0 {
+        match refract(direction, shading, from, to) {
+            Some(refracted) if !sided || refracted.dot(geometric) < 0.0 => return Some(refracted),
+            None if reflect(direction, shading).dot(geometric) > 0.0 => return None,
+            Some(_) | None => {}
+        }
+    }
+    refract(direction, geometric, from, to)
+}
