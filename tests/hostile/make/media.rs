@@ -1,6 +1,6 @@
 //! Images, meshes and scenes that are small and ask for much.
 
-use super::Repro;
+use super::{Repro, webp};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage, f16};
 use image::{ExtendedColorType, ImageEncoder};
 use png::{BitDepth, ColorType};
@@ -35,8 +35,22 @@ pub(crate) fn all() -> Vec<Repro> {
             None,
         ),
     ];
-    for (what, bytes, expected) in [
-        ("a WebP of 34 bytes and 16383² pixels", webp(16383), "IO003"),
+    all.extend(pictures());
+    for (what, name, bytes) in [
+        ("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)),
+        ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096)),
+    ] {
+        let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
+        all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
+    }
+    all.extend(endless());
+    all
+}
+
+/// Pictures whose headers tell of more than there is, or of too much.
+fn pictures() -> Vec<Repro> {
+    let mut all = Vec::new();
+    let coded = [
         ("a JPEG of 16384² pixels", huge_jpeg(), "IO003"),
         ("a JPEG cut in the middle", cut_jpeg(), "RE004"),
         ("a PNG of 16384² pixels of a bit", white_png(16384), "IO003"),
@@ -45,7 +59,8 @@ pub(crate) fn all() -> Vec<Repro> {
             claim_png((1 << 31) - 1),
             "RE005",
         ),
-    ] {
+    ];
+    for (what, bytes, expected) in coded.into_iter().chain(webp::all()) {
         all.push(checked(
             what,
             textures(&["t.png"]),
@@ -59,14 +74,6 @@ pub(crate) fn all() -> Vec<Repro> {
         vec![("t.png", profile_bomb())],
         None,
     ));
-    for (what, name, bytes) in [
-        ("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)),
-        ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096)),
-    ] {
-        let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
-        all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
-    }
-    all.extend(endless());
     all
 }
 
@@ -295,15 +302,6 @@ fn profile_bomb() -> Vec<u8> {
     let profile = [b"p\0\0".as_slice(), &contents(&zeros, b"IDAT")].concat();
     let small = white_png(8);
     [&small[..33], &chunk(b"iCCP", &profile), &small[33..]].concat()
-}
-
-/// A lossless WebP that has a size and no pixels.
-fn webp(side: u32) -> Vec<u8> {
-    let size = (side - 1) | (side - 1) << 14;
-    let mut bytes = b"RIFF\x1a\0\0\0WEBPVP8L\x0e\0\0\0\x2f".to_vec();
-    bytes.extend(size.to_le_bytes());
-    bytes.resize(34, 0);
-    bytes
 }
 
 /// A grey JPEG of noise.
