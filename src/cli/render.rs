@@ -272,8 +272,8 @@ impl Plan {
             ..Job::default()
         };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
-        // What verifies renders twice, by more rays than the picture takes.
-        let meter = Meter::new(if self.verify { u64::MAX } else { rays }, window);
+        let renders = if self.verify { 2 } else { 1 };
+        let meter = Meter::of_each(rays, window, renders);
         let proceed = |step| {
             progress.step(step);
             !interrupt.is_raised() && meter.step(step)
@@ -321,20 +321,13 @@ impl Plan {
             seed: 0,
         };
         let progress = Progress::start(0, quiet);
-        // Time that was given may be used.
-        let meter = Meter::new(
-            if self.goal.time.is_some() {
-                u64::MAX
-            } else {
-                rays
-            },
-            window,
-        );
+        let meter = Meter::new(rays, window);
         let watch = Watch {
             proceed: &|step| {
                 progress.step(step);
                 !interrupt.is_raised() && meter.step(step)
             },
+            is_stopped: &|| interrupt.is_raised(),
             elapsed: &|| progress.elapsed(),
             round: &|state| {
                 meter.begin_round();
@@ -345,11 +338,13 @@ impl Plan {
         let reached = reached
             .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
         let elapsed = progress.finish();
-        let reached = reached.map_err(no_threads)?;
-        if let Some(finding) = ran_out(&meter, subject, interrupt) {
-            return Ok(Err(finding));
-        }
-        let reached = reached.map_err(|Stopped| Failure::Interrupted)?;
+        let ran_out = ran_out(&meter, subject, interrupt);
+        let (reached, end) = match (reached.map_err(no_threads)?, ran_out) {
+            (Ok(reached), None) => (reached, ""),
+            (Ok(reached), Some(_)) => (reached, ", ended by `--limit rays`"),
+            (Err(Stopped), Some(finding)) => return Ok(Err(finding)),
+            (Err(Stopped), None) => return Err(Failure::Interrupted),
+        };
         let Reached {
             image,
             coverage,
@@ -358,7 +353,7 @@ impl Plan {
             ..
         } = reached;
         let quality = format!(
-            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}",
+            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}{end}",
             error(reached.error)
         );
         Ok(Ok(Shot {
