@@ -1,7 +1,9 @@
 //! Images, meshes and scenes that are small and ask for much.
 
 use super::{Repro, webp};
-use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage, f16};
+use exr::prelude::{
+    Compression, Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage, f16,
+};
 use image::{ExtendedColorType, ImageEncoder};
 use png::{BitDepth, ColorType};
 use std::fmt::Write as _;
@@ -36,12 +38,28 @@ pub(crate) fn all() -> Vec<Repro> {
         ),
     ];
     all.extend(pictures());
-    for (what, name, bytes) in [
-        ("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)),
-        ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096)),
+    for (what, name, bytes, expected) in [
+        (
+            "an HDR of 2²⁵ pixels in a row",
+            "t.hdr",
+            hdr(1 << 25),
+            "IO003",
+        ),
+        (
+            "an EXR of 8192 × 4096",
+            "t.exr",
+            exr(8192, 4096, Encoding::SMALL_LOSSLESS),
+            "IO003",
+        ),
+        (
+            "an EXR whose differences go below zero",
+            "t.exr",
+            below_zero(),
+            "RE004",
+        ),
     ] {
         let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
-        all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
+        all.push(checked(what, scene, vec![(name, bytes)], Some(expected)));
     }
     all.extend(endless());
     all
@@ -339,14 +357,9 @@ fn hdr(width: u32) -> Vec<u8> {
 }
 
 /// A black EXR.
-fn exr(width: usize, height: usize) -> Vec<u8> {
+fn exr(width: usize, height: usize, encoding: Encoding) -> Vec<u8> {
     let black = SpecificChannels::rgb(|_| (f16::ZERO, f16::ZERO, f16::ZERO));
-    let layer = Layer::new(
-        (width, height),
-        LayerAttributes::default(),
-        Encoding::SMALL_LOSSLESS,
-        black,
-    );
+    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, black);
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer)
         .write()
@@ -354,4 +367,18 @@ fn exr(width: usize, height: usize) -> Vec<u8> {
         .to_buffered(&mut bytes)
         .unwrap();
     bytes.into_inner()
+}
+
+/// One of 4 × 4 pixels in B44, with differences of −128 to numbers of 0: they wrap round.
+fn below_zero() -> Vec<u8> {
+    let encoding = Encoding {
+        compression: Compression::B44,
+        ..Encoding::SMALL_LOSSLESS
+    };
+    let mut bytes = exr(4, 4, encoding);
+    // At the end there are 14 bytes for each channel: a number, a shift, the differences.
+    let start = bytes.len() - 3 * 14;
+    let block = [&[0, 0, 8], [0; 11].as_slice()].concat();
+    bytes.splice(start.., block.repeat(3));
+    bytes
 }
