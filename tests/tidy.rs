@@ -56,8 +56,6 @@ const OUTGROWN: &[&str] = &[
     "src/render/path/tracer.rs",
     "src/render/whitted.rs",
     "src/render/wide.rs",
-    "src/study/flip.rs",
-    "src/study/knob.rs",
     "src/valid/shape.rs",
     "tests/assets/search.rs",
     "tests/cli/main.rs",
