@@ -7,6 +7,7 @@
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
 mod mesh;
+mod outside;
 mod picture;
 mod search;
 mod shared;
