@@ -56,9 +56,6 @@ const OUTGROWN: &[&str] = &[
     "src/render/whitted.rs",
     "src/render/wide.rs",
     "src/valid/shape.rs",
-    "tests/cost.rs",
-    "tests/course.rs",
-    "tests/plan/need.rs",
 ];
 
 fn root() -> PathBuf {
