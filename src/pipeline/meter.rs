@@ -7,7 +7,7 @@
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{Field, Light, Lowered, Material, Mode, Noun, Place};
 use crate::render::{Crop, Step};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 /// Branches that a path may put off: so many of them never end within a limit, and each takes
 /// memory.
@@ -26,6 +26,10 @@ pub struct Meter {
     rows: Vec<Row>,
     /// The rays of each pixel, row by row.
     pixels: Vec<AtomicU64>,
+    /// How many pixels are done of all renders.
+    done: AtomicUsize,
+    /// How many renders there will be.
+    renders: usize,
 }
 
 #[derive(Default)]
@@ -38,6 +42,13 @@ impl Meter {
     /// A meter of a part of a picture; 8 bytes a pixel, unless there is no limit.
     #[must_use]
     pub fn new(limit: u64, crop: Crop) -> Self {
+        Self::of_each(limit, crop, 1)
+    }
+
+    /// A meter of so many renders of it, one after another: each may take as many rays. The next
+    /// begins when all pixels of one are done.
+    #[must_use]
+    pub fn of_each(limit: u64, crop: Crop, renders: usize) -> Self {
         let crop = if limit == u64::MAX {
             Crop {
                 width: 0,
@@ -57,13 +68,21 @@ impl Meter {
             has_run_out: AtomicBool::new(false),
             rows: (0..crop.height).map(|_| Row::default()).collect(),
             pixels: (0..pixels).map(|_| AtomicU64::new(0)).collect(),
+            done: AtomicUsize::new(0),
+            renders,
         }
     }
 
     /// Begins another round over all pixels; nobody renders meanwhile.
     pub fn begin_round(&self) {
         self.before
-            .fetch_add(self.total.swap(0, Ordering::Relaxed), Ordering::Relaxed);
+            .fetch_add(self.total.load(Ordering::Relaxed), Ordering::Relaxed);
+        self.clear();
+    }
+
+    /// Forgets the rays of this round.
+    fn clear(&self) {
+        self.total.store(0, Ordering::Relaxed);
         self.pixels
             .iter()
             .for_each(|rays| rays.store(0, Ordering::Relaxed));
@@ -108,7 +127,24 @@ impl Meter {
         if before + total > self.limit && self.above(y).is_some_and(is_over) {
             self.has_run_out.store(true, Ordering::Relaxed);
         }
+        if is_done && self.renders > 1 {
+            self.end_render();
+        }
         !self.has_run_out.load(Ordering::Relaxed)
+    }
+
+    /// Takes down that a pixel is done. Behind the last of a render the rays of the next are
+    /// counted from none; no other thread renders then.
+    fn end_render(&self) {
+        let done = self.done.fetch_add(1, Ordering::AcqRel) + 1;
+        if !done.is_multiple_of(self.pixels.len()) {
+            return;
+        }
+        if self.ran_out().is_some() {
+            self.has_run_out.store(true, Ordering::Relaxed);
+        } else if done < self.renders * self.pixels.len() {
+            self.clear();
+        }
     }
 
     /// The rays of all rows above one, if these are done.
@@ -272,6 +308,20 @@ mod tests {
         assert!(meter.step(step(5, 7, 3)) && meter.ran_out().is_none());
         assert!(!meter.step(step(6, 7, 1)));
         assert_eq!(meter.ran_out(), Some([6, 7]));
+    }
+
+    #[test]
+    fn each_render_has_the_limit_to_itself() {
+        let all: Vec<_> = (7..9)
+            .flat_map(|y| (5..8).map(move |x| step(x, y, 1)))
+            .collect();
+        let meter = Meter::of_each(6, CROP, 2);
+        assert!(all.iter().chain(&all).all(|step| meter.step(*step)));
+        assert_eq!(meter.ran_out(), None);
+        let meter = Meter::of_each(6, CROP, 2);
+        assert!(all.iter().all(|step| meter.step(*step)) && meter.step(step(5, 7, 2)));
+        assert!(all[1..5].iter().all(|step| meter.step(*step)) && !meter.step(all[5]));
+        assert_eq!(meter.ran_out(), Some([7, 8]));
     }
 
     #[test]

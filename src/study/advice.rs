@@ -1,8 +1,8 @@
 //! What follows from a study, in plain words.
 
-use super::knob::Setting;
 use super::outcome::{Row, Study};
 use super::reference::DepthEnd;
+use super::setting::Setting;
 use crate::plan::Arithmetic;
 
 /// An error that nobody sees, in grey levels.

@@ -1,10 +1,10 @@
 //! What each effect of a scene costs: the scene without it, in the same setting, beside the scene
 //! with it.
 
-use super::knob::Setting;
 use super::metrics::rmse;
 use super::outcome::Rays;
 use super::race::{Runner, race};
+use super::setting::Setting;
 use super::statistics::{Chance, Estimate};
 use super::subject::{Stopped, Subject};
 use crate::ir::{Light, Material, Mode, Phong, Scene};

@@ -1,7 +1,8 @@
 //! Which settings are worth their work: candidates by greed on the model, the front of those
 //! measured.
 
-use super::knob::{Knob, Setting};
+use super::knob::Knob;
+use super::setting::Setting;
 use super::sweep::Model;
 use crate::math::ln;
 

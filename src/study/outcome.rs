@@ -1,8 +1,9 @@
 //! What a study finds: data alone, to be printed, kept and read again.
 
-use super::knob::{Knob, Setting};
+use super::knob::Knob;
 use super::metrics::Errors;
 use super::reference::{DepthEnd, Rung};
+use super::setting::Setting;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
 use crate::image::Image;

@@ -1,10 +1,11 @@
 //! What each arithmetic costs: the same samples of the same scene, by all three.
 
-use super::knob::{Knob, Setting, bears, place};
+use super::knob::{Knob, bears, place};
 use super::metrics::Errors;
 use super::outcome::Rays;
 use super::race::{Run, Runner, race};
 use super::reference::Rung;
+use super::setting::Setting;
 use super::statistics::{Chance, Estimate};
 use super::subject::{Stopped, Subject};
 use super::sweep::Ladder;

@@ -3,7 +3,7 @@
 //! it.
 
 use super::bench::Time;
-use super::knob::Setting;
+use super::setting::Setting;
 use super::statistics::{Chance, Estimate, median};
 use super::subject::{Shot, Stopped, Subject};
 

@@ -2,8 +2,9 @@
 //! still or the work is too much, then it is rendered twice with independent sampling. The mean is
 //! the reference; how the halves differ tells how far it may be off.
 
-use super::knob::{Knob, MAX_DEPTH, Setting};
+use super::knob::{Knob, MAX_DEPTH};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
+use super::setting::Setting;
 use super::subject::{Shot, Stopped, Subject};
 use crate::image::Image;
 use crate::render::Seeds;

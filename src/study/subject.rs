@@ -2,7 +2,7 @@
 //! any setting, and counts the rays that took.
 
 use super::bench::{Bench, Time};
-use super::knob::Setting;
+use super::setting::Setting;
 use crate::diag::Sink;
 use crate::image::Image;
 use crate::ir::{Origins, Pattern, Scene};

@@ -1,10 +1,11 @@
 //! Each knob alone: what error it leaves if all others leave none, the law that error follows, and
 //! a model of all together: squares of errors add.
 
-use super::knob::{Knob, Setting};
+use super::knob::Knob;
 use super::metrics::{LEVELS, products};
 use super::outcome::KnobReport;
 use super::reference::{Depths, Reference, Rung, independent};
+use super::setting::Setting;
 use super::statistics::PowerLaw;
 use super::subject::{Stopped, Subject};
 use crate::image::Image;

@@ -13,8 +13,7 @@ use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
-    AnyWorld, Behind, Counts, Crop, Film, Job, Proceed, ProgressiveFilm, Step, Strands, Tiles,
-    Values,
+    AnyWorld, Behind, Counts, Crop, Film, Job, Proceed, ProgressiveFilm, Strands, Tiles, Values,
 };
 use std::time::Duration;
 
@@ -24,7 +23,7 @@ pub struct Goal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
     /// The time of day that the render may take. At least one round is made, and only whole rounds
-    /// count.
+    /// count, as many as there are rays for.
     pub time: Option<Duration>,
 }
 
@@ -49,9 +48,11 @@ pub struct Order {
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with the rays it took; false means stop.
     pub proceed: &'a Proceed<'a>,
+    /// Whether someone said stop, rather than that something has run out.
+    pub is_stopped: &'a (dyn Fn() -> bool + Sync),
     /// The time since the start.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
-    /// Told before each round.
+    /// Told before each round, those of the choice of the setting too.
     pub round: &'a (dyn Fn(Progress) + Sync),
 }
 
@@ -178,11 +179,12 @@ fn in_rounds(
         if !world.grow(&mut film, &|index| wanted[index], &|step| {
             (watch.proceed)(step) && !is_late()
         }) {
-            // A round cut short has favoured pixels at the top: the picture before it stands.
-            return if (watch.proceed)(Step::default()) {
-                Ok(reached)
-            } else {
+            // A round cut short has favoured pixels at the top: the picture before it stands, where
+            // it was to be as good as can be.
+            return if order.goal.time.is_none() || (watch.is_stopped)() {
                 Err(Stopped)
+            } else {
+                Ok(reached)
             };
         }
     }
@@ -270,9 +272,11 @@ fn light_samples(
     for count in [2, 4, 8, 16, 32] {
         let mut film = ProgressiveFilm::new(order.crop, order.seed);
         spread(world, scene, count);
-        if !world.grow(&mut film, &|index| wanted[index], &|_| {
-            (watch.proceed)(Step::default())
-        }) {
+        (watch.round)(Progress {
+            pixels: film.len() as u64,
+            error: None,
+        });
+        if !world.grow(&mut film, &|index| wanted[index], watch.proceed) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);

@@ -8,6 +8,7 @@
 )]
 mod mesh;
 mod names;
+mod outside;
 mod picture;
 mod search;
 

@@ -14,8 +14,12 @@ mod numbers;
 #[cfg(unix)]
 mod outputs;
 mod rays;
+mod render;
 mod reports;
+mod set;
 mod stage;
+#[cfg(unix)]
+mod unix;
 mod words;
 
 use std::fs;
@@ -133,19 +137,6 @@ fn results_go_to_stdout_and_talk_to_stderr() {
 }
 
 #[test]
-fn a_picture_is_named_after_its_scene_and_lands_here() {
-    let folder = folder();
-    fs::create_dir(folder.path().join("here")).unwrap();
-    let rendered = command(&folder.path().join("here"), &["render", "../ball.json"])
-        .output()
-        .unwrap();
-    assert_eq!(
-        (code(&rendered), names(&folder.path().join("here"))),
-        (0, vec!["ball.png".to_owned()])
-    );
-}
-
-#[test]
 fn stdin_is_a_file_with_the_name_given() {
     let folder = folder();
     let mut child = command(
@@ -176,182 +167,6 @@ fn stdin_is_a_file_with_the_name_given() {
         "{}",
         stderr(&output)
     );
-}
-
-#[test]
-fn every_form_of_the_ir_renders_to_the_same_bytes() {
-    let folder = folder();
-    let picture = |scene: &str| rtc(&folder, &["render", scene, "-o", "-", "-q"]).stdout;
-    for form in ["copy.json", "copy.rtir"] {
-        assert_eq!(
-            code(&rtc(&folder, &["compile", "ball.json", "-o", form])),
-            0
-        );
-        assert!(picture(form) == picture("ball.json"), "{form}");
-    }
-    let binary = rtc(&folder, &["compile", "ball.json", "--emit", "ir-bin"]).stdout;
-    assert!(binary == fs::read(folder.path().join("copy.rtir")).unwrap());
-}
-
-#[test]
-fn a_crop_is_that_part_of_the_whole_on_any_threads() {
-    let folder = folder();
-    let decode = |args: &[&str]| {
-        let output = rtc(
-            &folder,
-            &[&["render", "ball.json", "-q", "-o", "-"], args].concat(),
-        );
-        image::load_from_memory(&output.stdout).unwrap().to_rgb16()
-    };
-    for bits in ["8", "16"] {
-        let whole = decode(&["--bits", bits, "--threads", "1"]);
-        let part = decode(&["--bits", bits, "--threads", "3", "--crop", "13,7,20,100"]);
-        assert_eq!(part.dimensions(), (20, 23));
-        assert!(image::imageops::crop_imm(&whole, 13, 7, 20, 23).to_image() == part);
-    }
-}
-
-#[test]
-fn options_override_the_scene() {
-    let folder = folder();
-    let told = |args: &[&str]| {
-        let output = rtc(
-            &folder,
-            &[
-                &["render", "ball.json", "-o", "o.png", "--depth", "0"],
-                args,
-            ]
-            .concat(),
-        );
-        assert_eq!(code(&output), 0, "{}", stderr(&output));
-        stderr(&output)
-    };
-    assert!(told(&["--size", "20x15", "--supersampling", "1"]).starts_with("o.png: 20×15, "));
-    assert_eq!(
-        image::open(folder.path().join("o.png")).unwrap().width(),
-        20
-    );
-    let huge = rtc(&folder, &["render", "ball.json", "--size", "70000x70000"]);
-    assert_eq!(
-        (
-            code(&huge),
-            names(folder.path()).contains(&"ball.png".to_owned())
-        ),
-        (1, false)
-    );
-}
-
-#[test]
-fn an_exr_says_where_it_came_from() {
-    let folder = folder();
-    let exr = |name: &str| {
-        assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
-        fs::read(folder.path().join(name)).unwrap()
-    };
-    let first = exr("a.exr");
-    assert!(first == exr("b.exr"), "two renders differ");
-    for words in [
-        "rtc:scene",
-        "rtc:settings",
-        "\"supersampling\":2",
-        concat!("rtc ", env!("CARGO_PKG_VERSION")),
-    ] {
-        assert!(
-            first
-                .windows(words.len())
-                .any(|window| window == words.as_bytes()),
-            "{words}"
-        );
-    }
-}
-
-#[test]
-fn a_target_is_met_said_and_the_same_on_any_threads() {
-    let folder = folder();
-    let render = |args: &[&str]| {
-        rtc(
-            &folder,
-            &[&["render", "ball.json", "-o", "-"], args].concat(),
-        )
-    };
-    let one = render(&["--target-error", "2", "--threads", "1"]);
-    let talk = stderr(&one);
-    let said = talk
-        .lines()
-        .nth(1)
-        .unwrap()
-        .strip_prefix("error ≤ ")
-        .unwrap();
-    assert!(
-        said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0,
-        "{talk}"
-    );
-    assert!(
-        said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "),
-        "{talk}"
-    );
-    assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
-    assert_eq!(
-        code(&render(&[
-            "--target-error",
-            "2",
-            "--time-budget",
-            "1",
-            "--crop",
-            "3,4,5,6"
-        ])),
-        0
-    );
-    for args in [
-        &["--supersampling", "2"],
-        &["--aperture-samples", "2"],
-        &["--target-error", "0"],
-    ] {
-        assert_eq!(
-            code(&render(&[&["--time-budget", "1"], &args[..]].concat())),
-            2,
-            "{args:?}"
-        );
-    }
-}
-
-#[test]
-fn nothing_in_view_is_a_warning_after_the_render() {
-    let folder = folder();
-    let output = rtc(&folder, &["render", "away.json"]);
-    assert_eq!(code(&output), 0);
-    assert!(
-        stderr(&output).contains("warning[RD001]: no ray of the camera hit anything"),
-        "{}",
-        stderr(&output)
-    );
-    assert!(folder.path().join("away.png").exists());
-}
-
-#[test]
-fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
-    let folder = folder();
-    let far = SCENE
-        .replace(", 50]", ", 1000050]")
-        .replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
-    let far = far
-        .replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"")
-        .replace("40, 60]", "40, 1000060]");
-    fs::write(folder.path().join("far.json"), far).unwrap();
-    let warning = |arithmetic: &str| {
-        let output = rtc(&folder, &["render", "far.json", "--arithmetic", arithmetic]);
-        assert_eq!(code(&output), 0);
-        stderr(&output)
-            .lines()
-            .find(|line| line.contains("RD002"))
-            .map(str::to_owned)
-    };
-    let found = warning("f32").unwrap();
-    assert!(
-        found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"),
-        "{found}"
-    );
-    assert_eq!((warning("plain"), warning("robust")), (None, None));
 }
 
 #[test]
@@ -504,75 +319,5 @@ fn rtc_tells_about_itself() {
     }
     for format in ["scene", "ir"] {
         serde_json::from_str::<serde_json::Value>(&stdout(&["schema", format])).unwrap();
-    }
-}
-
-#[cfg(unix)]
-mod unix {
-    use super::*;
-    use std::os::unix::fs::{PermissionsExt, symlink};
-
-    #[test]
-    fn a_new_file_is_for_all_and_an_old_one_keeps_its_permissions() {
-        let folder = folder();
-        let mode = |name: &str| {
-            fs::metadata(folder.path().join(name))
-                .unwrap()
-                .permissions()
-                .mode()
-                & 0o777
-        };
-        fs::write(folder.path().join("plain"), "").unwrap();
-        fs::write(folder.path().join("old.png"), "").unwrap();
-        fs::set_permissions(
-            folder.path().join("old.png"),
-            fs::Permissions::from_mode(0o640),
-        )
-        .unwrap();
-        for name in ["new.png", "old.png"] {
-            assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
-        }
-        assert_eq!((mode("new.png"), mode("old.png")), (mode("plain"), 0o640));
-    }
-
-    #[test]
-    fn links_and_devices_stay_what_they_are() {
-        let folder = folder();
-        fs::write(folder.path().join("real.png"), "").unwrap();
-        symlink("real.png", folder.path().join("link.png")).unwrap();
-        symlink("/dev/null", folder.path().join("null.png")).unwrap();
-        for name in ["link.png", "null.png"] {
-            assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
-            assert!(
-                fs::symlink_metadata(folder.path().join(name))
-                    .unwrap()
-                    .is_symlink()
-            );
-        }
-        assert!(
-            fs::read(folder.path().join("real.png"))
-                .unwrap()
-                .starts_with(b"\x89PNG")
-        );
-        assert!(!fs::metadata("/dev/null").unwrap().is_file());
-    }
-
-    #[test]
-    fn what_is_read_only_is_not_replaced() {
-        let folder = folder();
-        fs::write(folder.path().join("kept.png"), "before").unwrap();
-        fs::set_permissions(
-            folder.path().join("kept.png"),
-            fs::Permissions::from_mode(0o444),
-        )
-        .unwrap();
-        let refused = rtc(&folder, &["render", "ball.json", "-o", "kept.png"]);
-        assert_eq!(
-            (
-                code(&refused),
-                fs::read(folder.path().join("kept.png")).unwrap()
-            ),
-            (2, b"before".to_vec())
-        );
     }
 }

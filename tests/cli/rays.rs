@@ -2,6 +2,7 @@
 
 use super::{code, command, stderr};
 use std::fs;
+use std::process::Output;
 use tempfile::TempDir;
 
 const GLOSSY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/glossy.yaml");
@@ -57,27 +58,9 @@ fn the_pixel_at_which_rays_run_out_is_the_same_on_any_number_of_threads() {
 #[test]
 fn rays_that_end_are_counted_to_the_last() {
     let folder = TempDir::new().unwrap();
-    fs::write(
-        folder.path().join("lobes.yaml"),
-        LOBES.replace("Depth: 12", "Depth: 2"),
-    )
-    .unwrap();
-    let render = |words: &str| {
-        let words = ["render", "lobes.yaml", "-o", "out.png"]
-            .into_iter()
-            .chain(words.split_whitespace());
-        command(folder.path(), &words.collect::<Vec<_>>())
-            .output()
-            .unwrap()
-    };
+    let render = |words: &str| render_lobes(&folder, 2, words);
     let free = render("--allow-huge");
-    let rays: u64 = stderr(&free)
-        .split(", ")
-        .nth(1)
-        .unwrap()
-        .replace([',', ' ', 'r', 'a', 'y', 's'], "")
-        .parse()
-        .unwrap();
+    let rays = u64::from(rays_of(&free));
     let at = |limit: u64| render(&format!("--limit rays={limit} --threads 2"));
     assert_eq!(
         (code(&free), code(&at(rays)), code(&at(rays - 1))),
@@ -107,4 +90,108 @@ fn what_does_not_branch_without_end_is_rendered() {
             .unwrap();
         assert_eq!(code(&output), 0, "{}", stderr(&output));
     }
+}
+
+/// Runs `rtc render` on the lobes, seen through as many bounces.
+fn render_lobes(folder: &TempDir, bounces: u32, words: &str) -> Output {
+    render(folder, LOBES, bounces, words)
+}
+
+/// The same below a soft light.
+fn render_lit(folder: &TempDir, bounces: u32, words: &str) -> Output {
+    let light = "LightSamples: 4
+Lights:
+- {position: [1, 1, 1], color: [0.2, 0.2, 0.2], radius: 1}
+Objects:";
+    let lit = LOBES
+        .replace("Objects:", light)
+        .replace("ka: 1, kd: 0, ks: 1", "ka: 0, kd: 1, ks: 0.5");
+    render(folder, &lit, bounces, words)
+}
+
+fn render(folder: &TempDir, scene: &str, bounces: u32, words: &str) -> Output {
+    let scene = scene.replace("Depth: 12", &format!("Depth: {bounces}"));
+    fs::write(folder.path().join("lobes.yaml"), scene).unwrap();
+    let words = ["render", "lobes.yaml", "-o", "out.png"]
+        .into_iter()
+        .chain(words.split_whitespace());
+    command(folder.path(), &words.collect::<Vec<_>>())
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn each_render_of_a_verification_has_the_limit() {
+    let folder = TempDir::new().unwrap();
+    let told = |threads: u32, bounces: u32, rays: u32| {
+        let words = format!("--verify-effects --limit rays={rays} --threads {threads}");
+        let output = render_lobes(&folder, bounces, &words);
+        (code(&output), stderr(&output))
+    };
+    let (verdict, one) = told(1, 12, 20_000);
+    assert!(
+        verdict == 1 && one.contains("error[RD006]") && one.contains("run out at pixel 0, 0"),
+        "{one}"
+    );
+    assert_eq!(
+        (told(2, 12, 20_000).1, told(3, 12, 20_000).1),
+        (one.clone(), one)
+    );
+    // Both together take more.
+    let picture = rays_of(&render_lobes(&folder, 2, "--allow-huge"));
+    let (verdict, words) = told(2, 2, picture * 3 / 2);
+    assert_eq!(verdict, 0, "{words}");
+}
+
+/// How many rays a picture took.
+fn rays_of(output: &Output) -> u32 {
+    let words = stderr(output);
+    let digits = words.split(", ").nth(1).unwrap().chars();
+    let digits: String = digits.filter(char::is_ascii_digit).collect();
+    digits.parse().unwrap()
+}
+
+#[test]
+fn a_time_to_be_used_has_the_limit() {
+    let folder = TempDir::new().unwrap();
+    let endless = render_lobes(&folder, 12, "--time-budget 100 --limit rays=20000");
+    assert_eq!(code(&endless), 1, "{}", stderr(&endless));
+    assert!(
+        stderr(&endless).contains("error[RD006]"),
+        "{}",
+        stderr(&endless)
+    );
+    // A round is done: the picture stands.
+    let ended = render_lit(
+        &folder,
+        2,
+        "--glossy-samples 2 --time-budget 100 --limit rays=200000",
+    );
+    assert_eq!(code(&ended), 0, "{}", stderr(&ended));
+    assert!(
+        stderr(&ended).contains(", ended by `--limit rays`"),
+        "{}",
+        stderr(&ended)
+    );
+    let rays = rays_of(&ended);
+    assert!(rays <= 200_000, "{rays}");
+    // An error that is asked for is not reached.
+    let missed = render_lit(
+        &folder,
+        2,
+        "--glossy-samples 2 --target-error 0.01 --limit rays=200000",
+    );
+    assert_eq!(code(&missed), 1, "{}", stderr(&missed));
+}
+
+#[test]
+fn the_choice_of_points_on_lights_has_the_limit() {
+    let folder = TempDir::new().unwrap();
+    let output = render_lit(&folder, 12, "--target-error 1 --limit rays=20000");
+    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains("error[RD006]"),
+        "{}",
+        stderr(&output)
+    );
 }

@@ -38,6 +38,7 @@ fn with_clock(scene: &Scene, goal: Goal) -> Reached {
             rays.fetch_add(step.rays, Relaxed);
             true
         },
+        is_stopped: &|| false,
         elapsed: &|| Duration::from_micros(rays.load(Relaxed)),
         round: &|_| {},
     };
@@ -107,6 +108,7 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
         };
         let watch = Watch {
             proceed: &|_| true,
+            is_stopped: &|| false,
             elapsed: &|| Duration::ZERO,
             round: &|_| {},
         };
@@ -175,6 +177,7 @@ fn stop_means_stop() {
     let (scene, rays) = (scene(3, SIZE), AtomicU64::new(0));
     let watch = Watch {
         proceed: &|step| rays.fetch_add(step.rays, Relaxed) < 50_000,
+        is_stopped: &|| true,
         elapsed: &|| Duration::ZERO,
         round: &|_| {},
     };

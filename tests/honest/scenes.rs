@@ -102,6 +102,7 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
     };
     let watch = Watch {
         proceed: &|_| true,
+        is_stopped: &|| false,
         elapsed: &|| Duration::ZERO,
         round: &|_| {},
     };

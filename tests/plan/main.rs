@@ -11,6 +11,7 @@ mod approved;
 mod counters;
 mod cut;
 mod dice;
+mod effort;
 mod extreme;
 mod law;
 mod need;

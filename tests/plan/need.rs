@@ -1,8 +1,8 @@
 //! No false need: an effect that a scene can be seen to do without, in several ways to say so, is
 //! left out in all.
 
+use super::fate;
 use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage, texture, with};
-use super::{fate, verdict};
 use rtc::diag::Sink;
 use rtc::ir::{Bump, Lowered, Mode, Origins, Scene};
 use rtc::pipeline::{self, Options};
@@ -334,74 +334,6 @@ fn a_light_that_is_not_finite_is_reported_whatever_it_is_multiplied_by() {
             "{color}"
         );
     }
-}
-
-/// Small balls side by side before a wide camera, the first of them mirrors.
-fn many(count: u32, mirrors: u32) -> Scene {
-    let place = |k: u32| {
-        [
-            f64::from(k % 40) * 0.8 - 16.0,
-            f64::from(k / 40) - 14.0,
-            0.0,
-        ]
-    };
-    let balls = (0..count).map(|k| {
-        (
-            ball(place(k), 0.3),
-            if k < mirrors { shiny() } else { matt() },
-        )
-    });
-    let mut scene = with(&balls.collect::<Vec<_>>());
-    (scene.camera.right, scene.camera.up) = ([1.5, 0.0, 0.0], [0.0, 1.5, 0.0]);
-    scene
-}
-
-/// Planning asks no more than 500 000 questions of pairs, and says so.
-#[test]
-fn too_many_surfaces_are_kept_without_asking() {
-    let plan = |count, lights| {
-        let mut scene = many(count, 0);
-        scene.lights = vec![scene.lights[0].clone(); lights];
-        Plan::new(&super::proven(&scene), Rules::ALL)
-    };
-    let is_asked = |plan: &Plan| !verdict(plan, Effect::Shadows).because.contains("too many");
-    assert!(is_asked(&plan(500, 2)), "500 times 500 times 2");
-    let plan = plan(501, 2);
-    assert!(plan.needs(Effect::Shadows) && !is_asked(&plan));
-    assert!(!plan.needs(Effect::Mirror) && plan.surfaces.iter().all(|kept| *kept));
-}
-
-#[test]
-fn too_many_mirrors_are_followed_without_asking() {
-    let because = |count, mirrors| {
-        let plan = Plan::new(&super::proven(&many(count, mirrors)), Rules::ALL);
-        verdict(&plan, Effect::Depth).because.clone()
-    };
-    assert_eq!(because(1000, 500), "2 bounces: mirrors show mirrors");
-    assert_eq!(
-        because(1001, 500),
-        "2 bounces; too many mirrors to ask which sees which"
-    );
-}
-
-/// The cells of a large picture are several pixels wide.
-#[test]
-fn a_large_picture_is_looked_at_in_coarse_cells() {
-    let mut scene = with(&[(ball([0.0; 3], 1.0), matt())]);
-    (scene.camera.size, scene.camera.right, scene.camera.up) =
-        ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
-    let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
-    let sights =
-        [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
-    assert_eq!(
-        sights,
-        [
-            Sight::Nothing,
-            Sight::Anything,
-            Sight::Nothing,
-            Sight::Nothing
-        ]
-    );
 }
 
 #[test]

@@ -28,6 +28,6 @@ super::codes! { RD:
          a ray branches at each bounce, as in glass, or into a lobe, their number grows as a power of the bounces, and \
          nobody can tell before how far. The finding names the first pixel, in the order of rows, up to which the \
          picture takes more than `--limit rays`, 2^32 unless another limit is set, and the key that makes them so many. \
-         `rtc cost` and `--allow-huge` have no such limit, nor have a render within `--time-budget` and \
-         `--verify-effects`.";
+         With `--verify-effects` each of the two renders has that limit; with `--time-budget` rounds of samples end \
+         there, and it is found only if not even the first is done. `rtc cost` and `--allow-huge` have none.";
 }

@@ -149,7 +149,7 @@ impl Lowering {
             .value
             .decode_each(context, "Objects", |context, object| {
                 if self.scene.surfaces.is_empty() {
-                    // Growing by doubling would move and hold many surfaces twice.
+                    // ProgressiveFilm by doubling would move and hold many surfaces twice.
                     self.scene.surfaces.reserve_exact(count);
                 }
                 self.object(&object.value, context);

@@ -1,7 +1,9 @@
 //! Images, meshes and scenes that are small and ask for much.
 
-use super::Repro;
-use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage, f16};
+use super::{Repro, webp};
+use exr::prelude::{
+    Compression, Encoding, Image, Layer, LayerAttributes, SpecificChannels, WritableImage, f16,
+};
 use image::{ExtendedColorType, ImageEncoder};
 use png::{BitDepth, ColorType};
 use std::fmt::Write as _;
@@ -35,8 +37,38 @@ pub(crate) fn all() -> Vec<Repro> {
             None,
         ),
     ];
-    for (what, bytes, expected) in [
-        ("a WebP of 34 bytes and 16383² pixels", webp(16383), "IO003"),
+    all.extend(pictures());
+    for (what, name, bytes, expected) in [
+        (
+            "an HDR of 2²⁵ pixels in a row",
+            "t.hdr",
+            hdr(1 << 25),
+            "IO003",
+        ),
+        (
+            "an EXR of 8192 × 4096",
+            "t.exr",
+            exr(8192, 4096, Encoding::SMALL_LOSSLESS),
+            "IO003",
+        ),
+        (
+            "an EXR whose differences go below zero",
+            "t.exr",
+            below_zero(),
+            "RE004",
+        ),
+    ] {
+        let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
+        all.push(checked(what, scene, vec![(name, bytes)], Some(expected)));
+    }
+    all.extend(endless());
+    all
+}
+
+/// Pictures whose headers tell of more than there is, or of too much.
+fn pictures() -> Vec<Repro> {
+    let mut all = Vec::new();
+    let coded = [
         ("a JPEG of 16384² pixels", huge_jpeg(), "IO003"),
         ("a JPEG cut in the middle", cut_jpeg(), "RE004"),
         ("a PNG of 16384² pixels of a bit", white_png(16384), "IO003"),
@@ -45,7 +77,8 @@ pub(crate) fn all() -> Vec<Repro> {
             claim_png((1 << 31) - 1),
             "RE005",
         ),
-    ] {
+    ];
+    for (what, bytes, expected) in coded.into_iter().chain(webp::all()) {
         all.push(checked(
             what,
             textures(&["t.png"]),
@@ -59,14 +92,6 @@ pub(crate) fn all() -> Vec<Repro> {
         vec![("t.png", profile_bomb())],
         None,
     ));
-    for (what, name, bytes) in [
-        ("an HDR of 2²⁵ pixels in a row", "t.hdr", hdr(1 << 25)),
-        ("an EXR of 8192 × 4096", "t.exr", exr(8192, 4096)),
-    ] {
-        let scene = format!("{CAMERA}Environment: {{file: {name}}}\nObjects: []\n");
-        all.push(checked(what, scene, vec![(name, bytes)], Some("IO003")));
-    }
-    all.extend(endless());
     all
 }
 
@@ -297,15 +322,6 @@ fn profile_bomb() -> Vec<u8> {
     [&small[..33], &chunk(b"iCCP", &profile), &small[33..]].concat()
 }
 
-/// A lossless WebP that has a size and no pixels.
-fn webp(side: u32) -> Vec<u8> {
-    let size = (side - 1) | (side - 1) << 14;
-    let mut bytes = b"RIFF\x1a\0\0\0WEBPVP8L\x0e\0\0\0\x2f".to_vec();
-    bytes.extend(size.to_le_bytes());
-    bytes.resize(34, 0);
-    bytes
-}
-
 /// A grey JPEG of noise.
 fn jpeg(side: u32) -> Vec<u8> {
     let pixels: Vec<u8> = (0..side * side)
@@ -341,14 +357,9 @@ fn hdr(width: u32) -> Vec<u8> {
 }
 
 /// A black EXR.
-fn exr(width: usize, height: usize) -> Vec<u8> {
+fn exr(width: usize, height: usize, encoding: Encoding) -> Vec<u8> {
     let black = SpecificChannels::rgb(|_| (f16::ZERO, f16::ZERO, f16::ZERO));
-    let layer = Layer::new(
-        (width, height),
-        LayerAttributes::default(),
-        Encoding::SMALL_LOSSLESS,
-        black,
-    );
+    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, black);
     let mut bytes = Cursor::new(Vec::new());
     Image::from_layer(layer)
         .write()
@@ -356,4 +367,18 @@ fn exr(width: usize, height: usize) -> Vec<u8> {
         .to_buffered(&mut bytes)
         .unwrap();
     bytes.into_inner()
+}
+
+/// One of 4 × 4 pixels in B44, with differences of −128 to numbers of 0: they wrap round.
+fn below_zero() -> Vec<u8> {
+    let encoding = Encoding {
+        compression: Compression::B44,
+        ..Encoding::SMALL_LOSSLESS
+    };
+    let mut bytes = exr(4, 4, encoding);
+    // At the end there are 14 bytes for each channel: a number, a shift, the differences.
+    let start = bytes.len() - 3 * 14;
+    let block = [&[0, 0, 8], [0; 11].as_slice()].concat();
+    bytes.splice(start.., block.repeat(3));
+    bytes
 }

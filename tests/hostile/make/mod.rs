@@ -3,6 +3,7 @@
 
 pub(crate) mod gltf;
 pub(crate) mod media;
+mod webp;
 
 /// Files that ask for much, and what is done with them.
 pub(crate) struct Repro {

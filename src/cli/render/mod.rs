@@ -1,5 +1,7 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`Plan`] before anything is read.
 
+mod shot;
+
 use super::Failure;
 use super::args;
 use super::findings;
@@ -7,19 +9,16 @@ use super::input::{self, Input, Proven};
 use super::interrupt::Interrupt;
 use super::look::Look;
 use super::output::{self, Output};
-use super::progress::{self, Progress};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
-use crate::diag::Diagnostic;
-use crate::image::{Image, Layers, Lost, Origin};
+use crate::image::{Layers, Lost, Origin};
 use crate::ir::{Overrides, Scene};
-use crate::pipeline::{self, Meter, Renderer};
+use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
-use crate::render::{Counts, Crop, Fault, Film, Job};
-use crate::study::{Goal, Order, Reached, Samples, Stopped, Watch};
+use crate::render::Crop;
+use crate::study::Goal;
 use crate::valid::Proof;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 /// A render as it will be done.
 struct Plan {
@@ -42,16 +41,6 @@ struct Plan {
 struct Subject {
     proven: Proven,
     renderer: Option<Renderer>,
-}
-
-/// What was rendered, and what is said of it.
-struct Shot {
-    image: Image,
-    coverage: Vec<f32>,
-    counts: Counts,
-    elapsed: Duration,
-    /// How good it is, if that was asked.
-    quality: Option<String>,
 }
 
 /// Renders the scene and writes the picture.
@@ -182,7 +171,7 @@ impl Plan {
             input.push(findings::nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
-        let summary = self.summary(path, &shot);
+        let summary = shot.summary(path);
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
         let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);
@@ -254,122 +243,6 @@ impl Plan {
         Err(Failure::Trouble(message))
     }
 
-    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
-    /// many.
-    fn trace(
-        &self,
-        subject: &mut Subject,
-        (window, rays): (Crop, u64),
-        interrupt: &Interrupt,
-        quiet: bool,
-    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
-        let scene = &subject.proven.scene;
-        let values = self.look.values(&scene.settings().mode);
-        let job = Job {
-            crop: Some(window),
-            values,
-            behind: self.look.behind(),
-            ..Job::default()
-        };
-        let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
-        // What verifies renders twice, by more rays than the picture takes.
-        let meter = Meter::new(if self.verify { u64::MAX } else { rays }, window);
-        let proceed = |step| {
-            progress.step(step);
-            !interrupt.is_raised() && meter.step(step)
-        };
-        let film = if self.verify {
-            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
-        } else {
-            self.renderer(subject)
-                .map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
-        };
-        let elapsed = progress.finish();
-        let film = film.map_err(no_threads)?;
-        if let Some(finding) = ran_out(&meter, subject, interrupt) {
-            return Ok(Err(finding));
-        }
-        let film = film.ok_or(Failure::Interrupted)?;
-        let Film {
-            image,
-            coverage,
-            counts,
-        } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
-        Ok(Ok(Shot {
-            image,
-            coverage,
-            counts,
-            elapsed,
-            quality: None,
-        }))
-    }
-
-    /// The picture with the samples that its goal takes, or where its rays ran out.
-    fn approach(
-        &self,
-        subject: &mut Subject,
-        (window, rays): (Crop, u64),
-        interrupt: &Interrupt,
-        quiet: bool,
-    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
-        let order = Order {
-            goal: self.goal,
-            crop: window,
-            behind: self.look.behind(),
-            values: self.look.values(&subject.proven.scene.settings().mode),
-            keep_lights: self.overrides.light_samples.is_some(),
-            seed: 0,
-        };
-        let progress = Progress::start(0, quiet);
-        // Time that was given may be used.
-        let meter = Meter::new(
-            if self.goal.time.is_some() {
-                u64::MAX
-            } else {
-                rays
-            },
-            window,
-        );
-        let watch = Watch {
-            proceed: &|step| {
-                progress.step(step);
-                !interrupt.is_raised() && meter.step(step)
-            },
-            elapsed: &|| progress.elapsed(),
-            round: &|state| {
-                meter.begin_round();
-                progress.round(state.pixels, state.error.map_or_else(String::new, error));
-            },
-        };
-        let reached = self.renderer(subject);
-        let reached = reached
-            .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
-        let elapsed = progress.finish();
-        let reached = reached.map_err(no_threads)?;
-        if let Some(finding) = ran_out(&meter, subject, interrupt) {
-            return Ok(Err(finding));
-        }
-        let reached = reached.map_err(|Stopped| Failure::Interrupted)?;
-        let Reached {
-            image,
-            coverage,
-            counts,
-            samples: Samples { least, mean, most },
-            ..
-        } = reached;
-        let quality = format!(
-            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}",
-            error(reached.error)
-        );
-        Ok(Ok(Shot {
-            image,
-            coverage,
-            counts,
-            elapsed,
-            quality: Some(quality),
-        }))
-    }
-
     /// The layers beside the colours.
     fn layers(
         &self,
@@ -402,27 +275,6 @@ impl Plan {
             None => Renderer::new(&proven.scene, &self.plan(&proven.scene), self.threads)?,
         };
         Ok((proven, renderer.insert(made)))
-    }
-
-    fn summary(&self, path: &Path, shot: &Shot) -> String {
-        let Shot {
-            image,
-            counts,
-            elapsed,
-            quality,
-            coverage: _,
-        } = shot;
-        let work = progress::summary(counts.rays(), *elapsed);
-        let line = format!(
-            "{}: {}×{}, {work}",
-            path.display(),
-            image.width,
-            image.height
-        );
-        match quality {
-            Some(quality) => format!("{line}\n{quality}"),
-            None => line,
-        }
     }
 
     /// Enough to make the same picture again: which rtc, which scene, which part of it.
@@ -464,37 +316,8 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     }
 }
 
-/// What to say if the rays ran out, unless a signal ended the render.
-fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Box<Diagnostic>> {
-    let pixel = meter.ran_out().filter(|_| !interrupt.is_raised())?;
-    Some(Box::new(meter.finding(&subject.proven.lowered, pixel)))
-}
-
-/// What to say of a rule that was wrong.
-fn left_out(fault: &Fault) -> String {
-    let Fault {
-        pixel: [x, y],
-        effect,
-        rule,
-        what,
-    } = fault;
-    let rule = rule.map_or("no rule", Rule::name);
-    let version = env!("CARGO_PKG_VERSION");
-    format!(
-        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
-         This is a fault of rtc {version}, please report it with the scene.",
-        effect.name()
-    )
-}
-
 fn no_threads(fault: rayon::ThreadPoolBuildError) -> Failure {
     Failure::Trouble(format!("can't start threads: {fault}"))
-}
-
-/// An error in grey levels, in words.
-fn error(levels: f64) -> String {
-    // Rounded up, so that the words promise no more than was measured.
-    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
 }
 
 /// The name of the scene with `.png`, in the current folder.

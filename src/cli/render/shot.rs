@@ -1,0 +1,190 @@
+//! One render: as the scene says or until a goal is reached, or where its rays ran out.
+
+use super::super::Failure;
+use super::super::interrupt::Interrupt;
+use super::super::progress::{self, Progress};
+use super::{Plan, Subject, no_threads};
+use crate::diag::Diagnostic;
+use crate::image::Image;
+use crate::pipeline::{self, Meter};
+use crate::plan::Rule;
+use crate::render::{Counts, Crop, Fault, Film, Job};
+use crate::study::{Order, Reached, Samples, Stopped, Watch};
+use std::path::Path;
+use std::time::Duration;
+
+/// What was rendered, and what is said of it.
+pub(super) struct Shot {
+    pub(super) image: Image,
+    pub(super) coverage: Vec<f32>,
+    pub(super) counts: Counts,
+    pub(super) elapsed: Duration,
+    /// How good it is, if that was asked.
+    pub(super) quality: Option<String>,
+}
+
+impl Shot {
+    /// What is said of it.
+    pub(super) fn summary(&self, path: &Path) -> String {
+        let Self {
+            image,
+            counts,
+            elapsed,
+            quality,
+            coverage: _,
+        } = self;
+        let work = progress::summary(counts.rays(), *elapsed);
+        let line = format!(
+            "{}: {}×{}, {work}",
+            path.display(),
+            image.width,
+            image.height
+        );
+        match quality {
+            Some(quality) => format!("{line}\n{quality}"),
+            None => line,
+        }
+    }
+}
+
+impl Plan {
+    /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
+    /// many.
+    pub(super) fn trace(
+        &self,
+        subject: &mut Subject,
+        (window, rays): (Crop, u64),
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
+        let scene = &subject.proven.scene;
+        let values = self.look.values(&scene.settings().mode);
+        let job = Job {
+            crop: Some(window),
+            values,
+            behind: self.look.behind(),
+            ..Job::default()
+        };
+        let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
+        let renders = if self.verify { 2 } else { 1 };
+        let meter = Meter::of_each(rays, window, renders);
+        let proceed = |step| {
+            progress.step(step);
+            !interrupt.is_raised() && meter.step(step)
+        };
+        let film = if self.verify {
+            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
+        } else {
+            self.renderer(subject)
+                .map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
+        };
+        let elapsed = progress.finish();
+        let film = film.map_err(no_threads)?;
+        if let Some(finding) = ran_out(&meter, subject, interrupt) {
+            return Ok(Err(finding));
+        }
+        let film = film.ok_or(Failure::Interrupted)?;
+        let Film {
+            image,
+            coverage,
+            counts,
+        } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        Ok(Ok(Shot {
+            image,
+            coverage,
+            counts,
+            elapsed,
+            quality: None,
+        }))
+    }
+
+    /// The picture with the samples that its goal takes, or where its rays ran out.
+    pub(super) fn approach(
+        &self,
+        subject: &mut Subject,
+        (window, rays): (Crop, u64),
+        interrupt: &Interrupt,
+        quiet: bool,
+    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
+        let order = Order {
+            goal: self.goal,
+            crop: window,
+            behind: self.look.behind(),
+            values: self.look.values(&subject.proven.scene.settings().mode),
+            keep_lights: self.overrides.light_samples.is_some(),
+            seed: 0,
+        };
+        let progress = Progress::start(0, quiet);
+        let meter = Meter::new(rays, window);
+        let watch = Watch {
+            proceed: &|step| {
+                progress.step(step);
+                !interrupt.is_raised() && meter.step(step)
+            },
+            is_stopped: &|| interrupt.is_raised(),
+            elapsed: &|| progress.elapsed(),
+            round: &|state| {
+                meter.begin_round();
+                progress.round(state.pixels, state.error.map_or_else(String::new, error));
+            },
+        };
+        let reached = self.renderer(subject);
+        let reached = reached
+            .map(|(proven, renderer)| renderer.approach(&proven.lowered.scene, &order, &watch));
+        let elapsed = progress.finish();
+        let ran_out = ran_out(&meter, subject, interrupt);
+        let (reached, end) = match (reached.map_err(no_threads)?, ran_out) {
+            (Ok(reached), None) => (reached, ""),
+            (Ok(reached), Some(_)) => (reached, ", ended by `--limit rays`"),
+            (Err(Stopped), Some(finding)) => return Ok(Err(finding)),
+            (Err(Stopped), None) => return Err(Failure::Interrupted),
+        };
+        let Reached {
+            image,
+            coverage,
+            counts,
+            samples: Samples { least, mean, most },
+            ..
+        } = reached;
+        let quality = format!(
+            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}{end}",
+            error(reached.error)
+        );
+        Ok(Ok(Shot {
+            image,
+            coverage,
+            counts,
+            elapsed,
+            quality: Some(quality),
+        }))
+    }
+}
+
+/// What to say if the rays ran out, unless a signal ended the render.
+fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Box<Diagnostic>> {
+    let pixel = meter.ran_out().filter(|_| !interrupt.is_raised())?;
+    Some(Box::new(meter.finding(&subject.proven.lowered, pixel)))
+}
+
+/// What to say of a rule that was wrong.
+fn left_out(fault: &Fault) -> String {
+    let Fault {
+        pixel: [x, y],
+        effect,
+        rule,
+        what,
+    } = fault;
+    let rule = rule.map_or("no rule", Rule::name);
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "internal error: {}, left out by {rule}: {what} at pixel {x}, {y}\n\
+         This is a fault of rtc {version}, please report it with the scene.",
+        effect.name()
+    )
+}
+
+/// An error in grey levels, in words.
+fn error(levels: f64) -> String {
+    // Rounded up, so that the words promise no more than was measured.
+    format!("error ≤ {:.2} grey levels", (levels * 100.0).ceil() / 100.0)
+}

@@ -1,0 +1,149 @@
+//! What the prefix codes of a lossless picture take: they are read up to its pixels, and none is
+//! kept. There may be 65536 groups of them, each of which takes as much as 500 times its bytes in
+//! the file.
+//!
+//! The terms are those of the WebP Lossless Bitstream Specification.
+
+use super::prefix::{Bits, CODE, Code};
+use super::{DecodeError, Size};
+
+/// Bytes that the decoder takes for the prefix codes of a picture; a plane of opacity has no
+/// header.
+pub(super) fn codes(stream: &[u8], size: Size, has_header: bool) -> Result<u64, DecodeError> {
+    let header = if has_header { 40 } else { 0 };
+    picture(&mut Bits::of(stream, header), size).ok_or_else(|| {
+        let words = "it ends before its pixels, or has prefix codes that are none";
+        DecodeError::Damaged(words.to_owned())
+    })
+}
+
+fn picture(bits: &mut Bits<'_>, size: Size) -> Option<u64> {
+    let width = transforms(bits, size)?;
+    let alphabets = alphabets(bits)?;
+    let groups = if bits.flag()? {
+        sub_image(bits, [width, size.height])? + 1
+    } else {
+        1
+    };
+    // They are collected in a list that doubles: while it grows there are one and a half.
+    let list = u64::from(groups.max(4).next_power_of_two()) * 5 * CODE * 3 / 2;
+    (0..groups).try_fold(list, |sum, _| {
+        let group = alphabets.iter().try_fold(0, |sum, alphabet| {
+            Some(sum + Code::read(bits, *alphabet)?.memory())
+        })?;
+        Some(sum + group)
+    })
+}
+
+/// Passes over the transforms; tells how wide the picture is before they are undone.
+fn transforms(bits: &mut Bits<'_>, size: Size) -> Option<u32> {
+    let mut width = size.width;
+    let mut is_known = [false; 4];
+    while bits.flag()? {
+        let kind = bits.read(2)?;
+        if std::mem::replace(is_known.get_mut(kind as usize)?, true) {
+            return None;
+        }
+        match kind {
+            // Of pixels from those before, and of colours from green.
+            0 | 1 => drop(sub_image(bits, [width, size.height])?),
+            // Green is subtracted.
+            2 => {}
+            _ => {
+                let colors = bits.read(8)? + 1;
+                pixels(bits, colors)?;
+                width = blocks(width, packing(colors));
+            }
+        }
+    }
+    Some(width)
+}
+
+/// How many pixels of so many colours are packed into one, as a power of two.
+fn packing(colors: u32) -> u32 {
+    match colors {
+        0..=2 => 3,
+        3..=4 => 2,
+        5..=16 => 1,
+        _ => 0,
+    }
+}
+
+/// How many blocks of 2^`bits` pixels there are along a side.
+fn blocks(side: u32, bits: u32) -> u32 {
+    side.div_ceil(1 << bits)
+}
+
+/// Passes over an image of a pixel for each block of another; the rest as [`pixels`].
+fn sub_image(bits: &mut Bits<'_>, of: [u32; 2]) -> Option<u32> {
+    let block = bits.read(3)? + 2;
+    let [width, height] = of.map(|side| blocks(side, block));
+    pixels(bits, width.saturating_mul(height))
+}
+
+/// Passes over the pixels of an image within the picture, which has one group of codes. Tells the
+/// largest number that red and green are together: the groups are numbered so.
+fn pixels(bits: &mut Bits<'_>, count: u32) -> Option<u32> {
+    let alphabets = alphabets(bits)?;
+    let mut group = Vec::with_capacity(alphabets.len());
+    for alphabet in alphabets {
+        group.push(Code::read(bits, alphabet)?);
+    }
+    let [green, red, blue, alpha, distance] = group.as_slice() else {
+        return None;
+    };
+    let (mut largest, mut done) = (0, 0);
+    while done < count {
+        let before = bits.at();
+        let symbol = u32::from(green.symbol(bits)?);
+        done += match symbol {
+            0..LENGTHS => {
+                let red = u32::from(red.symbol(bits)?);
+                blue.symbol(bits)?;
+                alpha.symbol(bits)?;
+                largest = largest.max(red << 8 | symbol);
+                1
+            }
+            LENGTHS..COLORS => {
+                let length = extended(bits, symbol - LENGTHS)?;
+                let distance = u32::from(distance.symbol(bits)?);
+                extended(bits, distance)?;
+                length
+            }
+            // Of the cache: a colour that was there before.
+            _ => 1,
+        };
+        // What takes no bits is the same for ever.
+        if bits.at() == before {
+            break;
+        }
+    }
+    Some(largest)
+}
+
+/// The first symbol of green that is the length of a copy.
+const LENGTHS: u32 = 256;
+
+/// The first symbol of green that is a colour of the cache.
+const COLORS: u32 = LENGTHS + 24;
+
+/// A length or a distance, of which the symbol tells how many bits more it has.
+fn extended(bits: &mut Bits<'_>, symbol: u32) -> Option<u32> {
+    if symbol < 4 {
+        return Some(symbol + 1);
+    }
+    let count = (symbol - 2) >> 1;
+    Some(((2 + (symbol & 1)) << count) + bits.read(count)? + 1)
+}
+
+/// Reads how large the cache of colours is. Tells how many symbols the codes of a group then have:
+/// green with lengths and colours of the cache, red, blue, alpha, distance.
+fn alphabets(bits: &mut Bits<'_>) -> Option<[u16; 5]> {
+    let cache = if bits.flag()? {
+        let count = bits.read(4)?;
+        (1..=11).contains(&count).then_some(1 << count)?
+    } else {
+        0
+    };
+    Some([280 + cache, 256, 256, 256, 40])
+}

@@ -1,0 +1,200 @@
+//! A setting: a value for each knob, read from a scene and written into one.
+
+use super::knob::{Knob, arithmetic, place};
+use crate::ir::{Material, Mode, Overrides, Scene};
+use crate::plan::Arithmetic;
+use serde::{Deserialize, Serialize};
+
+/// A value for each knob.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Setting {
+    /// Sub-samples along each side of a pixel.
+    pub supersampling: u32,
+    /// Points of the lens.
+    pub aperture: u32,
+    /// Points of each soft light.
+    pub lights: u32,
+    /// Rays of each glossy lobe.
+    pub glossy: u32,
+    /// Paths of a pixel, 1 where none are traced.
+    pub paths: u32,
+    /// Bounces after the first hit.
+    pub depth: u32,
+    /// The arithmetic by which rays meet shapes.
+    pub precision: Arithmetic,
+}
+
+impl Setting {
+    /// That of a scene, by the robust arithmetic; where its lobes have different numbers of rays
+    /// the largest stands for all.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
+            (1, 1, path.samples)
+        } else {
+            (scene.settings.supersampling, scene.camera.lens.samples, 1)
+        };
+        Self {
+            supersampling,
+            aperture,
+            lights: scene.settings.light_samples,
+            glossy: lobes(scene).max().unwrap_or(1),
+            paths,
+            depth: scene.settings.max_depth,
+            precision: Arithmetic::Robust,
+        }
+    }
+
+    /// The value of a knob.
+    #[must_use]
+    pub fn get(&self, knob: Knob) -> u32 {
+        match knob {
+            Knob::Supersampling => self.supersampling,
+            Knob::Aperture => self.aperture,
+            Knob::Lights => self.lights,
+            Knob::Glossy => self.glossy,
+            Knob::Paths => self.paths,
+            Knob::Depth => self.depth,
+            Knob::Precision => place(self.precision),
+        }
+    }
+
+    /// The same with another value for a knob.
+    #[must_use]
+    pub fn with(mut self, knob: Knob, value: u32) -> Self {
+        let held = match knob {
+            Knob::Supersampling => &mut self.supersampling,
+            Knob::Aperture => &mut self.aperture,
+            Knob::Lights => &mut self.lights,
+            Knob::Glossy => &mut self.glossy,
+            Knob::Paths => &mut self.paths,
+            Knob::Depth => &mut self.depth,
+            Knob::Precision => {
+                return Self {
+                    precision: arithmetic(value),
+                    ..self
+                };
+            }
+        };
+        *held = value;
+        self
+    }
+
+    /// Camera rays of a pixel.
+    #[must_use]
+    pub fn camera_rays(&self) -> f64 {
+        Knob::Supersampling.samples(self.supersampling)
+            * f64::from(self.aperture)
+            * f64::from(self.paths)
+    }
+
+    /// Writes the values into a scene, which holds all but the precision; lobes keep theirs where
+    /// the largest of them is meant.
+    pub fn apply(&self, scene: &mut Scene) {
+        let Self {
+            supersampling,
+            aperture,
+            lights,
+            glossy,
+            paths,
+            depth,
+            precision: _,
+        } = *self;
+        let overrides = Overrides {
+            size: None,
+            supersampling: Some(supersampling),
+            aperture_samples: Some(aperture),
+            light_samples: Some(lights),
+            glossy_samples: Some(glossy).filter(|glossy| lobes(scene).max() != Some(*glossy)),
+            depth: Some(depth),
+            spp: Some(paths),
+        };
+        overrides.apply(scene);
+    }
+
+    /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
+    /// arithmetic goes without saying.
+    #[must_use]
+    pub fn words(&self, knobs: &[Knob]) -> String {
+        let is_said =
+            |knob: &&Knob| **knob != Knob::Precision || self.precision != Arithmetic::Robust;
+        let words: Vec<_> = knobs
+            .iter()
+            .filter(is_said)
+            .map(|knob| knob.words(self.get(*knob)))
+            .collect();
+        match words.split_first() {
+            Some((first, [])) => first.clone(),
+            Some((first, rest)) if knobs[0] == Knob::Supersampling && knobs[1] != Knob::Depth => {
+                format!("{first} with {}", rest.join(", "))
+            }
+            Some(_) => words.join(", "),
+            None => "the scene as it is".to_owned(),
+        }
+    }
+}
+
+/// The numbers of rays of the lobes of a scene.
+fn lobes(scene: &Scene) -> impl Iterator<Item = u32> {
+    scene
+        .materials
+        .iter()
+        .filter_map(Material::phong)
+        .map(|phong| phong.glossy_samples)
+        .filter(|count| *count > 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_in_words() {
+        let setting = Setting {
+            paths: 32,
+            ..setting(4, 16, 3)
+        };
+        let words = |knobs: &[Knob]| setting.words(knobs);
+        assert_eq!(
+            words(&[Knob::Supersampling, Knob::Aperture, Knob::Depth]),
+            "4×4 with 16 aperture samples, depth 3"
+        );
+        assert_eq!(
+            words(&[Knob::Supersampling, Knob::Lights]),
+            "4×4 with 1 light sample"
+        );
+        assert_eq!(words(&[Knob::Supersampling, Knob::Depth]), "4×4, depth 3");
+        assert_eq!(words(&[Knob::Paths, Knob::Depth]), "32 paths, depth 3");
+        assert_eq!(words(&[]), "the scene as it is");
+        assert_eq!(words(&[Knob::Supersampling, Knob::Precision]), "4×4");
+        let plain = Setting {
+            precision: Arithmetic::Plain,
+            ..setting
+        };
+        assert_eq!(
+            plain.words(&[Knob::Depth, Knob::Precision]),
+            "depth 3, plain arithmetic"
+        );
+    }
+
+    fn setting(supersampling: u32, aperture: u32, depth: u32) -> Setting {
+        let precision = Arithmetic::Robust;
+        Setting {
+            supersampling,
+            aperture,
+            lights: 1,
+            glossy: 1,
+            paths: 1,
+            depth,
+            precision,
+        }
+    }
+
+    #[test]
+    fn what_is_set_is_held() {
+        for knob in Knob::ALL {
+            assert_eq!(setting(9, 9, 9).with(knob, 1).get(knob), 1, "{knob:?}");
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! `rtc render`: where the picture goes, what options change in it, and what is said of it.
+
+use super::*;
+
+#[test]
+fn a_picture_is_named_after_its_scene_and_lands_here() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("here")).unwrap();
+    let rendered = command(&folder.path().join("here"), &["render", "../ball.json"])
+        .output()
+        .unwrap();
+    assert_eq!(
+        (code(&rendered), names(&folder.path().join("here"))),
+        (0, vec!["ball.png".to_owned()])
+    );
+}
+
+#[test]
+fn every_form_of_the_ir_renders_to_the_same_bytes() {
+    let folder = folder();
+    let picture = |scene: &str| rtc(&folder, &["render", scene, "-o", "-", "-q"]).stdout;
+    for form in ["copy.json", "copy.rtir"] {
+        assert_eq!(
+            code(&rtc(&folder, &["compile", "ball.json", "-o", form])),
+            0
+        );
+        assert!(picture(form) == picture("ball.json"), "{form}");
+    }
+    let binary = rtc(&folder, &["compile", "ball.json", "--emit", "ir-bin"]).stdout;
+    assert!(binary == fs::read(folder.path().join("copy.rtir")).unwrap());
+}
+
+#[test]
+fn a_crop_is_that_part_of_the_whole_on_any_threads() {
+    let folder = folder();
+    let decode = |args: &[&str]| {
+        let output = rtc(
+            &folder,
+            &[&["render", "ball.json", "-q", "-o", "-"], args].concat(),
+        );
+        image::load_from_memory(&output.stdout).unwrap().to_rgb16()
+    };
+    for bits in ["8", "16"] {
+        let whole = decode(&["--bits", bits, "--threads", "1"]);
+        let part = decode(&["--bits", bits, "--threads", "3", "--crop", "13,7,20,100"]);
+        assert_eq!(part.dimensions(), (20, 23));
+        assert!(image::imageops::crop_imm(&whole, 13, 7, 20, 23).to_image() == part);
+    }
+}
+
+#[test]
+fn options_override_the_scene() {
+    let folder = folder();
+    let told = |args: &[&str]| {
+        let output = rtc(
+            &folder,
+            &[
+                &["render", "ball.json", "-o", "o.png", "--depth", "0"],
+                args,
+            ]
+            .concat(),
+        );
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        stderr(&output)
+    };
+    assert!(told(&["--size", "20x15", "--supersampling", "1"]).starts_with("o.png: 20×15, "));
+    assert_eq!(
+        image::open(folder.path().join("o.png")).unwrap().width(),
+        20
+    );
+    let huge = rtc(&folder, &["render", "ball.json", "--size", "70000x70000"]);
+    assert_eq!(
+        (
+            code(&huge),
+            names(folder.path()).contains(&"ball.png".to_owned())
+        ),
+        (1, false)
+    );
+}
+
+#[test]
+fn an_exr_says_where_it_came_from() {
+    let folder = folder();
+    let exr = |name: &str| {
+        assert_eq!(code(&rtc(&folder, &["render", "ball.json", "-o", name])), 0);
+        fs::read(folder.path().join(name)).unwrap()
+    };
+    let first = exr("a.exr");
+    assert!(first == exr("b.exr"), "two renders differ");
+    for words in [
+        "rtc:scene",
+        "rtc:settings",
+        "\"supersampling\":2",
+        concat!("rtc ", env!("CARGO_PKG_VERSION")),
+    ] {
+        assert!(
+            first
+                .windows(words.len())
+                .any(|window| window == words.as_bytes()),
+            "{words}"
+        );
+    }
+}
+
+#[test]
+fn a_target_is_met_said_and_the_same_on_any_threads() {
+    let folder = folder();
+    let render = |args: &[&str]| {
+        rtc(
+            &folder,
+            &[&["render", "ball.json", "-o", "-"], args].concat(),
+        )
+    };
+    let one = render(&["--target-error", "2", "--threads", "1"]);
+    let talk = stderr(&one);
+    let said = talk
+        .lines()
+        .nth(1)
+        .unwrap()
+        .strip_prefix("error ≤ ")
+        .unwrap();
+    assert!(
+        said.split(' ').next().unwrap().parse::<f64>().unwrap() <= 2.0,
+        "{talk}"
+    );
+    assert!(
+        said.contains(" grey levels (90 %), ") && said.contains(" samples a pixel on the mean, "),
+        "{talk}"
+    );
+    assert!(render(&["--target-error", "2", "--threads", "3"]).stdout == one.stdout);
+    assert_eq!(
+        code(&render(&[
+            "--target-error",
+            "2",
+            "--time-budget",
+            "1",
+            "--crop",
+            "3,4,5,6"
+        ])),
+        0
+    );
+    for args in [
+        &["--supersampling", "2"],
+        &["--aperture-samples", "2"],
+        &["--target-error", "0"],
+    ] {
+        assert_eq!(
+            code(&render(&[&["--time-budget", "1"], &args[..]].concat())),
+            2,
+            "{args:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_in_view_is_a_warning_after_the_render() {
+    let folder = folder();
+    let output = rtc(&folder, &["render", "away.json"]);
+    assert_eq!(code(&output), 0);
+    assert!(
+        stderr(&output).contains("warning[RD001]: no ray of the camera hit anything"),
+        "{}",
+        stderr(&output)
+    );
+    assert!(folder.path().join("away.png").exists());
+}
+
+#[test]
+fn an_arithmetic_too_coarse_for_the_scene_is_a_warning_at_the_surface() {
+    let folder = folder();
+    let far = SCENE
+        .replace(", 50]", ", 1000050]")
+        .replace("[0, 0, 0], \"right\"", "[0, 0, 1000000], \"right\"");
+    let far = far
+        .replace("[0, 0, 0], \"radius\"", "[0, 0, 1000000], \"radius\"")
+        .replace("40, 60]", "40, 1000060]");
+    fs::write(folder.path().join("far.json"), far).unwrap();
+    let warning = |arithmetic: &str| {
+        let output = rtc(&folder, &["render", "far.json", "--arithmetic", arithmetic]);
+        assert_eq!(code(&output), 0);
+        stderr(&output)
+            .lines()
+            .find(|line| line.contains("RD002"))
+            .map(str::to_owned)
+    };
+    let found = warning("f32").unwrap();
+    assert!(
+        found.contains("in f32 this picture will be wrong: surfaces shade or mirror themselves"),
+        "{found}"
+    );
+    assert_eq!((warning("plain"), warning("robust")), (None, None));
+}

@@ -1,0 +1,176 @@
+//! What of a scene can be turned, and what its effects and its arithmetic cost.
+
+use super::error::{film, picture};
+use super::*;
+
+#[test]
+fn knobs_that_change_nothing_say_why() {
+    let reason = |changes: &[(&str, &str)], knob| study::idle(knob, &scene(changes));
+    assert_eq!(
+        reason(&[], Knob::Aperture).unwrap(),
+        "the lens has no radius"
+    );
+    assert_eq!(reason(&[], Knob::Lights).unwrap(), "no light has a radius");
+    assert_eq!(reason(&[], Knob::Glossy).unwrap(), "no material is glossy");
+    assert_eq!(reason(&[], Knob::Depth), None);
+    assert!(reason(&[("\"ks\": 0.5", "\"ks\": 0")], Knob::Depth).is_some());
+    assert!(reason(&[("\"phong\",", "\"zbuffer\",")], Knob::Supersampling).is_some());
+    assert!(reason(&[("\"phong\",", "\"normal\",")], Knob::Depth).is_some());
+    let soft_and_black = [("[1, 1, 1]}}]", "[0, 0, 0], \"radius\": 3}}]")];
+    assert_eq!(
+        reason(&soft_and_black, Knob::Lights).unwrap(),
+        "soft light: its colour is 0 (E-LIGHT-BLACK)"
+    );
+    let table = study::table(&WHOLE);
+    assert!(
+        table.contains("aperture samples: not used by this scene: the lens has no radius"),
+        "{table}"
+    );
+}
+
+/// If a knob is idle the picture is the same for all its values.
+#[test]
+fn idle_knobs_change_no_bit() {
+    let mut one_ball = scene(&[]);
+    one_ball.surfaces.truncate(1);
+    assert!(
+        study::idle(Knob::Depth, &one_ball).is_some_and(|reason| reason.contains("E-REFL-CONVEX"))
+    );
+    let changed = [
+        scene(&[("\"ks\": 0.5", "\"ks\": 0")]),
+        scene(&[("\"phong\",", "\"normal\",")]),
+    ];
+    let scenes = [scene(&[]), one_ball].into_iter().chain(changed);
+    for scene in scenes {
+        let picture_with = |overrides: Overrides| {
+            let mut scene = scene.clone();
+            overrides.apply(&mut scene);
+            film(&scene)
+        };
+        let plain = film(&scene);
+        for knob in Knob::ALL
+            .into_iter()
+            .filter(|knob| study::idle(*knob, &scene).is_some())
+        {
+            let other = Setting::of(&scene).with(knob, 7);
+            assert!(picture(&scene, other) == plain, "{knob:?}");
+        }
+        assert!(
+            picture_with(Overrides {
+                supersampling: Some(3),
+                ..Overrides::default()
+            }) != plain
+        );
+    }
+}
+
+#[test]
+fn effects_are_what_the_scene_has() {
+    let names: Vec<_> = WHOLE
+        .effects
+        .iter()
+        .map(|cost| cost.effect.as_str())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "shadows",
+            "mirrors and refraction",
+            "highlights and mirrors"
+        ]
+    );
+    assert!(
+        WHOLE
+            .effects
+            .iter()
+            .all(|cost| cost.ray_ratio < 1.0 && cost.difference > 1.0),
+        "{:?}",
+        WHOLE.effects
+    );
+    assert!(
+        WHOLE.effects[0].rays.shadow == 0 && WHOLE.effects[1].rays.mirror == 0,
+        "{:?}",
+        WHOLE.effects
+    );
+    assert!(
+        PART.effects
+            .iter()
+            .any(|cost| cost.effect == "depth of field"
+                && cost.rays.camera * 4 <= PART.own().unwrap().rays.camera)
+    );
+}
+
+#[test]
+fn precision_is_told_against_the_robust_arithmetic() {
+    let names: Vec<_> = WHOLE
+        .precision
+        .iter()
+        .map(|cost| cost.arithmetic.name())
+        .collect();
+    assert_eq!(names, ["robust", "plain", "f32"]);
+    let off: Vec<_> = WHOLE
+        .precision
+        .iter()
+        .map(|cost| cost.difference.rmse)
+        .collect();
+    assert!(off[0] == 0.0 && off[1] < 1e-6 && off[2] > 1e-6, "{off:?}");
+    assert_eq!(WHOLE.precision[0].ratio.value, 1.0);
+}
+
+/// Rows are by a plainer arithmetic only where the plan expects nothing to show, and the error
+/// stays what it was.
+#[test]
+fn precision_is_turned_where_that_adds_no_error() {
+    let dull = [
+        ("\"shadows\": true", "\"shadows\": false"),
+        ("\"ks\": 0.5", "\"ks\": 0"),
+    ];
+    let dull = study_of(&scene(&dull), 1_000_000, 0);
+    for (study, least) in [
+        (&*WHOLE, Arithmetic::Plain),
+        (&*PART, Arithmetic::Plain),
+        (&dull, Arithmetic::F32),
+    ] {
+        let table = study::table(study);
+        let is_borne =
+            |arithmetic: Arithmetic| arithmetic != Arithmetic::F32 || least == Arithmetic::F32;
+        assert!(
+            study
+                .precision
+                .iter()
+                .all(|cost| cost.borne == is_borne(cost.arithmetic)),
+            "{table}"
+        );
+        let by = |arithmetic| {
+            study
+                .rows
+                .iter()
+                .filter(move |row| row.setting.precision == arithmetic)
+        };
+        assert!(
+            by(least).count() > 2 && by(Arithmetic::F32).all(|row| is_borne(row.setting.precision)),
+            "{table}"
+        );
+        for row in by(Arithmetic::Plain).chain(by(Arithmetic::F32)) {
+            let robust = Setting {
+                precision: Arithmetic::Robust,
+                ..row.setting
+            };
+            let beside = by(Arithmetic::Robust)
+                .find(|row| row.setting == robust)
+                .unwrap();
+            assert!(
+                (row.errors.rmse / beside.errors.rmse - 1.0).abs() < 0.02,
+                "{table}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_scene_without_knobs_has_one_row_without_error() {
+    let study = study_of(&scene(&[("\"phong\",", "\"zbuffer\",")]), 1_000_000, 0);
+    assert_eq!(study.rows.len(), 1, "{}", study::table(&study));
+    assert!(study.rows[0].front && study.rows[0].own && study.rows[0].errors.rmse == 0.0);
+    assert!(study::html(&study).contains("</html>"));
+}

@@ -1,0 +1,181 @@
+//! What a study says of accuracy and time, with a clock that ticks once a ray: no machine is too
+//! busy for these.
+
+#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+mod error;
+mod knob;
+mod report;
+
+use rtc::codec;
+use rtc::diag::Sink;
+use rtc::image::Image;
+use rtc::ir::{Overrides, Scene};
+use rtc::pipeline::{self, Options};
+use rtc::plan::{Arithmetic, Plan, Rules};
+use rtc::render::{Job, Step, render};
+use rtc::source::SourceMap;
+use rtc::study::{self, About, Bench, Clock, Effort, Knob, PowerLaw, Row, Setting, Stopped, Study};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{LazyLock, Mutex};
+use std::time::Duration;
+
+/// A mirror ball and a dull one above a floor, with shadows.
+const BALLS: &str = r#"{
+  "irVersion": 1,
+  "camera": {"eye": [0, 10, 60], "center": [0, 2, 0], "right": [0.8, 0, 0], "up": [0, 0.8, 0], "size": [48, 32],
+    "lens": {"radius": 0, "samples": 1}},
+  "settings": {"mode": "phong", "shadows": true, "maxDepth": 1, "supersampling": 2},
+  "lights": [{"point": {"position": [30, 50, 40], "color": [1, 1, 1]}}],
+  "materials": [
+    {"phong": {"color": [1, 0.2, 0.1], "ka": 0.2, "kd": 0.5, "ks": 0.5, "n": 16, "kt": 0, "eta": 1, "glossySamples": 1}},
+    {"phong": {"color": [0.5, 0.6, 0.7], "ka": 0.3, "kd": 0.6, "ks": 0, "n": 1, "kt": 0, "eta": 1, "glossySamples": 1}}],
+  "surfaces": [
+    {"shape": {"sphere": {"center": [-7, 0, 0], "radius": 6}}, "material": 0},
+    {"shape": {"sphere": {"center": [7, 0, 3], "radius": 6}}, "material": 0},
+    {"shape": {"plane": {"center": [0, -6, 0], "normal": [0, 1, 0]}}, "material": 1}]
+}"#;
+
+fn scene(changes: &[(&str, &str)]) -> Scene {
+    let mut text = BALLS.to_owned();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add("balls", text.into_bytes());
+    codec::decode(codec::Form::Text, file, &map, &mut sink)
+        .unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+/// A study by a clock that ticks once a ray.
+fn study_of(scene: &Scene, rays: u64, threads: usize) -> Study {
+    study_by(scene, rays, threads, || 1.0)
+}
+
+/// A study by a clock that ticks so often a ray, another number each time it is read.
+fn study_by(
+    scene: &Scene,
+    rays: u64,
+    threads: usize,
+    mut pace: impl FnMut() -> f64 + Send,
+) -> Study {
+    let traced = AtomicU64::new(0);
+    let mut read = (0, 0.0);
+    let tick = Mutex::new(move |now: u64| {
+        read = (now, read.1 + (now - read.0) as f64 * pace());
+        Duration::from_secs_f64(read.1 * 1e-6)
+    });
+    let clock = || tick.lock().unwrap()(traced.load(Ordering::Relaxed));
+    let proceed = |step: Step| {
+        traced.fetch_add(step.rays, Ordering::Relaxed);
+        true
+    };
+    let bench = Bench::new(
+        threads,
+        Clock {
+            cpu: &clock,
+            wall: &clock,
+        },
+        &proceed,
+    )
+    .unwrap();
+    let about = About {
+        scene: "<balls> & \"floor\"".to_owned(),
+        ..About::default()
+    };
+    study::study(scene, about, Effort(rays), 1, &bench).unwrap()
+}
+
+static WHOLE: LazyLock<Study> = LazyLock::new(|| study_of(&scene(&[]), 8_000_000, 0));
+
+/// With depth of field, and so large that only a part can be looked at.
+static PART: LazyLock<Study> = LazyLock::new(|| {
+    let wide = [
+        ("\"size\": [48, 32]", "\"size\": [120, 80]"),
+        ("0.8", "0.32"),
+        (
+            "{\"radius\": 0, \"samples\": 1}",
+            "{\"radius\": 2, \"samples\": 4}",
+        ),
+    ];
+    study_of(&scene(&wide), 24_000_000, 0)
+});
+
+fn dominates(a: &Row, b: &Row) -> bool {
+    let no_worse = a.errors.rmse <= 1.001 * b.errors.rmse && a.rays.all() <= b.rays.all();
+    no_worse && (a.errors.rmse, a.rays) != (b.errors.rmse, b.rays)
+}
+
+/// Whether each row of the front has less error than those of the front before it.
+fn falls(study: &Study) -> bool {
+    study
+        .rows
+        .iter()
+        .filter(|row| row.front)
+        .is_sorted_by(|a, b| a.errors.rmse > b.errors.rmse)
+}
+
+#[test]
+fn the_front_falls_and_dominates_all_else() {
+    for study in [&*WHOLE, &*PART] {
+        let front: Vec<_> = study.rows.iter().filter(|row| row.front).collect();
+        assert!(front.len() >= 4 && falls(study), "{}", study::table(study));
+        assert!(
+            front.is_sorted_by_key(|row| row.seconds.value),
+            "{}",
+            study::table(study)
+        );
+        for row in study.rows.iter().filter(|row| !row.front) {
+            assert!(
+                front.iter().any(|best| dominates(best, row)),
+                "{}",
+                study::table(study)
+            );
+        }
+    }
+}
+
+#[test]
+fn time_is_told_as_the_clock_has_it() {
+    for row in &WHOLE.rows {
+        let ticks = row.rays.all() as f64 * 1e-6;
+        assert!(
+            (row.seconds.value - ticks).abs() <= 1e-9 && row.seconds.relative() < 1e-9,
+            "{row:?}"
+        );
+    }
+    assert_eq!(WHOLE.own().unwrap().ratio.value, 1.0);
+    for row in &PART.rows {
+        let ticks = row.rays.all() as f64 * 1e-6 / PART.part.share;
+        assert!(
+            (row.seconds.value / ticks - 1.0).abs() < 1e-9,
+            "the time is that of the whole picture: {row:?}"
+        );
+    }
+}
+
+#[test]
+fn a_study_is_the_same_on_any_number_of_threads() {
+    let scene = scene(&[]);
+    let [one, three] = [1, 3].map(|threads| study::json(&study_of(&scene, 1_000_000, threads)));
+    assert!(one == three);
+}
+
+#[test]
+fn a_study_can_be_stopped() {
+    let clock = || Duration::ZERO;
+    let bench = Bench::new(
+        1,
+        Clock {
+            cpu: &clock,
+            wall: &clock,
+        },
+        &|_| false,
+    )
+    .unwrap();
+    assert_eq!(
+        study::study(&scene(&[]), About::default(), Effort::QUICK, 1, &bench).unwrap_err(),
+        Stopped
+    );
+}

@@ -1,0 +1,100 @@
+//! What a study is written as, and the advice in it.
+
+use super::*;
+
+#[test]
+fn json_and_csv_come_back() {
+    for study in [&*WHOLE, &*PART] {
+        let json = study::json(study);
+        let back: Study = serde_json::from_str(&json).unwrap();
+        assert!(study::json(&back) == json && back.rows.len() == study.rows.len());
+        let csv = study::csv(study);
+        let mut lines = csv
+            .split_terminator("\r\n")
+            .map(|line| line.split(',').collect::<Vec<_>>());
+        let names = lines.next().unwrap();
+        let column = |name| names.iter().position(|other| *other == name).unwrap();
+        for (line, row) in lines.by_ref().zip(&study.rows) {
+            assert_eq!(line.len(), names.len());
+            let number = |name| line[column(name)].parse::<f64>().unwrap().to_bits();
+            assert_eq!(number("rmse"), row.errors.rmse.to_bits());
+            assert_eq!(number("seconds_high"), row.seconds.high.to_bits());
+            assert_eq!(line[column("camera_rays")], row.rays.camera.to_string());
+            assert_eq!(line[column("precision")], row.setting.precision.name());
+        }
+        assert!(lines.next().is_none());
+    }
+}
+
+#[test]
+fn the_table_fits_a_terminal() {
+    for study in [&*WHOLE, &*PART] {
+        let table = study::table(study);
+        assert!(
+            table.lines().all(|line| line.chars().count() <= 80),
+            "{table}"
+        );
+        assert!(table.contains("own") && table.contains('*'), "{table}");
+    }
+}
+
+#[test]
+fn the_page_needs_nobody_else() {
+    let page = study::html(&PART);
+    let without_names = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    for foreign in ["http:", "https:", "<script", "<link", "@import", "url("] {
+        assert!(!without_names.contains(foreign), "{foreign}");
+    }
+    assert!(
+        page.contains("name=\"viewport\"") && page.contains("prefers-color-scheme")
+            || page.contains("color-scheme: light dark")
+    );
+    assert!(
+        page.contains("What accuracy costs: &lt;balls&gt; &amp; &quot;floor&quot;")
+            && !page.contains("<balls>")
+    );
+    assert!(
+        page.matches("<svg").count() >= 3 && page.matches("data:image/png;base64,").count() >= 5
+    );
+    assert!(page.contains("<text"), "text of plots stays text");
+}
+
+#[test]
+fn advice_names_a_row_and_judges_the_scenes_own() {
+    let first = &WHOLE.advice[0];
+    assert!(
+        first.contains("error") && first.contains(" for "),
+        "{first}"
+    );
+    assert!(
+        WHOLE
+            .advice
+            .iter()
+            .any(|line| line.starts_with("The scene's own setting, 2×2, depth 1, is "))
+    );
+}
+
+/// Twenty studies by clocks that are off by up to a half recommend the same row, as they would by a
+/// clock that is right, and none has a front that rises.
+#[test]
+fn advice_keeps_still_on_a_noisy_clock() {
+    let recommended = |study: &Study| study.advice[0].split(':').next().unwrap().to_owned();
+    let right = recommended(&study_of(&scene(&[]), 1_000_000, 0));
+    let mut state = 1_u64;
+    let mut noise = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        1.0 + (state >> 11) as f64 / (1_u64 << 54) as f64
+    };
+    let studies: Vec<_> = (0..20)
+        .map(|_| study_by(&scene(&[]), 1_000_000, 0, &mut noise))
+        .collect();
+    assert!(studies.iter().all(falls));
+    let other: Vec<_> = studies
+        .iter()
+        .map(recommended)
+        .filter(|words| *words != right)
+        .collect();
+    assert!(other.len() <= 1, "{right}, but {other:?}");
+}
