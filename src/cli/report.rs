@@ -1,5 +1,5 @@
 //! The report of `rtc compile --explain`: each effect with its verdict, rule, reason and place, and
-//! what it costs in rays.
+//! how often it is simulated: its rays, or its evaluations.
 //!
 //! Rays are counted by tracing: the picture without the rule that left an effect out, less the
 //! picture as planned; on every k-th pixel where the whole would take long.
@@ -154,7 +154,7 @@ impl Report {
     fn table(&self) -> String {
         let mut text = format!(
             "{:<15} {:<7} {:<15} {:>12} {:>12}\n",
-            "effect", "verdict", "rule", "rays", "rays saved"
+            "effect", "verdict", "rule", "count", "saved"
         );
         let about = if self.counter.is_whole() { "" } else { "≈" };
         let rays = |count: u64| {

@@ -15,6 +15,7 @@ pub(super) struct Talk {
     printer: Printer,
     to_stdout: bool,
     quiet: bool,
+    verbose: bool,
 }
 
 impl Talk {
@@ -55,6 +56,7 @@ impl Talk {
             printer: Printer::new(message_format.into(), options),
             to_stdout: false,
             quiet,
+            verbose,
         }
     }
 
@@ -67,6 +69,11 @@ impl Talk {
     /// Tells what follows the last finding.
     pub(super) fn finish(self) -> Result<(), Failure> {
         write(self.to_stdout, &self.printer.finish())
+    }
+
+    /// True if all is wanted that can be told.
+    pub(super) fn is_verbose(&self) -> bool {
+        self.verbose
     }
 
     /// True if only errors are wanted.

@@ -43,6 +43,16 @@ impl Effect {
     /// How many effects there are.
     pub const COUNT: usize = Self::VertexColors as usize + 1;
 
+    /// The effects that pictures of the course alone may have.
+    pub const OF_THE_COURSE: [Self; 6] = [
+        Self::DepthBuffer,
+        Self::NormalBuffer,
+        Self::SoftLight,
+        Self::Highlight,
+        Self::Mirror,
+        Self::GlossyReflection,
+    ];
+
     /// The effects that traced paths may have.
     pub const OF_PATHS: [Self; 24] = [
         Self::Surfaces,

@@ -74,7 +74,7 @@ pub(in crate::cli) struct Talk {
     /// Only errors: no warnings, no progress, no summary
     #[arg(short, long, action = ArgAction::SetTrue, conflicts_with = "verbose")]
     pub(in crate::cli) quiet: bool,
-    /// Notes too
+    /// Notes too, and of a render how often each effect was simulated
     #[arg(short, long, action = ArgAction::SetTrue)]
     pub(in crate::cli) verbose: bool,
 }

@@ -150,7 +150,7 @@ impl Plan {
         let window = self.window(&subject.proven.lowered.scene)?;
         self.find_room(subject, window)?;
         let output = Output::open(path, input)?;
-        let quiet = talk.is_quiet();
+        let (quiet, verbose) = (talk.is_quiet(), talk.is_verbose());
         let shot = match self.goal {
             Goal {
                 error: None,
@@ -171,7 +171,7 @@ impl Plan {
             input.push(findings::nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
-        let summary = shot.summary(path);
+        let summary = shot.summary(path, verbose);
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
         let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);

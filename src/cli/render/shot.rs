@@ -7,9 +7,10 @@ use super::{Plan, Subject, no_threads};
 use crate::diag::Diagnostic;
 use crate::image::Image;
 use crate::pipeline::{self, Meter};
-use crate::plan::Rule;
+use crate::plan::{Effect, Rule};
 use crate::render::{Counts, Crop, Fault, Film, Job};
 use crate::study::{Order, Reached, Samples, Stopped, Watch};
+use indicatif::HumanCount;
 use std::path::Path;
 use std::time::Duration;
 
@@ -24,8 +25,8 @@ pub(super) struct Shot {
 }
 
 impl Shot {
-    /// What is said of it.
-    pub(super) fn summary(&self, path: &Path) -> String {
+    /// What is said of it; if `verbose`, with how often each effect was simulated.
+    pub(super) fn summary(&self, path: &Path, verbose: bool) -> String {
         let Self {
             image,
             counts,
@@ -40,11 +41,19 @@ impl Shot {
             image.width,
             image.height
         );
-        match quality {
-            Some(quality) => format!("{line}\n{quality}"),
-            None => line,
-        }
+        let effects = verbose.then(|| simulated(counts));
+        let lines = [Some(line), effects, quality.clone()];
+        lines.into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
+}
+
+/// How often each effect was simulated: its rays, or its evaluations.
+fn simulated(counts: &Counts) -> String {
+    let effects = Effect::OF_PATHS.into_iter().chain(Effect::OF_THE_COURSE);
+    let counted = effects.map(|effect| (effect.name(), counts.of(effect)));
+    let some = counted.filter(|(_, count)| *count > 0);
+    let words = some.map(|(name, count)| format!("{name} {}", HumanCount(count)));
+    format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
 }
 
 impl Plan {

@@ -68,7 +68,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Volume => "no medium absorbs light",
         Effect::Dispersion => "no material disperses light",
         Effect::Microfacets => "no material reflects at its boundary",
-        Effect::Compensation => "no light between microfacets is asked for",
+        Effect::Compensation => "no light bounces between microfacets",
         Effect::Clearcoat => "no material has a clearcoat",
         Effect::Sheen => "no material has sheen",
         Effect::Anisotropy => "no material is anisotropic",
