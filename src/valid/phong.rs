@@ -30,7 +30,7 @@ pub struct Phong {
 }
 
 /// Textures of a material, as indices into [`super::Proof::textures`].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maps {
     /// The texture that gives the colour.
     pub color: Option<usize>,
@@ -43,7 +43,7 @@ pub struct Maps {
 }
 
 /// A height field over a surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bump {
     /// The texture: an index into [`super::Proof::textures`].
     pub texture: usize,

@@ -46,30 +46,58 @@ impl Grid {
         }
     }
 
+    /// Whether rays start at several points of a lens.
+    pub(in crate::render) fn has_lens(&self) -> bool {
+        self.points > 1
+    }
+
     /// How many samples a pixel takes.
     pub(in crate::render) fn samples(&self) -> u32 {
         let cells = self.factor.saturating_mul(self.factor);
         cells.saturating_mul(self.points)
     }
 
-    /// The cell of a sample, and which point of the lens it takes.
-    pub(in crate::render) fn split(&self, sample: u32) -> (u32, u32) {
-        (sample / self.points, sample % self.points)
+    /// The number of the cell of a sample, and which point of the lens it takes.
+    pub(in crate::render) fn split(&self, sample: u32) -> [u32; 2] {
+        [sample / self.points, sample % self.points]
     }
 
-    /// A cell of a pixel, counted row by row.
+    /// Those of the sample after one.
+    #[inline]
+    pub(in crate::render) fn after(&self, [cell, k]: [u32; 2]) -> [u32; 2] {
+        if k + 1 < self.points {
+            [cell, k + 1]
+        } else {
+            [cell + 1, 0]
+        }
+    }
+
+    /// The column and the row of a cell.
+    pub(in crate::render) fn place_of(&self, cell: u32) -> [u32; 2] {
+        [cell % self.factor, cell / self.factor]
+    }
+
+    /// The column and the row of a cell, given those of the one before.
+    #[inline]
+    pub(in crate::render) fn next_place(&self, cell: u32, [column, row]: [u32; 2]) -> [u32; 2] {
+        match cell {
+            0 => [0, 0],
+            _ if column + 1 < self.factor => [column + 1, row],
+            _ => [0, row + 1],
+        }
+    }
+
+    /// A cell of a pixel, by its column and row.
     pub(in crate::render) fn cell(
         &self,
         camera: &Camera,
         pixel: [u32; 2],
-        cell: u32,
+        [column, row]: [u32; 2],
         seeds: Seeds,
     ) -> Cell {
-        let key = Key::new(pixel, cell.into());
-        let place = self.place(
-            [cell % self.factor, cell / self.factor],
-            key.seeded(seeds.pixel),
-        );
+        let number = u64::from(row) * u64::from(self.factor) + u64::from(column);
+        let key = Key::new(pixel, number);
+        let place = self.place([column, row], key.seeded(seeds.pixel));
         Cell {
             target: image_point(camera, pixel, place),
             twist: Twist::new(seeds.lens, key),

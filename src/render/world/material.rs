@@ -3,7 +3,7 @@
 
 use super::texture::Textures;
 use crate::math::{UnitInterval, Vec3, cos, ln, sin};
-use crate::plan::{PathPlan, Plan, facts};
+use crate::plan::{Effect, PathPlan, Plan, Rule, facts};
 use crate::render::bsdf::dispersed;
 use crate::render::material::phong::{PhongMaps, PhongMaterial};
 use crate::render::material::standard::{
@@ -67,25 +67,36 @@ impl<'plan> PhongList<'plan> {
         }
     }
 
-    /// The material with values for maps that show one, if it has such.
+    /// The material with values for maps that show one, and without maps that do not show at all,
+    /// if it has such.
     fn simplified(&self, material: &Phong) -> Option<Phong> {
         let maps = **material.maps.as_ref()?;
         let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
         let (new_color, scale) = (value(maps.color), value(maps.specular));
-        if new_color.is_none() && scale.is_none() {
+        let (shows, bends) = (
+            self.shows(Effect::Textures),
+            self.shows(Effect::NormalMapping),
+        );
+        let rest = Maps {
+            color: maps.color.filter(|_| shows && new_color.is_none()),
+            specular: maps.specular.filter(|_| shows && scale.is_none()),
+            normal: maps.normal.filter(|_| bends),
+            bump: maps.bump.filter(|_| bends),
+        };
+        if rest == maps {
             return None;
         }
-        let rest = Maps {
-            color: maps.color.filter(|_| new_color.is_none()),
-            specular: maps.specular.filter(|_| scale.is_none()),
-            ..maps
-        };
         Some(Phong {
             color: new_color.unwrap_or(material.color),
             ks: scale.map_or(material.ks, |scale| material.ks.times(scale.x)),
             maps: rest.has_some().then(|| Box::new(rest)),
             ..material.clone()
         })
+    }
+
+    /// Whether maps that have an effect are looked up.
+    fn shows(&self, effect: Effect) -> bool {
+        self.plan.needs(effect) || !self.plan.rules.contains(Rule::TextureUnseen)
     }
 
     pub(super) fn prepared(self, textures: &Textures) -> Vec<PhongMaterial> {

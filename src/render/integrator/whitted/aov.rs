@@ -11,10 +11,10 @@ use crate::render::shape::instance::Asked;
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> Seen {
         let camera = self.scene().camera();
-        let (cell, k) = self.grid.split(id.index);
+        let [cell, k] = self.grid.split(id.index);
         let ray = self
             .grid
-            .cell(camera, id.pixel, cell, Seeds::NONE)
+            .cell(camera, id.pixel, self.grid.place_of(cell), Seeds::NONE)
             .ray(camera, k);
         let first = self.world.nearest(&ray).map(|hit| {
             let view = self.view_of(&ray, hit, Key::new(id.pixel, 0));

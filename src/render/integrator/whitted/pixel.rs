@@ -16,8 +16,11 @@ use crate::render::shape::geometry::Geometry;
 /// What the samples of a pixel share.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PixelState {
-    /// The cell of the sample before.
-    cell: Option<(u32, Cell)>,
+    /// Which cell, and which point of the lens, the sample before took.
+    at: Option<[u32; 2]>,
+    /// The column and the row of that cell.
+    place: [u32; 2],
+    cell: Option<Cell>,
     /// The sample before.
     last: Option<Sample>,
     /// Whether all samples are proven to be equal.
@@ -64,21 +67,12 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         {
             return last;
         }
-        if Self::can(Features::CAMERA) {
-            self.count_samples(id.index);
-        }
-        let grid = if Self::can(Features::CAMERA) {
-            self.grid
-        } else {
-            Grid::MIDDLE
-        };
         let camera = self.scene().camera();
-        let (index, k) = grid.split(id.index);
-        let cell = match self.pixel.cell {
-            Some((known, cell)) if known == index => cell,
-            _ => grid.cell(camera, id.pixel, index, seeds),
+        let (cell, k) = if Self::can(Features::CAMERA) {
+            self.cell_of(id, seeds)
+        } else {
+            (Grid::MIDDLE.cell(camera, id.pixel, [0; 2], seeds), 0)
         };
-        self.pixel.cell = Some((index, cell));
         let key = Key::new(id.pixel, id.index.into()).seeded(seeds.path);
         let sample = self.trace(cell.ray(camera, k), key);
         self.verify_sample(id.pixel, &sample);
@@ -107,14 +101,32 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         };
     }
 
-    /// Counts what this sample is beyond one ray through the eye.
-    fn count_samples(&mut self, index: u32) {
-        if index > 0 {
+    /// The cell of a sample, and which point of the lens it takes. Samples come in order, so that
+    /// of the sample before leads to it.
+    fn cell_of(&mut self, id: &SampleId, seeds: Seeds) -> (Cell, u32) {
+        let before = self.pixel.at;
+        let split = || self.grid.split(id.index);
+        let [at, k] = before.map_or_else(split, |before| self.grid.after(before));
+        self.pixel.at = Some([at, k]);
+        if at > 0 {
             self.counts.add(Effect::Supersampling);
         }
-        if self.scene().camera().lens.radius.get() > 0.0 {
+        if self.grid.has_lens() {
             self.counts.add(Effect::Lens);
         }
+        let cell = match self.pixel.cell {
+            Some(cell) if k > 0 => cell,
+            _ => {
+                self.pixel.place = match before {
+                    Some(_) => self.grid.next_place(at, self.pixel.place),
+                    None => self.grid.place_of(at),
+                };
+                let camera = self.scene().camera();
+                self.grid.cell(camera, id.pixel, self.pixel.place, seeds)
+            }
+        };
+        self.pixel.cell = Some(cell);
+        (cell, k)
     }
 
     fn trace(&mut self, ray: crate::render::ray::Ray, key: Key) -> Sample {
