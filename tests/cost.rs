@@ -6,7 +6,8 @@
 use rtc::codec;
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::{Overrides, Scene};
+use rtc::ir::Scene;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Rules};
 use rtc::render::{Job, Step, render};

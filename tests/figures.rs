@@ -8,7 +8,7 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;

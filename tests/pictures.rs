@@ -12,8 +12,9 @@
 
 use rtc::diag::Sink;
 use rtc::image::Image;
-use rtc::ir::{self, Lowered, Overrides, Scene};
+use rtc::ir::{self, Lowered, Scene};
 use rtc::math::{Double, Vec3, view_basis};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Counts, Film, Geometry, Job, Shape, World, camera_ray, image_point};

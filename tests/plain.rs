@@ -12,8 +12,8 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::ir::Overrides;
 use rtc::math::{Positive, Vec3};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Rules, Symptom, loss};
 use rtc::render::{Film, Geometry, Job, PlainShape, Ray, Real, Shape, Shear};

@@ -19,6 +19,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("ir", 3),
     ("front", 4),
     ("codec", 4),
+    ("passes", 4),
     ("valid", 4),
     ("plan", 5),
     ("render", 6),

@@ -9,7 +9,7 @@
     reason = "a test stops at the first surprise, reads what it checks, and tells what it did"
 )]
 use rtc::diag::{Severity, Sink};
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;

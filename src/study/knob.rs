@@ -2,7 +2,8 @@
 //! scene has.
 
 use super::subject::prove;
-use crate::ir::{Light, Material, Mode, Overrides, Phong, Scene};
+use crate::ir::{Light, Material, Mode, Phong, Scene};
+use crate::passes::Overrides;
 use crate::plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,8 @@
 //! pictures.
 
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::ir::{Lowered, Origins, Scene};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Behind, Film, Job, Seeds, Stride, Values};

@@ -1,11 +1,10 @@
 //! What is said about view and light on one occasion: it replaces the camera, the lights and the
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
-use super::{
+use crate::ir::{
     Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path,
-    PointLight,
+    PointLight, Projection, Punctual, Scene,
 };
-use super::{Projection, Punctual, Scene};
 use crate::math::{
     BasisFault, Vec3, camera_basis, cos, fallback_up, length, sin, unit, unit_scale,
 };

@@ -5,8 +5,8 @@
 //! from the front (+z), 1.2 at most, from above; so a white of 0.8 is nowhere blown. The mean
 //! radiance is 0.57.
 
-use super::{Environment, Image, Light, Material, Pixels, Scene, Shape, Texture};
 use crate::color::srgb_decoded;
+use crate::ir::{Environment, Image, Light, Material, Pixels, Scene, Shape, Texture};
 use crate::math::{Vec3, acos, atan2, cos, sin};
 use glam::DAffine3;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -148,7 +148,7 @@ impl Scene {
             .iter()
             .map(|material| self.emission(material))
             .collect();
-        let strength = |surface: &super::Surface| {
+        let strength = |surface: &crate::ir::Surface| {
             strengths
                 .get(surface.material.0 as usize)
                 .copied()
