@@ -13,7 +13,7 @@ use super::turntable::{self, Turntable};
 use crate::diag::Diagnostic;
 use crate::image::{Image, Layers, Lost, Origin};
 use crate::ir::Scene;
-use crate::passes::Overrides;
+use crate::passes::{self, Overrides};
 use crate::pipeline::{self, Meter, Renderer};
 use crate::plan::{self, Rule, Rules};
 use crate::render::{Counts, Crop, Fault, Film, Job};
@@ -111,10 +111,9 @@ impl Plan {
         let mut set = Ok(());
         let proven = input::require(input, talk, |lowered| {
             self.overrides.apply(&mut lowered.scene);
-            set = self
-                .set
-                .iter()
-                .try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
+            set = self.set.iter().try_for_each(|(name, value)| {
+                passes::set(&mut lowered.scene.settings, name, value)
+            });
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         self.window(&proven.lowered.scene)?;

@@ -1,13 +1,12 @@
 //! What is said about view and light on one occasion: it replaces the camera, the lights and the
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
+use super::{lit, studio};
 use crate::ir::{
-    Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path,
-    PointLight, Projection, Punctual, Scene,
+    Ball, Emitter, Environment, Image, Light, Lowered, Mode, Noun, Path, PointLight, Projection,
+    Punctual, Scene,
 };
-use crate::math::{
-    BasisFault, Vec3, camera_basis, cos, fallback_up, length, sin, unit, unit_scale,
-};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
 
 /// The view and the light; what is not given stays as it is in the scene.
@@ -100,9 +99,9 @@ impl Stage {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             stand_lights(scene);
         }
-        let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !scene.is_lit();
+        let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !lit::is_lit(scene);
         if is_dark {
-            scene.enter_studio();
+            studio::enter(scene);
         }
         Ok(is_dark)
     }
@@ -156,79 +155,6 @@ impl View {
     }
 }
 
-impl Camera {
-    /// The size of a pixel at a distance, if `height` of them span the angle `yfov` (radians).
-    #[must_use]
-    pub fn pixel(yfov: f64, distance: f64, height: u32) -> f64 {
-        2.0 * sin(yfov / 2.0) / cos(yfov / 2.0) * distance / f64::from(height)
-    }
-
-    /// The axis of the world that is nearest to the upward direction.
-    #[must_use]
-    pub fn upright(&self) -> Vec3 {
-        let up = Vec3::from_array(self.up);
-        let better = |best: Vec3, axis: Vec3| {
-            if up.dot(axis).abs() > up.dot(best).abs() {
-                axis
-            } else {
-                best
-            }
-        };
-        let axis = [Vec3::Z, Vec3::X].into_iter().fold(Vec3::Y, better);
-        if up.dot(axis) < 0.0 { -axis } else { axis }
-    }
-
-    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a
-    /// point.
-    #[must_use]
-    pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
-        let (sine, cosine) = (sin(angle), cos(angle));
-        // Rodrigues' formula.
-        let turn =
-            |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
-        let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
-        let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
-        let Self {
-            eye,
-            center,
-            right,
-            up,
-            size,
-            lens,
-            projection,
-        } = self.clone();
-        Self {
-            eye: point(eye),
-            center: point(center),
-            right: step(right),
-            up: step(up),
-            size,
-            lens,
-            projection,
-        }
-    }
-
-    /// From the eye to the plane of the image.
-    fn distance(&self) -> f64 {
-        let [eye, center, right, up] =
-            [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
-        let [right, up] =
-            [right, up].map(|step| unit_scale(step).map_or(Vec3::ZERO, |(scaled, _)| scaled));
-        (center - eye)
-            .dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO))
-            .abs()
-    }
-
-    /// Opens to an angle from bottom to top, in radians, in its place.
-    pub fn open(&mut self, yfov: f64) {
-        let [_, height] = self.size;
-        let scale = Self::pixel(yfov, self.distance(), height) / length(Vec3::from_array(self.up));
-        let scaled = |step: [f64; 3]| step.map(|component| component * scale);
-        (self.right, self.up) = (scaled(self.right), scaled(self.up));
-        self.projection = Projection::Perspective;
-    }
-}
-
 impl Sun {
     fn light(&self) -> Light {
         let Self {
@@ -256,14 +182,6 @@ impl Surroundings {
     }
 }
 
-impl Scene {
-    /// Adds an image.
-    pub fn add_image(&mut self, image: Image) -> ImageId {
-        self.images.push(image);
-        ImageId(u32::try_from(self.images.len() - 1).unwrap_or(u32::MAX))
-    }
-}
-
 /// Has all paths traced, if they are not.
 fn trace_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
@@ -282,7 +200,7 @@ fn leave_paths(scene: &mut Scene) {
     scene.settings.mode = Mode::Phong;
     if scene.lights.is_empty() {
         let key = Sun {
-            direction: super::studio::key().to_array(),
+            direction: studio::key().to_array(),
             irradiance: [PI; 3],
         };
         scene.lights.push(key.light());
@@ -325,60 +243,5 @@ fn as_point(light: &Punctual, ball: Ball) -> PointLight {
         position,
         color: light.intensity.map(|channel| channel * irradiance / PI),
         radius: 0.0,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::ir::Lens;
-
-    fn camera() -> Camera {
-        Camera {
-            eye: [0.0, 0.0, 10.0],
-            center: [0.0; 3],
-            right: [0.5, 0.0, 0.0],
-            up: [0.0, 0.5, 0.0],
-            size: [8, 4],
-            lens: Lens {
-                radius: 0.0,
-                samples: 1,
-            },
-            projection: Projection::Perspective,
-        }
-    }
-
-    #[test]
-    fn an_angle_spans_the_height_of_the_picture() {
-        let mut camera = camera();
-        camera.open(std::f64::consts::FRAC_PI_2);
-        assert!(
-            (4.0 * camera.up[1] - 20.0).abs() < 1e-12
-                && (camera.right[0] - camera.up[1]).abs() < 1e-12
-        );
-    }
-
-    #[test]
-    fn a_turn_of_a_quarter_and_the_axis_that_is_up() {
-        let turned = camera().turned(
-            std::f64::consts::FRAC_PI_2,
-            Vec3::Y,
-            Vec3::new(0.0, 7.0, 0.0),
-        );
-        let near =
-            |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b)) < 1e-12;
-        assert!(
-            near(turned.eye, [10.0, 0.0, 0.0]) && near(turned.right, [0.0, 0.0, -0.5]),
-            "{turned:?}"
-        );
-        assert!(near(turned.up, [0.0, 0.5, 0.0]) && near(turned.center, [0.0; 3]));
-        let tilted = Camera {
-            up: [0.1, 0.2, -0.4],
-            ..camera()
-        };
-        assert_eq!(
-            (camera().upright(), tilted.upright()),
-            (Vec3::Y, Vec3::NEG_Z)
-        );
     }
 }
