@@ -151,7 +151,7 @@ record! {
 pub(super) struct Pattern(ir::Pattern);
 
 /// The words for the patterns.
-pub(super) const PATTERNS: &[(&str, ir::Pattern)] = &[
+const PATTERNS: &[(&str, ir::Pattern)] = &[
     ("grid", ir::Pattern::Grid),
     ("jitter", ir::Pattern::Jitter),
     ("random", ir::Pattern::Random),

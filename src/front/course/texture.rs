@@ -7,7 +7,7 @@ use crate::ir::{Image, ImageId, Mesh, MeshId, Pixels, Scene, Texture, TextureId}
 use std::collections::BTreeMap;
 
 /// The word that stands for the uv of the surface in place of a file.
-pub(super) const UV: &str = "UV";
+const UV: &str = "UV";
 
 /// One white pixel.
 const PLACEHOLDER: [u8; 3] = [255; 3];

@@ -1,8 +1,10 @@
 //! The materials back to text.
 
 use super::Text;
-use crate::front::course::texture::UV;
 use crate::ir::{Bump, Material, Phong, Scene, Texture, TextureId};
+
+/// The word that stands for the uv of the surface in place of a file.
+const UV: &str = "UV";
 
 impl Text {
     pub(super) fn material(

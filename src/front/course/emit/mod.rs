@@ -6,10 +6,10 @@ mod light;
 mod material;
 mod shape;
 
-use super::settings::PATTERNS;
 use crate::ir::{
     Gooch, Light, MaterialId, Mode, Path, Pattern, Projection, Scene, Settings, Surface,
 };
+use crate::math::shortest;
 use std::fmt::Write as _;
 
 /// Writes the scene in the canonical spelling with a `Camera`.
@@ -28,8 +28,8 @@ pub fn emit(scene: &Scene) -> Result<String, String> {
         images,
         textures: _,
         meshes: _,
-        materials,
-        surfaces,
+        materials: _,
+        surfaces: _,
         names: _,
         environment,
     } = scene;
@@ -42,49 +42,8 @@ pub fn emit(scene: &Scene) -> Result<String, String> {
     if let Some(environment) = environment {
         text.environment(environment, images)?;
     }
-    text.line(
-        0,
-        if lights.is_empty() {
-            "Lights: []"
-        } else {
-            "Lights:"
-        },
-    );
-    for light in lights {
-        text.light(light)?;
-    }
-    text.line(
-        0,
-        if surfaces.is_empty() {
-            "Objects: []"
-        } else {
-            "Objects:"
-        },
-    );
-    let mut uses = vec![0_usize; materials.len()];
-    for Surface {
-        material: MaterialId(id),
-        ..
-    } in surfaces
-    {
-        *uses
-            .get_mut(*id as usize)
-            .ok_or("a surface refers to a material that does not exist")? += 1;
-    }
-    let mut written = vec![false; materials.len()];
-    for Surface {
-        shape,
-        material: MaterialId(id),
-    } in surfaces
-    {
-        text.shape(shape, scene)?;
-        let at = *id as usize;
-        match (uses[at] > 1, std::mem::replace(&mut written[at], true)) {
-            (true, true) => text.line(4, &format!("material: *m{id}")),
-            (true, false) => text.material(&format!("material: &m{id}"), &materials[at], scene)?,
-            (false, _) => text.material("material:", &materials[at], scene)?,
-        }
-    }
+    text.lights(lights)?;
+    text.objects(scene)?;
     if text.finite {
         Ok(text.text)
     } else {
@@ -116,12 +75,51 @@ impl Text {
 
     fn number(&mut self, key: &str, value: f64, indent: usize) {
         self.finite &= value.is_finite();
-        self.line(indent, &format!("{key}: {}", number(value)));
+        self.line(indent, &format!("{key}: {}", shortest(value)));
     }
 
     fn numbers(&mut self, key: &str, value: &[f64; 3], indent: usize) {
         self.finite &= value.iter().all(|value| value.is_finite());
         self.line(indent, &format!("{key}: {}", triple(*value)));
+    }
+
+    fn lights(&mut self, lights: &[Light]) -> Result<(), String> {
+        if lights.is_empty() {
+            self.line(0, "Lights: []");
+        } else {
+            self.line(0, "Lights:");
+        }
+        lights.iter().try_for_each(|light| self.light(light))
+    }
+
+    fn objects(&mut self, scene: &Scene) -> Result<(), String> {
+        if scene.surfaces.is_empty() {
+            self.line(0, "Objects: []");
+        } else {
+            self.line(0, "Objects:");
+        }
+        let mut uses = vec![0_usize; scene.materials.len()];
+        for surface in &scene.surfaces {
+            *uses
+                .get_mut(surface.material.0 as usize)
+                .ok_or("a surface refers to a material that does not exist")? += 1;
+        }
+        let mut written = vec![false; uses.len()];
+        for Surface {
+            shape,
+            material: MaterialId(id),
+        } in &scene.surfaces
+        {
+            self.shape(shape, scene)?;
+            let at = *id as usize;
+            let material = &scene.materials[at];
+            match (uses[at] > 1, std::mem::replace(&mut written[at], true)) {
+                (true, true) => self.line(4, &format!("material: *m{id}")),
+                (true, false) => self.material(&format!("material: &m{id}"), material, scene)?,
+                (false, _) => self.material("material:", material, scene)?,
+            }
+        }
+        Ok(())
     }
 
     fn settings(&mut self, settings: &Settings, lights: &[Light]) -> Result<(), String> {
@@ -150,11 +148,10 @@ impl Text {
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));
         self.line(0, "SuperSampling:");
         self.line(2, &format!("factor: {}", factor(mode, *supersampling)?));
-        if let Some((word, _)) = PATTERNS
-            .iter()
-            .find(|(_, known)| known == pattern && *pattern != Pattern::Grid)
-        {
-            self.line(2, &format!("pattern: {word}"));
+        match pattern {
+            Pattern::Grid => {}
+            Pattern::Jitter => self.line(2, "pattern: jitter"),
+            Pattern::Random => self.line(2, "pattern: random"),
         }
         if *light_samples != 1
             || lights
@@ -187,17 +184,6 @@ fn factor(mode: &Mode, supersampling: u32) -> Result<u32, String> {
 }
 
 /// Three numbers as a flow list.
-pub(in crate::front::course) fn triple([x, y, z]: [f64; 3]) -> String {
-    format!("[{}, {}, {}]", number(x), number(y), number(z))
-}
-
-/// The shortest text that reads back as the same number.
-fn number(value: f64) -> String {
-    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
-    // People read 0.0001 and 100000 better than the few characters less.
-    if plain.len() <= scientific.len() + 4 {
-        plain
-    } else {
-        scientific
-    }
+fn triple([x, y, z]: [f64; 3]) -> String {
+    format!("[{}, {}, {}]", shortest(x), shortest(y), shortest(z))
 }

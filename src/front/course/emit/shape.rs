@@ -1,12 +1,11 @@
 //! The shapes back to text.
 
 use super::material::file_name;
-use super::{Text, number, triple};
-use crate::front::course::sphere::{axis_and_angle, texture_from_world};
+use super::{Text, triple};
 use crate::ir::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle,
 };
-use crate::math::{Vec3, unit};
+use crate::math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
 impl Text {
     pub(super) fn shape(&mut self, shape: &Shape, scene: &Scene) -> Result<(), String> {
@@ -97,7 +96,7 @@ impl Text {
             .all(|number| number.is_finite());
         self.line(
             4,
-            &format!("radius: [{}, {}]", number(*radius), triple(axis)),
+            &format!("radius: [{}, {}]", shortest(*radius), triple(axis)),
         );
         self.number("angle", angle, 4);
         Ok(())
@@ -114,7 +113,7 @@ impl Text {
         self.vectors(&[("v0", a), ("v1", b), ("v2", c)]);
         for (key, [u, v]) in ["uv0", "uv1", "uv2"].into_iter().zip(uvs.iter().flatten()) {
             self.finite &= u.is_finite() && v.is_finite();
-            self.line(4, &format!("{key}: [{}, {}]", number(*u), number(*v)));
+            self.line(4, &format!("{key}: [{}, {}]", shortest(*u), shortest(*v)));
         }
     }
 
@@ -150,7 +149,7 @@ impl Text {
 /// none is found, as for a rotation that no text was lowered to.
 fn turn_of(rows: [[f64; 3]; 3]) -> Option<([f64; 3], f64)> {
     let (axis, nearly) = axis_and_angle(rows);
-    let turns = |angle: &f64| texture_from_world(axis, *angle) == Some(rows);
+    let turns = |angle: &f64| turned_to_z(axis, *angle) == Some(rows);
     let digits =
         (0..18).map(|digits: usize| format!("{nearly:.digits$}").parse().unwrap_or(nearly));
     // Halfway between two quarters it counts from which side the angle is written.
