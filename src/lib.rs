@@ -6,7 +6,8 @@
 //! 2. [`source`]: files, their bytes, and spans into them.
 //! 3. [`diag`]: one diagnostic type, the table of codes, the printers.
 //! 4. [`ir`]: the intermediate representation, [`ir::Scene`], with a version.
-//! 5. [`front`] lowers what people write to the IR; [`codec`] turns the IR into bytes and back;
+//! 5. [`front`] lowers what people write to the IR, and [`emit`] writes it back; [`codec`] turns the
+//!    IR into bytes and back;
 //!    [`passes`] change a scene as one run asks; [`valid`] proves a scene sound.
 //! 6. [`plan`]: what the picture really needs, each omission with its reason.
 //! 7. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
@@ -22,6 +23,7 @@ pub mod cli;
 pub mod codec;
 pub mod color;
 pub mod diag;
+pub mod emit;
 pub mod front;
 pub mod image;
 pub mod ir;

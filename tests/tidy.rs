@@ -18,6 +18,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("diag", 2),
     ("ir", 3),
     ("front", 4),
+    ("emit", 4),
     ("codec", 4),
     ("passes", 4),
     ("valid", 4),

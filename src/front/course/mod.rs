@@ -1,5 +1,4 @@
-//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR, and the IR
-//! back to text.
+//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR.
 //!
 //! Each record of the format is declared once, in the file of its noun; the declaration is its
 //! type, its decoder and its schema. Every mistake is collected; none stops the pass.
@@ -9,7 +8,6 @@ mod cone;
 mod cylinder;
 mod decode;
 mod disc;
-mod emit;
 mod environment;
 mod form;
 mod gltf;
@@ -34,7 +32,6 @@ mod tree;
 mod triangle;
 mod value;
 
-pub use emit::emit;
 pub use lower::{Draft, lower};
 pub use page::page;
 pub use schema::schema;

@@ -1,5 +1,5 @@
-//! The IR back to text: the canonical spelling, with a `Camera`, and every number the shortest that
-//! reads back.
+//! The IR back to the YAML of the course: the canonical spelling, with a `Camera`, and every number
+//! the shortest that reads back.
 
 mod camera;
 mod light;
