@@ -4,7 +4,7 @@ use super::Failure;
 use super::args::{self, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::assets;
+use crate::front::course::assets;
 use crate::ir::{Lowered, Scene};
 use crate::passes::{Stage, Surroundings, View};
 use crate::pipeline::{self, Options};

@@ -1,7 +1,6 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language, one for the
-//! files they name, and what decodes pictures within the budget for all of them.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language, and
+//! what decodes pictures within the budget for all of them.
 
-pub mod assets;
 pub mod course;
 pub mod gltf;
 pub mod pixels;

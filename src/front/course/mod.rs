@@ -3,6 +3,7 @@
 //! Each record of the format is declared once, in the file of its noun; the declaration is its
 //! type, its decoder and its schema. Every mistake is collected; none stops the pass.
 
+pub mod assets;
 mod camera;
 mod cone;
 mod cylinder;

@@ -13,8 +13,8 @@ mod scan;
 
 pub use environment::{environment, refusal};
 
-use super::{Asset, Options, Wanted};
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
+use crate::front::{Asset, Options, Wanted};
 use crate::ir::Lowered;
 use crate::source::{
     Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span,
