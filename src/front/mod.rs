@@ -3,6 +3,7 @@
 
 pub mod course;
 pub mod gltf;
+pub mod mesh;
 pub mod pixels;
 
 use crate::ir::{ImageId, MeshId};

@@ -1,54 +1,20 @@
-//! The meshes: OBJ or OFF, told apart by content.
+//! The meshes: their files found and read, each once.
 
-use super::scan::{Fault, Lines, Word};
-use super::{Known, Porter, Wanted, Without, obj, off, over_limit};
+use super::{Known, Porter, Wanted, Without, over_limit};
 use crate::diag::{Diagnostic, codes};
+use crate::front::mesh::{Geometry, MAX_FAULTS, Parsed, Unread, is_mesh, parse};
 use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
-use crate::source::{Budget, Exceeded, FileId, Found, Kind};
+use crate::source::{FileId, Found, Kind};
 use std::collections::BTreeMap;
 
 /// The largest mesh file read, in bytes: some two million triangles.
 const MAX_BYTES: u64 = 1 << 28;
-
-/// So many faults of one file are told.
-pub(super) const MAX_FAULTS: usize = 10;
 
 /// Such files.
 pub(super) const KIND: Kind = Kind {
     extensions: &["obj", "off"],
     begins: is_mesh,
 };
-
-/// A mesh file as read.
-#[derive(Debug, Default)]
-pub(super) struct Parsed {
-    pub(super) mesh: Geometry,
-    /// Elements that don't show: the first, and how many.
-    pub(super) not_drawn: Option<(Fault, usize)>,
-}
-
-/// Why a mesh file can't be read.
-pub(super) enum Unread {
-    /// Its faults in the order of the file, at least one.
-    Faults(Vec<Fault>),
-    /// It would take more than the budget has.
-    Limit(Exceeded),
-}
-
-impl From<Exceeded> for Unread {
-    fn from(fault: Exceeded) -> Self {
-        Self::Limit(fault)
-    }
-}
-
-/// A mesh without a name.
-#[derive(Debug, Default)]
-pub(super) struct Geometry {
-    pub(super) positions: Vec<[f64; 3]>,
-    pub(super) normals: Vec<[f64; 3]>,
-    pub(super) uvs: Vec<[f64; 2]>,
-    pub(super) triangles: Vec<[u32; 3]>,
-}
 
 /// Brings one mesh, or the one that the same file became before, whatever it was called; without a
 /// file it stays empty, and nothing shows of it.
@@ -166,38 +132,4 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId>
             None
         }
     }
-}
-
-/// Whether a file that begins so is a mesh: it starts as OFF, or as OBJ and has a vertex.
-fn is_mesh(head: &[u8]) -> bool {
-    let (mut lines, mut words) = (Lines::new(head), Vec::new());
-    let has_words = lines.next(&mut words);
-    if !has_words || !obj::is_keyword(&words[0]) {
-        return has_words && off::is_head(&words[0]);
-    }
-    let is_vertex = |words: &[Word<'_>]| matches!(words, [Word { bytes: b"v", .. }, x, ..] if x.number().is_ok());
-    while !is_vertex(&words) {
-        if !lines.next(&mut words) {
-            return false;
-        }
-    }
-    true
-}
-
-/// Reads a mesh file of either format.
-fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
-    let mut words = Vec::new();
-    Lines::new(bytes).next(&mut words);
-    let parsed = match words.first() {
-        Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
-        Some(_) | None => obj::parse(bytes, budget)?,
-    };
-    if parsed.mesh.triangles.is_empty() {
-        let fault = words
-            .first()
-            .unwrap_or(&Word::START)
-            .fault("the mesh has no faces", "nothing is drawn");
-        return Err(Unread::Faults(vec![fault]));
-    }
-    Ok(parsed)
 }

@@ -7,9 +7,6 @@ mod environment;
 mod gltf;
 mod image;
 mod mesh;
-mod obj;
-mod off;
-mod scan;
 
 pub use environment::{environment, refusal};
 

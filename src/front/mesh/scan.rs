@@ -13,15 +13,19 @@ pub(super) struct Word<'a> {
 
 /// What is wrong with a mesh file, and where.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub struct Fault {
     start: usize,
     end: usize,
-    pub(super) message: String,
-    pub(super) label: String,
+    /// What is wrong.
+    pub message: String,
+    /// What is here.
+    pub label: String,
 }
 
 impl Fault {
-    pub(super) fn span(&self, file: FileId) -> Span {
+    /// Where it is.
+    #[must_use]
+    pub fn span(&self, file: FileId) -> Span {
         let offset =
             |at: usize| u32::try_from(at).expect("the loader refuses files of 4 GiB and more");
         Span::new(file, offset(self.start), offset(self.end))

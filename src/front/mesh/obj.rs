@@ -5,8 +5,8 @@
 //! Groups and materials make no difference. Corners without a normal, where others have one, are
 //! shaded flat.
 
-use super::mesh::{Geometry, MAX_FAULTS, Parsed, Unread};
 use super::scan::{Fault, Lines, Word, numbers};
+use super::{Geometry, MAX_FAULTS, Parsed, Unread};
 use crate::source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.

@@ -2,8 +2,8 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::mesh::{Geometry, MAX_FAULTS, Parsed, Unread};
 use super::scan::{Fault, Lines, Word, numbers};
+use super::{Geometry, MAX_FAULTS, Parsed, Unread};
 use crate::source::{Budget, Resource};
 
 /// True if the word opens an OFF file of any kind.
