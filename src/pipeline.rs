@@ -7,8 +7,8 @@ pub mod trial;
 pub use meter::Meter;
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
-use crate::front::course::{self, assets};
-use crate::front::{Asset, gltf};
+use crate::front::course::assets::{self, Asset};
+use crate::front::{course, gltf};
 use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene};
 use crate::math::BasisFault;

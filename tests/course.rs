@@ -9,7 +9,8 @@
 use proptest::prelude::*;
 use rtc::diag::Sink;
 use rtc::emit;
-use rtc::front::{Asset, Options, course};
+use rtc::front::course::assets::Asset;
+use rtc::front::{Options, course};
 use rtc::ir::{self, Scene};
 use rtc::math::{Vec3, camera_basis};
 use rtc::source::SourceMap;

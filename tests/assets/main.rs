@@ -13,8 +13,8 @@ mod shared;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
-use rtc::front::course::assets;
-use rtc::front::{Asset, Options, Wanted};
+use rtc::front::Options;
+use rtc::front::course::assets::{self, Asset, Wanted};
 use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::source::{Loader, SourceMap, Span};
 use std::fs;

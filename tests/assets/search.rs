@@ -2,8 +2,8 @@
 
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
 use rtc::diag::Sink;
-use rtc::front::course::assets;
-use rtc::front::{Asset, Options, Wanted};
+use rtc::front::Options;
+use rtc::front::course::assets::{self, Asset, Wanted};
 use rtc::ir::TextureId;
 use rtc::source::{SourceMap, Span};
 use std::fs;

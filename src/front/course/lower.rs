@@ -1,6 +1,7 @@
 //! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
 //! value.
 
+use super::assets::{Asset, Wanted};
 use super::camera;
 use super::decode::{Context, Key, Value};
 use super::mesh;
@@ -9,7 +10,7 @@ use super::settings::Scene;
 use super::texture::Files;
 use super::tree::{self, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{Asset, Options, Wanted};
+use crate::front::Options;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;

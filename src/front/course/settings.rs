@@ -1,5 +1,6 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
+use super::assets::Asset;
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
 use super::environment::Environment;
@@ -12,7 +13,6 @@ use super::schema::Definitions;
 use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
-use crate::front::Asset;
 use crate::ir::{self, Field, Noun};
 use serde_json::{Value as Json, json};
 

@@ -1,8 +1,9 @@
 //! The textures, and the files that images and meshes are to come from: each is wanted once.
 
+use super::assets::{Asset, Wanted};
 use super::decode::Spanned;
 use super::value::FileName;
-use crate::front::{Asset, Wanted};
+
 use crate::ir::{Image, ImageId, Mesh, MeshId, Pixels, Scene, Texture, TextureId};
 use std::collections::BTreeMap;
 

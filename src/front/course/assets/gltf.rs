@@ -1,11 +1,11 @@
 //! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count,
 //! their lights do.
 
-use super::{Known, Porter, Wanted, Without, over_limit};
+use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
-use crate::front::{Options, gltf};
+use crate::front::{Options, gltf, over_limit};
 use crate::ir::{
-    Emitter, Field, ImageId, Light, Lowered, Material, MaterialId, MeshId, Noun, Place, Punctual,
+    Emitter, Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual,
     Scene, Shape, Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
@@ -96,75 +96,96 @@ fn add_asset(
     None
 }
 
-/// Adds what an asset is made of to a scene.
-fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
-    let Lowered {
-        scene: own,
-        origins,
-    } = asset;
-    let Lowered {
-        scene,
-        origins: all,
-    } = lowered;
-    let offset = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
-    let [images, textures] = [scene.images.len(), scene.textures.len()].map(offset);
-    let [meshes, materials] = [scene.meshes.len(), scene.materials.len()].map(offset);
-    for (noun, before, count) in [
-        (Noun::Image, images, own.images.len()),
-        (Noun::Texture, textures, own.textures.len()),
-        (Noun::Mesh, meshes, own.meshes.len()),
-        (Noun::Material, materials, own.materials.len()),
-    ] {
-        for index in 0..count {
-            let place = Place::new(noun, before as usize + index, Field::Whole);
-            all.record(place, origins.span(Place::new(noun, index, Field::Whole)));
+/// How many images, textures, meshes and materials a scene had before an asset came.
+struct Before {
+    images: u32,
+    textures: u32,
+    meshes: u32,
+    materials: u32,
+}
+
+impl Before {
+    fn of(scene: &Scene) -> Self {
+        let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        Self {
+            images: count(scene.images.len()),
+            textures: count(scene.textures.len()),
+            meshes: count(scene.meshes.len()),
+            materials: count(scene.materials.len()),
         }
     }
-    let Scene {
-        images: own_images,
-        textures: own_textures,
-        meshes: own_meshes,
-        materials: own_materials,
-        ..
-    } = own;
-    scene.images.extend(own_images);
-    scene
-        .textures
-        .extend(own_textures.into_iter().map(|texture| match texture {
+
+    /// Keeps the places of what an asset is made of.
+    fn record(&self, asset: &Lowered, origins: &mut Origins) {
+        let Scene {
+            images,
+            textures,
+            meshes,
+            materials,
+            ..
+        } = &asset.scene;
+        for (noun, before, count) in [
+            (Noun::Image, self.images, images.len()),
+            (Noun::Texture, self.textures, textures.len()),
+            (Noun::Mesh, self.meshes, meshes.len()),
+            (Noun::Material, self.materials, materials.len()),
+        ] {
+            for index in 0..count {
+                let place = Place::new(noun, before as usize + index, Field::Whole);
+                let own = Place::new(noun, index, Field::Whole);
+                origins.record(place, asset.origins.span(own));
+            }
+        }
+    }
+
+    fn texture(&self, texture: Texture) -> Texture {
+        match texture {
             Texture::Uv => Texture::Uv,
-            Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + images)),
+            Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + self.images)),
             Texture::Sampled(mut sampled) => {
-                sampled.image.0 += images;
+                sampled.image.0 += self.images;
                 Texture::Sampled(sampled)
             }
-        }));
-    scene.meshes.extend(own_meshes);
+        }
+    }
+
+    fn material(&self, mut material: Material) -> Material {
+        if let Material::Standard(standard) = &mut material {
+            standard
+                .maps_mut()
+                .for_each(|map| map.texture = TextureId(map.texture.0 + self.textures));
+        }
+        material
+    }
+
+    fn surface(&self, mut surface: Surface) -> Surface {
+        if let Shape::Instance(instance) = &mut surface.shape {
+            instance.mesh = MeshId(instance.mesh.0 + self.meshes);
+        }
+        surface.material.0 += self.materials;
+        surface
+    }
+}
+
+/// Adds what an asset is made of to a scene.
+fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
+    let Lowered { scene, origins } = lowered;
+    let before = Before::of(scene);
+    before.record(&asset, origins);
+    let own = asset.scene;
+    let textures = own.textures.into_iter();
+    let materials = own.materials.into_iter();
+    let surfaces = own.surfaces.into_iter();
+    scene.images.extend(own.images);
+    scene
+        .textures
+        .extend(textures.map(|own| before.texture(own)));
+    scene.meshes.extend(own.meshes);
     scene
         .materials
-        .extend(own_materials.into_iter().map(|mut material| {
-            if let Material::Standard(standard) = &mut material {
-                standard
-                    .maps_mut()
-                    .for_each(|map| map.texture = TextureId(map.texture.0 + textures));
-            }
-            material
-        }));
-    let surfaces = own.surfaces.into_iter().map(
-        |Surface {
-             mut shape,
-             material,
-         }| {
-            if let Shape::Instance(instance) = &mut shape {
-                instance.mesh = MeshId(instance.mesh.0 + meshes);
-            }
-            Surface {
-                shape,
-                material: MaterialId(material.0 + materials),
-            }
-        },
-    );
+        .extend(materials.map(|own| before.material(own)));
     Placeable {
-        surfaces: surfaces.collect(),
+        surfaces: surfaces.map(|own| before.surface(own)).collect(),
         names: own.names,
         lights: own.lights,
     }

@@ -1,9 +1,9 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
-use super::{Known, Porter, Wanted, Without, over_limit};
+use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::front::pixels::{self, Refused};
-use crate::image::{DecodeError, Opacity, Pixels, is_picture};
+use crate::image::{Opacity, Pixels, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
 use crate::source::{Found, Kind};
 use std::collections::BTreeMap;
@@ -86,28 +86,8 @@ fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels>
 }
 
 fn refusal(fault: &Refused, found: &Found, wish: &Wanted) -> Diagnostic {
-    let name = found.shown.display();
-    let fault = match fault {
-        Refused::Limit(fault) => {
-            return over_limit(&format!("the texture `{name}`"), fault).at(wish.span, "named here");
-        }
-        Refused::File(fault) => fault,
-    };
-    let message = format!("the texture `{name}` {fault}");
-    let (code, hint) = match fault {
-        DecodeError::Format(_) => (&codes::BAD_PICTURE, "textures are PNG, JPEG or WebP"),
-        DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
-        DecodeError::TooLarge {
-            width: _,
-            height: _,
-        } => (
-            &codes::HUGE_PICTURE,
-            "scale it down, or set another limit by `--limit pixels=…`",
-        ),
-    };
-    Diagnostic::new(code, message)
-        .at(wish.span, "named here")
-        .hint(hint)
+    let what = format!("the texture `{}`", found.shown.display());
+    pixels::refusal(fault, &what, "textures are PNG, JPEG or WebP").at(wish.span, "named here")
 }
 
 /// Makes normal maps of the bump maps that hold normals.

@@ -1,8 +1,9 @@
 //! The meshes: their files found and read, each once.
 
-use super::{Known, Porter, Wanted, Without, over_limit};
+use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
 use crate::front::mesh::{Geometry, MAX_FAULTS, Parsed, Unread, is_mesh, parse};
+use crate::front::over_limit;
 use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
 use crate::source::{FileId, Found, Kind};
 use std::collections::BTreeMap;

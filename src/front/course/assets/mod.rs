@@ -8,16 +8,36 @@ mod gltf;
 mod image;
 mod mesh;
 
-pub use environment::{environment, refusal};
-
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
-use crate::front::{Asset, Options, Wanted};
-use crate::ir::Lowered;
-use crate::source::{
-    Exceeded, FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span,
-};
+use crate::front::Options;
+use crate::ir::{ImageId, Lowered, MeshId};
+use crate::source::{FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+
+/// A file that a scene names, for a place in the IR that waits for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// What the file is for.
+    pub asset: Asset,
+    /// Its path as the scene writes it.
+    pub path: String,
+    /// Where the scene writes it.
+    pub span: Option<Span>,
+}
+
+/// The place in the IR that a file is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asset {
+    /// An image, of one pixel until its file is there.
+    Image(ImageId),
+    /// A mesh, empty until its file is there.
+    Mesh(MeshId),
+    /// The image of the environment, of one dark pixel until its file is there.
+    Environment(ImageId),
+    /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
+    Gltf([[f64; 3]; 4]),
+}
 
 /// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
 ///
@@ -187,15 +207,6 @@ fn kind_of(asset: &Asset) -> &'static Kind {
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,
     }
-}
-
-/// A file asks for more than the budget has.
-fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
-    Diagnostic::new(
-        &codes::OVER_LIMIT,
-        format!("{what} asks for too much: {fault}"),
-    )
-    .hint(fault.hint())
 }
 
 /// True if the last component has a dot within: `cat.obj`, and `cat` has not.
