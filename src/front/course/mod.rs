@@ -21,6 +21,7 @@ mod object;
 mod page;
 mod plane;
 mod quad;
+mod reader;
 mod record;
 mod schema;
 mod settings;

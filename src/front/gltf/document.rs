@@ -1,14 +1,16 @@
 //! A whole asset, typed: every part with the node it was read from, references as indices.
 
 use super::accessor::Accessor;
-use super::animation::{Animation, Channel, Sampler as Keyframes};
+use super::animation::{Animation, Sampler as Keyframes};
 use super::buffer::{Buffer, View};
 use super::camera::Camera;
+use super::channel::Channel;
 use super::field::Fields;
 use super::image::Image;
 use super::json::{NodeId, Tree};
-use super::mesh::{Mesh, Primitive};
+use super::mesh::Mesh;
 use super::node::Node;
+use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
 use std::collections::BTreeSet;

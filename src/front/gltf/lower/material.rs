@@ -3,7 +3,7 @@
 use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::json::Tree;
-use super::super::mesh::Primitive;
+use super::super::primitive::Primitive;
 use super::super::report::Report;
 use super::mesh::to_u32;
 use super::texture::Textures;

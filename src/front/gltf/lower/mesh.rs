@@ -1,9 +1,10 @@
 //! Meshes: the attributes of a primitive as the IR has them; what is the same is made once.
 
+use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::json::NodeId;
-use super::super::mesh::{Attribute, Primitive, TRIANGLES};
+use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::Report;
 use super::shape::{Shape, ShapeId};
 use super::{deform, tangent, topology};

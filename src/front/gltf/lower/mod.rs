@@ -243,7 +243,7 @@ impl Lowering<'_, '_, '_> {
         self.scene.names.push(name.to_owned());
     }
 
-    fn material(&mut self, primitive: &super::mesh::Primitive) -> MaterialId {
+    fn material(&mut self, primitive: &super::primitive::Primitive) -> MaterialId {
         if let Some(known) = self.chosen.get(&primitive.at) {
             return *known;
         }

@@ -1,7 +1,7 @@
 //! The value of one property against what its table says.
 
 use super::walk::Walk;
-use super::{Bounds, Value};
+use super::{Bounds, Pool, Value};
 use crate::diag::codes;
 use crate::front::gltf::json::{Kind, NodeId};
 use std::collections::BTreeSet;
@@ -27,24 +27,7 @@ impl Walk<'_, '_, '_> {
                     self.follow(node, *pool, index);
                 }
             }
-            Value::Indices(pool) => {
-                let mut seen = BTreeSet::new();
-                for item in self.items(node, name) {
-                    let Some(index) = self.item_index(item, name) else {
-                        continue;
-                    };
-                    if !seen.insert(index) {
-                        let message = format!("`{name}` holds {index} twice");
-                        self.report.say(
-                            &codes::GLTF_DUPLICATE,
-                            "DUPLICATE_ELEMENTS",
-                            item,
-                            message,
-                        );
-                    }
-                    self.follow(item, *pool, index);
-                }
-            }
+            Value::Indices(pool) => self.indices(node, *pool, name),
             Value::Attributes => self.attributes(node, name),
             Value::Targets => {
                 for item in self.items(node, name) {
@@ -71,6 +54,22 @@ impl Walk<'_, '_, '_> {
                     }
                 }
             }
+        }
+    }
+
+    fn indices(&mut self, node: NodeId, pool: Pool, name: &str) {
+        let mut seen = BTreeSet::new();
+        for item in self.items(node, name) {
+            let Some(index) = self.item_index(item, name) else {
+                continue;
+            };
+            if !seen.insert(index) {
+                let message = format!("`{name}` holds {index} twice");
+                let alias = "DUPLICATE_ELEMENTS";
+                self.report
+                    .say(&codes::GLTF_DUPLICATE, alias, item, message);
+            }
+            self.follow(item, pool, index);
         }
     }
 
