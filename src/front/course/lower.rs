@@ -7,8 +7,9 @@ use super::decode::{Context, Key, Value};
 use super::mesh;
 use super::record::Found;
 use super::settings::Scene;
+use super::syntax;
 use super::texture::Files;
-use super::tree::{self, NodeId, Shape};
+use super::tree::{self, Mistake, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::Options;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
@@ -21,7 +22,8 @@ use std::collections::BTreeMap;
 /// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so
 /// that the proof can find the mistakes of the rest; the sink has an error for each.
 pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
-    let tree = tree::parse(file, map.bytes(file), sink)?;
+    let tell = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
+    let tree = tree::parse(file, map.bytes(file), tell)?;
     match tree.shape(tree.root()) {
         Shape::Map => {}
         Shape::Word("" | "~" | "null" | "Null" | "NULL") => {

@@ -28,6 +28,7 @@ mod settings;
 mod solid;
 mod spelling;
 mod sphere;
+mod syntax;
 mod texture;
 mod torus;
 mod tree;

@@ -1,26 +1,31 @@
 //! Parser events to nodes, bounded in depth; duplicate keys are found as each map closes.
 
 use super::text::{MAX_WORD, text, to_u32, too_long};
-use super::{Kind, Node, NodeId, Tree, fault, inside_quotes};
-use crate::diag::{Diagnostic, Sink, codes};
+use super::{Kind, Mistake, Node, NodeId, Tree, fault, inside_quotes};
 use crate::source::{FileId, Span};
 use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
 use std::borrow::Cow;
 use std::ops::Range;
 
 /// How deep lists and maps may lie in each other.
-pub(super) const MAX_DEPTH: usize = 128;
+pub(in super::super) const MAX_DEPTH: usize = 128;
 
 /// Maps up to this size are searched for duplicate keys pair by pair; larger ones are sorted.
 const FEW_KEYS: usize = 12;
 
-/// Parses a file into a tree. `None` if it is no YAML document; the sink says why.
+/// Parses a file into a tree; mistakes go to `tell`, the last of them says why there is no tree.
 pub(in super::super) fn parse<'s>(
     file: FileId,
     bytes: &'s [u8],
-    sink: &mut Sink,
+    tell: &mut dyn FnMut(Mistake<'_>),
 ) -> Option<Tree<'s>> {
-    let (source, base) = text(file, bytes, sink)?;
+    let (source, base) = match text(file, bytes) {
+        Ok(text) => text,
+        Err(mistake) => {
+            tell(mistake);
+            return None;
+        }
+    };
     let tree = Tree {
         source,
         base,
@@ -34,7 +39,7 @@ pub(in super::super) fn parse<'s>(
         anchors: Vec::new(),
         ended: false,
         last_end: 0,
-        sink,
+        tell,
     };
     let options = granit_parser::options! {
         flow_nesting_limit: MAX_DEPTH,
@@ -49,7 +54,7 @@ pub(in super::super) fn parse<'s>(
             Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
         };
         if let Err(fault) = step {
-            build.sink.push(*fault);
+            (build.tell)(fault);
             return None;
         }
     }
@@ -70,10 +75,10 @@ struct Build<'s, 'k> {
     ended: bool,
     /// Where the last word or bracket ended: block lists and maps end there too.
     last_end: u32,
-    sink: &'k mut Sink,
+    tell: &'k mut dyn FnMut(Mistake<'_>),
 }
 
-type Step = Result<(), Box<Diagnostic>>;
+type Step = Result<(), Mistake<'static>>;
 
 impl<'s> Build<'s, '_> {
     fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
@@ -94,14 +99,8 @@ impl<'s> Build<'s, '_> {
             self.end(end);
             Ok(())
         } else if matches!(event, Event::DocumentStart(..)) && self.ended {
-            Err(Box::new(
-                Diagnostic::new(
-                    &codes::TWO_DOCUMENTS,
-                    "a second document starts in this file",
-                )
-                .at(self.span(start, end), "the second document")
-                .hint("keep one scene a file, or remove the `---`"),
-            ))
+            let span = self.span(start, end);
+            Err(Mistake::TwoDocuments { span })
         } else {
             self.ended |= matches!(event, Event::DocumentEnd);
             Ok(())
@@ -114,11 +113,8 @@ impl<'s> Build<'s, '_> {
 
     fn tag(&mut self, tagged: bool, start: u32, end: u32) {
         if tagged {
-            let finding = Diagnostic::new(&codes::TAG, "a tag has no meaning in a scene");
-            self.sink.push(finding.at(
-                self.span(start, end.max(start + 1)),
-                "read as if it had no tag",
-            ));
+            let span = self.span(start, end.max(start + 1));
+            (self.tell)(Mistake::Tag { span });
         }
     }
 
@@ -129,12 +125,10 @@ impl<'s> Build<'s, '_> {
         style: ScalarStyle,
         start: u32,
         end: u32,
-    ) -> Result<(Kind, u32), Box<Diagnostic>> {
+    ) -> Result<(Kind, u32), Mistake<'static>> {
         if value.len() > MAX_WORD {
-            return Err(Box::new(too_long(
-                self.tree.file,
-                (start + self.tree.base) as usize,
-            )));
+            let at = start + self.tree.base;
+            return Err(too_long(self.tree.file, at as usize));
         }
         let is_written = |range: Range<u32>| self.tree.written(range) == Some(value.as_ref());
         let kind = match style {
@@ -175,14 +169,10 @@ impl<'s> Build<'s, '_> {
             .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
         let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
         if self.open.iter().any(|open| open.node == target) {
-            return Err(Box::new(
-                Diagnostic::new(&codes::SELF_ALIAS, "an alias refers to what it stands in")
-                    .at(self.span(start, end), "this would never end")
-                    .also(
-                        self.span(self.tree.node(target).start, start),
-                        "the anchor stands before this",
-                    ),
-            ));
+            return Err(Mistake::SelfAlias {
+                span: self.span(start, end),
+                anchor: self.span(self.tree.node(target).start, start),
+            });
         }
         self.last_end = end;
         self.push(
@@ -206,9 +196,8 @@ impl<'s> Build<'s, '_> {
         end: u32,
     ) -> Step {
         if self.open.len() >= MAX_DEPTH {
-            return Err(Box::new(fault::too_deep(
-                self.span(start, end.max(start + 1)),
-            )));
+            let span = self.span(start, end.max(start + 1));
+            return Err(Mistake::TooDeep { span });
         }
         self.last_end = end;
         let node = self.push(
@@ -280,7 +269,11 @@ impl<'s> Build<'s, '_> {
             }
         }
         for (first, second) in found {
-            self.sink.push(duplicate(&self.tree, first, second));
+            (self.tell)(Mistake::DuplicateKey {
+                key: self.tree.text(second).unwrap_or_default(),
+                first: self.tree.span(first),
+                second: self.tree.span(second),
+            });
         }
     }
 
@@ -296,24 +289,10 @@ impl<'s> Build<'s, '_> {
     fn finish(self) -> Option<Tree<'s>> {
         if self.tree.nodes.is_empty() {
             let end = to_u32(self.tree.source.len()) + self.tree.base;
-            self.sink.push(
-                Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene")
-                    .at(Span::new(self.tree.file, end, end), "the end of the file")
-                    .hint("a scene has at least a `Camera`, `Lights` and `Objects`"),
-            );
+            let span = Span::new(self.tree.file, end, end);
+            (self.tell)(Mistake::Empty { span });
             return None;
         }
         Some(self.tree)
     }
-}
-
-fn duplicate(tree: &Tree<'_>, first: NodeId, second: NodeId) -> Diagnostic {
-    let key = crate::diag::clip(tree.text(second).unwrap_or_default());
-    Diagnostic::new(
-        &codes::DUPLICATE_KEY,
-        format!("the key `{key}` stands here twice"),
-    )
-    .at(tree.span(second), "again")
-    .also(tree.span(first), "first")
-    .hint("remove one of them")
 }

@@ -1,18 +1,16 @@
 //! What the YAML parser refuses, in words a person who wrote the text understands.
 
-use super::build::MAX_DEPTH;
 use super::text::to_u32;
-use super::{NodeId, Tree};
-use crate::diag::{Diagnostic, codes};
+use super::{Mistake, NodeId, Tree};
 use crate::source::Span;
 use granit_parser::{ErrorKind, ScanError};
 
-/// The finding for a text that is not YAML; `bracket` is the innermost one still open.
+/// The mistake in a text that is not YAML; `bracket` is the innermost one still open.
 pub(super) fn syntax(
     tree: &Tree<'_>,
     bracket: Option<NodeId>,
     error: &ScanError,
-) -> Box<Diagnostic> {
+) -> Mistake<'static> {
     let at = tree
         .source
         .floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
@@ -26,29 +24,23 @@ pub(super) fn syntax(
         tree.written(span.start - tree.base..to_u32(at))
             .is_some_and(|text| text.contains('\n'))
     };
-    Box::new(match bracket {
-        _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => too_deep(here),
+    let unclosed = |bracket, runs_into| Mistake::Unclosed { bracket, runs_into };
+    match bracket {
+        _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
         Some(bracket) if ends_early(kind) => unclosed(bracket, None),
         Some(bracket) if runs_on(kind) && ran_on(&bracket) => unclosed(bracket, Some(here)),
         bracket => {
             let (message, label, hint) = words(kind);
-            let finding = Diagnostic::new(&codes::SYNTAX, message)
-                .at(here, label)
-                .hint(hint);
-            finding.also(bracket, "inside what this bracket opens")
+            Mistake::Syntax {
+                message,
+                label,
+                hint,
+                span: here,
+                bracket,
+            }
         }
-    })
-}
-
-/// The finding for lists and maps nested too deep.
-pub(super) fn too_deep(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        &codes::NESTED_TOO_DEEP,
-        format!("lists and maps lie more than {MAX_DEPTH} deep in each other"),
-    )
-    .at(span, "too deep here")
-    .hint("a scene needs a depth of 6")
+    }
 }
 
 fn character_at(tree: &Tree<'_>, at: usize) -> Span {
@@ -59,13 +51,6 @@ fn character_at(tree: &Tree<'_>, at: usize) -> Span {
         .filter(|next| *next != '\n');
     let end = at + next.map_or(0, char::len_utf8);
     Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
-}
-
-fn unclosed(bracket: Span, runs_into: Option<Span>) -> Diagnostic {
-    Diagnostic::new(&codes::UNCLOSED, "a bracket is never closed")
-        .at(bracket, "opened here")
-        .also(runs_into, "what follows was taken to be inside")
-        .hint("close it with `]` or `}` after its last item")
 }
 
 fn ends_early(kind: &ErrorKind) -> bool {

@@ -6,9 +6,11 @@
 
 mod build;
 mod fault;
+mod mistake;
 mod text;
 
-pub(super) use build::parse;
+pub(super) use build::{MAX_DEPTH, parse};
+pub(super) use mistake::Mistake;
 
 use crate::source::{FileId, Span};
 use std::ops::Range;
@@ -170,15 +172,12 @@ fn inside_quotes(start: u32, end: u32) -> Range<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diag::Sink;
     use crate::source::SourceMap;
 
     fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
         let mut map = SourceMap::default();
         let file = map.add("t", text.as_bytes().to_vec());
-        let mut sink = Sink::default();
-        let tree = parse(file, map.bytes(file), &mut sink).unwrap();
-        assert!(sink.kept().is_empty(), "{:?}", sink.kept());
+        let tree = parse(file, map.bytes(file), &mut |mistake| panic!("{mistake:?}")).unwrap();
         look(&tree)
     }
 

@@ -1,50 +1,33 @@
 //! From bytes to text that is fit to parse: UTF-8, no control characters, no absurd word.
 
-use crate::diag::{Diagnostic, Sink, codes};
+use super::Mistake;
 use crate::source::{FileId, Span};
 
 /// The longest run of bytes without a separator, and the longest word at all.
 pub(super) const MAX_WORD: usize = 1 << 20;
 
 /// The text of a file and the offset its first byte has there; the byte order mark is skipped.
-pub(super) fn text<'s>(file: FileId, bytes: &'s [u8], sink: &mut Sink) -> Option<(&'s str, u32)> {
-    let fault = match decode(file, bytes) {
-        Ok(text) => {
-            let body = text.strip_prefix('\u{feff}').unwrap_or(text);
-            let base = text.len() - body.len();
-            match unfit(file, body, base) {
-                None => return Some((body, to_u32(base))),
-                Some(fault) => fault,
-            }
-        }
-        Err(fault) => *fault,
-    };
-    sink.push(fault);
-    None
+pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), Mistake<'static>> {
+    let text = decode(file, bytes)?;
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let base = text.len() - body.len();
+    match unfit(file, body, base) {
+        None => Ok((body, to_u32(base))),
+        Some(mistake) => Err(mistake),
+    }
 }
 
-fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Box<Diagnostic>> {
+fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Mistake<'static>> {
     if looks_like_utf16(bytes) {
         let span = Span::new(file, 0, to_u32(bytes.len().min(2)));
-        let finding = Diagnostic::new(&codes::NOT_UTF8, "this file is UTF-16, not UTF-8");
-        let hint = "save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`";
-        return Err(Box::new(
-            finding
-                .at(span, "two bytes a character from here on")
-                .hint(hint),
-        ));
+        return Err(Mistake::Utf16 { span });
     }
     std::str::from_utf8(bytes).map_err(|error| {
         let at = error.valid_up_to();
-        let byte = bytes.get(at).copied().unwrap_or_default();
-        let message = format!("this file is not UTF-8: byte 0x{byte:02x} at offset {at}");
-        let finding = Diagnostic::new(&codes::NOT_UTF8, message);
-        let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
-        Box::new(
-            finding
-                .at(Span::new(file, to_u32(at), to_u32(at + 1)), "not UTF-8")
-                .hint(hint),
-        )
+        Mistake::NotUtf8 {
+            byte: bytes.get(at).copied().unwrap_or_default(),
+            span: Span::new(file, to_u32(at), to_u32(at + 1)),
+        }
     })
 }
 
@@ -87,7 +70,7 @@ const fn classes() -> [Class; 256] {
 }
 
 /// The first character that no YAML text may hold, or the start of a word too long to be one.
-fn unfit(file: FileId, text: &str, base: usize) -> Option<Diagnostic> {
+fn unfit(file: FileId, text: &str, base: usize) -> Option<Mistake<'static>> {
     let bytes = text.as_bytes();
     let mut word_start = 0;
     // In pieces, so that a word of many pieces is seen after two of them.
@@ -111,22 +94,19 @@ fn unfit(file: FileId, text: &str, base: usize) -> Option<Diagnostic> {
     None
 }
 
-fn control(file: FileId, at: usize, length: usize, character: u32) -> Diagnostic {
-    let span = Span::new(file, to_u32(at), to_u32(at + length));
-    Diagnostic::new(
-        &codes::CONTROL_CHARACTER,
-        format!("control character U+{character:04X}"),
-    )
-    .at(span, "not allowed in YAML")
-    .replace("remove it", span, "")
+fn control(file: FileId, at: usize, length: usize, character: u32) -> Mistake<'static> {
+    Mistake::Control {
+        character,
+        span: Span::new(file, to_u32(at), to_u32(at + length)),
+    }
 }
 
-/// A finding about a word of more than a MiB that starts at `at`.
-pub(super) fn too_long(file: FileId, at: usize) -> Diagnostic {
+/// A word of more than a MiB starts at `at`.
+pub(super) fn too_long(file: FileId, at: usize) -> Mistake<'static> {
     let at = to_u32(at);
-    Diagnostic::new(&codes::TOO_LONG, "a word of more than a MiB")
-        .at(Span::new(file, at, at + 1), "it starts here")
-        .hint("is this a scene file?")
+    Mistake::TooLong {
+        span: Span::new(file, at, at + 1),
+    }
 }
 
 /// An offset as spans hold it; the loader refuses files of 4 GiB and more.
