@@ -9,10 +9,10 @@ use super::record::Found;
 use super::settings::Scene;
 use super::syntax;
 use super::texture::Files;
-use super::tree::{self, Mistake, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::Options;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
+use crate::source::tree::yaml::{self as tree, Mistake, NodeId, Shape};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 

@@ -31,7 +31,7 @@ mod sphere;
 mod syntax;
 mod texture;
 mod torus;
-mod tree;
+
 mod triangle;
 mod value;
 

@@ -17,13 +17,13 @@ use super::solid::{Cuboid, Prism, Tetrahedron};
 use super::spelling::{list, nearest};
 use super::sphere::Sphere;
 use super::torus::Torus;
-use super::tree::NodeId;
 use super::triangle::Triangle;
 use super::value::Text;
 use crate::diag::clip;
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
+use crate::source::tree::yaml::NodeId;
 use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.

@@ -5,10 +5,10 @@ use super::decode::{Context, Entry, Key, describe};
 use super::form;
 use super::record::{Field, Found, Need, Record, Slot};
 use super::spelling::{list, nearest};
-use super::tree::NodeId;
 use crate::diag::clip;
 use crate::diag::codes;
 use crate::source::Span;
+use crate::source::tree::yaml::NodeId;
 use std::collections::BTreeSet;
 
 /// So many findings get a suggestion.

@@ -10,10 +10,10 @@ use super::number::{Count, Natural, Real, plain_number};
 use super::object::Object;
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
-use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun};
+use crate::source::tree::yaml::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 record! {

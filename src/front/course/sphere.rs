@@ -6,11 +6,11 @@ use super::material::Material;
 use super::number::{Positive, Real, json_number};
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
-use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir::{self, Field};
 use crate::math::{Vec3, turned_to_z, unit};
+use crate::source::tree::yaml::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 record! {

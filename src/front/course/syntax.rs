@@ -1,8 +1,8 @@
 //! Mistakes in a YAML text as findings.
 
-use super::tree::{MAX_DEPTH, Mistake};
 use crate::diag::{Code, Diagnostic, clip, codes};
 use crate::source::Span;
+use crate::source::tree::yaml::{MAX_DEPTH, Mistake};
 
 /// The finding about a mistake.
 pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {

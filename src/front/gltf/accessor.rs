@@ -3,10 +3,10 @@
 use super::buffer::{Purpose, Purposes};
 use super::document::Document;
 use super::field::Fields;
-use super::json::{Kind, NodeId};
 use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::json::{Kind, NodeId};
 
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;

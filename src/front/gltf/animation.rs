@@ -6,11 +6,11 @@ use super::channel::{self, Channel, Path};
 use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::layout::{Component, Layout};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use std::collections::BTreeMap;
 
 /// An animation.

@@ -4,11 +4,11 @@ use super::accessor::Accessor;
 use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::layout::{Component, Layout};
 use super::primitive::Primitive;
 use super::report::{Report, shown};
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an accessor is to the vertices.

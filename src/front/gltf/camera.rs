@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 
 /// A camera; it looks along its negative z axis, y is up.
 #[derive(Debug)]

@@ -5,12 +5,12 @@ use super::animation::{Animation, Interpolation, Links};
 use super::demand::Demand;
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::layout::{Component, Layout};
 use super::mesh::Mesh;
 use super::node::Transform;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 
 /// What moves, and how.
 #[derive(Debug)]

@@ -1,9 +1,9 @@
 //! Demands: what each use of an accessor asks of its elements.
 
 use super::elements::Elements;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 
 /// How far a vector of three or four components may be from length 1: what 8 bits a component
 /// allow.

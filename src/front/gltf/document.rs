@@ -7,12 +7,12 @@ use super::camera::Camera;
 use super::channel::Channel;
 use super::field::Fields;
 use super::image::Image;
-use super::json::{NodeId, Tree};
 use super::mesh::Mesh;
 use super::node::Node;
 use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
+use crate::source::tree::json::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// An asset.
@@ -80,7 +80,7 @@ pub(super) fn cost(json: &Tree<'_>) -> u64 {
         .iter()
         .map(|(count, size)| *count as u64 * *size as u64)
         .sum();
-    parts.saturating_add(VALUE * json.len() as u64)
+    parts.saturating_add(VALUE * json.count() as u64)
 }
 
 impl Document<'_> {

@@ -4,11 +4,11 @@
 use super::buffer::{Bytes, Stretch, View, stretch};
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
+use crate::source::tree::json::NodeId;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

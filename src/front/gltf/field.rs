@@ -1,7 +1,7 @@
 //! The properties of an object as values, once its shape was checked: what is absent or wrong is
 //! simply not there.
 
-use super::json::{Kind, NodeId, Tree};
+use crate::source::tree::json::{Kind, NodeId, Tree};
 
 /// The object at a node.
 #[derive(Clone, Copy)]

@@ -1,10 +1,10 @@
 //! What an asset says about itself: its version and its extensions.
 
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::{Report, shown};
 use super::schema;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
@@ -115,7 +115,10 @@ pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
     major == 2
 }
 
-fn version(asset: Fields<'_, '_>, key: &str) -> Option<(super::json::NodeId, (u64, u64))> {
+fn version(
+    asset: Fields<'_, '_>,
+    key: &str,
+) -> Option<(crate::source::tree::json::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
     let number = |digits: &str| {

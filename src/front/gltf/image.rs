@@ -4,12 +4,12 @@ use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
 use super::features;
 use super::field::Fields;
-use super::json::{Kind, NodeId};
 use super::report::Report;
 use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity};
 use crate::ir;
+use crate::source::tree::json::{Kind, NodeId};
 use crate::source::{Budget, Exceeded};
 use std::collections::BTreeMap;
 

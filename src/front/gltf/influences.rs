@@ -2,10 +2,10 @@
 
 use super::document::Document;
 use super::elements::Elements;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
+use crate::source::tree::json::NodeId;
 use std::collections::BTreeSet;
 
 /// What is wrong with the joints of some vertex, and where it was seen first.

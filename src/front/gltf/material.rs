@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::{Kind, NodeId, Tree};
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::json::{Kind, NodeId, Tree};
 
 /// Each texture of a material with the set of texture coordinates it asks for.
 pub(super) fn texture_coordinates(

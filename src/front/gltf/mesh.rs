@@ -4,11 +4,11 @@ use super::buffer::Purposes;
 use super::demand::Demands;
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::primitive::{self, Primitive};
 use super::report::Report;
 use super::usage::Usages;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use std::collections::BTreeMap;
 
 /// A mesh.

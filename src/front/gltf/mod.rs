@@ -22,7 +22,7 @@ mod field;
 mod header;
 mod image;
 mod influences;
-mod json;
+
 mod layout;
 mod light;
 mod lower;
@@ -44,12 +44,12 @@ pub(super) use lower::SURFACE;
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
+use crate::source::tree::json::{self, Tree};
 use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
 use demand::Demands;
 use document::Document;
-use json::Tree;
 use report::Report;
 use resource::Resources;
 use usage::Usages;
@@ -101,7 +101,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
     keys_twice(&tree, sink);
     let mut report = Report::new(&tree, sink, options, map.budget());
     let root = tree.root();
-    let is_small = report.charge(Resource::Nodes, tree.len() as u64, root, "the asset")
+    let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
         && report.charge(Resource::Memory, document::cost(&tree), root, "the asset");
     if !is_small {
         return None;

@@ -7,13 +7,13 @@ use super::buffer::Purpose;
 use super::demand::Demand;
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::layout::Layout;
 use super::material;
 use super::mesh::Links;
 use super::report::Report;
 use super::usage::Usage;
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 
 /// The mode of triangles.
 pub(super) const TRIANGLES: u64 = 4;

@@ -4,10 +4,10 @@
 use super::buffer::Bytes;
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::{Report, shown};
 use super::uri::{self, Fault, Uri};
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use crate::source::{Identity, Loader, Missing, Search, SourceMap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};

@@ -6,12 +6,12 @@ use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
 use super::influences;
-use super::json::NodeId;
 use super::layout::{Component, Layout};
 use super::node::{Forest, Node, Transform};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
+use crate::source::tree::json::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.

@@ -3,13 +3,13 @@
 use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::json::NodeId;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::Report;
 use super::shape::{Shape, ShapeId};
 use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
+use crate::source::tree::json::NodeId;
 use std::collections::BTreeMap;
 
 /// Bytes that a corner of a triangle takes, and a triangle until it is rendered.

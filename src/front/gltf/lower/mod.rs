@@ -15,13 +15,13 @@ mod topology;
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
 use crate::front::Options;
 use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
 use crate::math::Vec3;
 use crate::source::Resource;
+use crate::source::tree::json::NodeId;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;

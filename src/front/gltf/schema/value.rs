@@ -3,7 +3,7 @@
 use super::walk::Walk;
 use super::{Bounds, Pool, Value};
 use crate::diag::codes;
-use crate::front::gltf::json::{Kind, NodeId};
+use crate::source::tree::json::{Kind, NodeId};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {

@@ -4,8 +4,8 @@
 use super::core::ROOT;
 use super::{Key, Object, POOLS, Pool, extension};
 use crate::diag::codes;
-use crate::front::gltf::json::{Kind, NodeId};
 use crate::front::gltf::report::{Report, shown};
+use crate::source::tree::json::{Kind, NodeId};
 use std::collections::BTreeSet;
 
 /// The properties of an asset that say what the others are.

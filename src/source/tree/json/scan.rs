@@ -12,11 +12,11 @@ const FEW_KEYS: usize = 12;
 
 /// Why a text is no tree, and where.
 #[derive(Debug, PartialEq, Eq)]
-pub(in super::super) struct Fault {
+pub struct Fault {
     /// The offset in the text of the first byte that can't be.
-    pub(in super::super) at: usize,
+    pub at: usize,
     /// What is wrong.
-    pub(in super::super) what: &'static str,
+    pub what: &'static str,
 }
 
 impl From<(usize, &'static str)> for Fault {
@@ -29,7 +29,7 @@ impl From<(usize, &'static str)> for Fault {
 ///
 /// # Errors
 /// The first fault.
-pub(in super::super) fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
+pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
     let tree = Tree {
         text,
         base,

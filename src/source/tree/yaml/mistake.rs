@@ -4,7 +4,7 @@ use crate::source::Span;
 
 /// A mistake in a YAML text. All but tags and duplicate keys leave no tree.
 #[derive(Debug)]
-pub(in super::super) enum Mistake<'t> {
+pub enum Mistake<'t> {
     /// The file is UTF-16.
     Utf16 {
         /// Its first two bytes.

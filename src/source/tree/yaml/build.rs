@@ -8,13 +8,13 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// How deep lists and maps may lie in each other.
-pub(in super::super) const MAX_DEPTH: usize = 128;
+pub const MAX_DEPTH: usize = 128;
 
 /// Maps up to this size are searched for duplicate keys pair by pair; larger ones are sorted.
 const FEW_KEYS: usize = 12;
 
 /// Parses a file into a tree; mistakes go to `tell`, the last of them says why there is no tree.
-pub(in super::super) fn parse<'s>(
+pub fn parse<'s>(
     file: FileId,
     bytes: &'s [u8],
     tell: &mut dyn FnMut(Mistake<'_>),

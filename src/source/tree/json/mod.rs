@@ -7,7 +7,7 @@
 mod scan;
 mod text;
 
-pub(super) use scan::parse;
+pub use scan::parse;
 
 use crate::source::{FileId, Span};
 use std::borrow::Cow;
@@ -15,11 +15,11 @@ use std::collections::BTreeMap;
 
 /// Names a node of a [`Tree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct NodeId(u32);
+pub struct NodeId(u32);
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// `null`.
     Null,
     /// `true` or `false`.
@@ -36,7 +36,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// As messages call it.
-    pub(super) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Null => "null",
             Self::Truth => "a truth value",
@@ -63,7 +63,7 @@ struct Node {
 
 /// A parsed text; offsets are those of the text, spans those of the file.
 #[derive(Debug)]
-pub(super) struct Tree<'s> {
+pub struct Tree<'s> {
     text: &'s str,
     base: u32,
     file: FileId,
@@ -80,12 +80,12 @@ const LONG_POINTER: usize = 512;
 
 impl<'s> Tree<'s> {
     /// The node of the whole document.
-    pub(super) fn root(&self) -> NodeId {
+    pub fn root(&self) -> NodeId {
         NodeId(0)
     }
 
     /// How many values there are, and keys.
-    pub(super) fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.nodes.len()
     }
 
@@ -94,18 +94,18 @@ impl<'s> Tree<'s> {
     }
 
     /// What the node is.
-    pub(super) fn kind(&self, id: NodeId) -> Kind {
+    pub fn kind(&self, id: NodeId) -> Kind {
         self.node(id).kind
     }
 
     /// Where the node was written.
-    pub(super) fn span(&self, id: NodeId) -> Span {
+    pub fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);
         Span::new(self.file, node.start + self.base, node.end + self.base)
     }
 
     /// As written.
-    pub(super) fn written(&self, id: NodeId) -> &'s str {
+    pub fn written(&self, id: NodeId) -> &'s str {
         let node = self.node(id);
         self.text
             .get(node.start as usize..node.end as usize)
@@ -113,7 +113,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The items of a list; of a map, its keys and values in turn.
-    pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+    pub fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let node = self.node(id);
         let end = if matches!(node.kind, Kind::List | Kind::Map) {
             node.after
@@ -125,7 +125,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The items of the list that `key` of a map holds; none if there is no such list.
-    pub(super) fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
+    pub fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
         let list = self
             .get(map, key)
             .filter(|list| self.kind(*list) == Kind::List);
@@ -133,7 +133,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The keys and values of a map; of anything else, nothing.
-    pub(super) fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
+    pub fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
         let mut items = self.items(id).take(if self.kind(id) == Kind::Map {
             usize::MAX
         } else {
@@ -143,7 +143,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The value of `key` in a map.
-    pub(super) fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
+    pub fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
         let Some(sorted) = self.wide.get(&map) else {
             return self
                 .pairs(map)
@@ -158,33 +158,33 @@ impl<'s> Tree<'s> {
     }
 
     /// The value at the end of a way of keys.
-    pub(super) fn at(&self, map: NodeId, keys: &[&str]) -> Option<NodeId> {
+    pub fn at(&self, map: NodeId, keys: &[&str]) -> Option<NodeId> {
         keys.iter().try_fold(map, |map, key| self.get(map, key))
     }
 
     /// The value of `key`, or the map itself where it has none: the best place to point at.
-    pub(super) fn at_or(&self, map: NodeId, key: &str) -> NodeId {
+    pub fn at_or(&self, map: NodeId, key: &str) -> NodeId {
         self.get(map, key).unwrap_or(map)
     }
 
     /// True if the node is the text given.
-    pub(super) fn is(&self, id: NodeId, text: &str) -> bool {
+    pub fn is(&self, id: NodeId, text: &str) -> bool {
         self.text(id).is_some_and(|own| own == text)
     }
 
     /// The text of a text.
-    pub(super) fn text(&self, id: NodeId) -> Option<Cow<'s, str>> {
+    pub fn text(&self, id: NodeId) -> Option<Cow<'s, str>> {
         (self.kind(id) == Kind::Text).then(|| text::value(self.written(id)))
     }
 
     /// The number of a number; infinite if a 64-bit float can't hold it.
-    pub(super) fn number(&self, id: NodeId) -> Option<f64> {
+    pub fn number(&self, id: NodeId) -> Option<f64> {
         let written = self.written(id);
         (self.kind(id) == Kind::Number).then(|| written.parse().unwrap_or(f64::INFINITY))
     }
 
     /// The number of a number that is whole, not negative and below 2^53, however it is written.
-    pub(super) fn whole(&self, id: NodeId) -> Option<u64> {
+    pub fn whole(&self, id: NodeId) -> Option<u64> {
         const EXACT: f64 = 9_007_199_254_740_992.0;
         let number = self
             .number(id)
@@ -198,23 +198,23 @@ impl<'s> Tree<'s> {
     }
 
     /// The truth of a truth value.
-    pub(super) fn truth(&self, id: NodeId) -> Option<bool> {
+    pub fn truth(&self, id: NodeId) -> Option<bool> {
         (self.kind(id) == Kind::Truth).then(|| self.written(id) == "true")
     }
 
     /// The keys that stand twice in their map: an earlier one and a later.
-    pub(super) fn twice(&self) -> &[(NodeId, NodeId)] {
+    pub fn twice(&self) -> &[(NodeId, NodeId)] {
         &self.twice
     }
 
     /// The list or map the node lies in; the root lies in itself.
-    pub(super) fn parent(&self, id: NodeId) -> NodeId {
+    pub fn parent(&self, id: NodeId) -> NodeId {
         NodeId(self.node(id).parent)
     }
 
     /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is
     /// left out, and of a long key the end: `…` stands there.
-    pub(super) fn pointer(&self, id: NodeId) -> String {
+    pub fn pointer(&self, id: NodeId) -> String {
         let mut steps = Vec::new();
         let (mut at, mut length) = (id, 0);
         while at != self.root() && length <= LONG_POINTER {

@@ -9,15 +9,15 @@ mod fault;
 mod mistake;
 mod text;
 
-pub(super) use build::{MAX_DEPTH, parse};
-pub(super) use mistake::Mistake;
+pub use build::{MAX_DEPTH, parse};
+pub use mistake::Mistake;
 
 use crate::source::{FileId, Span};
 use std::ops::Range;
 
 /// Names a node of a [`Tree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct NodeId(u32);
+pub struct NodeId(u32);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -45,7 +45,7 @@ struct Node {
 
 /// What a node is, aliases followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shape<'s> {
+pub enum Shape<'s> {
     /// A plain word: a number, a truth value, nothing, or text.
     Word(&'s str),
     /// Text in quotes or a block.
@@ -58,7 +58,7 @@ pub(super) enum Shape<'s> {
 
 /// A parsed text. Offsets are those of the file.
 #[derive(Debug)]
-pub(super) struct Tree<'s> {
+pub struct Tree<'s> {
     source: &'s str,
     base: u32,
     file: FileId,
@@ -68,7 +68,7 @@ pub(super) struct Tree<'s> {
 
 impl Tree<'_> {
     /// The node of the whole document.
-    pub(super) fn root(&self) -> NodeId {
+    pub fn root(&self) -> NodeId {
         NodeId(0)
     }
 
@@ -82,7 +82,7 @@ impl Tree<'_> {
     }
 
     /// The node an alias stands for, or the node itself. An alias never points at another.
-    pub(super) fn target(&self, id: NodeId) -> NodeId {
+    pub fn target(&self, id: NodeId) -> NodeId {
         let node = self.node(id);
         if node.kind == Kind::Alias {
             NodeId(node.link)
@@ -92,13 +92,13 @@ impl Tree<'_> {
     }
 
     /// Where the node was written; for an alias, where the alias stands.
-    pub(super) fn span(&self, id: NodeId) -> Span {
+    pub fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);
         Span::new(self.file, node.start + self.base, node.end + self.base)
     }
 
     /// What the node is, aliases followed.
-    pub(super) fn shape(&self, id: NodeId) -> Shape<'_> {
+    pub fn shape(&self, id: NodeId) -> Shape<'_> {
         let node = self.node(self.target(id));
         let written = |range| {
             self.written(range)
@@ -117,17 +117,17 @@ impl Tree<'_> {
     }
 
     /// Whether the node is a map, aliases followed.
-    pub(super) fn is_map(&self, id: NodeId) -> bool {
+    pub fn is_map(&self, id: NodeId) -> bool {
         self.node(self.target(id)).kind == Kind::Map
     }
 
     /// Whether the node is a list, aliases followed.
-    pub(super) fn is_list(&self, id: NodeId) -> bool {
+    pub fn is_list(&self, id: NodeId) -> bool {
         self.node(self.target(id)).kind == Kind::List
     }
 
     /// The text of a word, quoted or not.
-    pub(super) fn text(&self, id: NodeId) -> Option<&str> {
+    pub fn text(&self, id: NodeId) -> Option<&str> {
         match self.shape(id) {
             Shape::Word(text) | Shape::Text(text) => Some(text),
             Shape::List | Shape::Map => None,
@@ -135,7 +135,7 @@ impl Tree<'_> {
     }
 
     /// The items of a list; of a map, its keys and values in turn; of a word, nothing.
-    pub(super) fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
+    pub fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
         let id = self.target(id);
         let node = self.node(id);
         let end = if matches!(node.kind, Kind::List | Kind::Map) {
@@ -148,7 +148,7 @@ impl Tree<'_> {
     }
 
     /// The keys and values of a map as written, merge keys included.
-    pub(super) fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
+    pub fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
         let mut items = self.items(id);
         std::iter::from_fn(move || Some((items.next()?, items.next()?)))
     }
