@@ -4,7 +4,7 @@ use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
-use crate::source::tree::yaml::{NodeId, Shape, Tree};
+use crate::source::tree::{NodeId, Shape, Tree};
 use crate::source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;

@@ -8,7 +8,7 @@ use super::schema::Definitions;
 use super::value::{Channels, Color, Point, Vector, word, word_schema};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
-use crate::source::tree::yaml::NodeId;
+use crate::source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

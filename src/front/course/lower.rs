@@ -12,7 +12,8 @@ use super::texture::Files;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::Options;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
-use crate::source::tree::yaml::{self as tree, Mistake, NodeId, Shape};
+use crate::source::tree::yaml::{self, Mistake};
+use crate::source::tree::{NodeId, Shape};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
@@ -23,7 +24,7 @@ use std::collections::BTreeMap;
 /// that the proof can find the mistakes of the rest; the sink has an error for each.
 pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
     let tell = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
-    let tree = tree::parse(file, map.bytes(file), tell)?;
+    let tree = yaml::parse(file, map.bytes(file), tell)?;
     match tree.shape(tree.root()) {
         Shape::Map => {}
         Shape::Word("" | "~" | "null" | "Null" | "NULL") => {

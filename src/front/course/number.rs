@@ -7,7 +7,7 @@ use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::codes;
-use crate::source::tree::yaml::{NodeId, Shape};
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 /// What a word says about a number.

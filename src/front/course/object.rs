@@ -23,7 +23,7 @@ use crate::diag::clip;
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
-use crate::source::tree::yaml::NodeId;
+use crate::source::tree::NodeId;
 use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.

@@ -8,7 +8,7 @@ use super::spelling::{list, nearest};
 use crate::diag::clip;
 use crate::diag::codes;
 use crate::source::Span;
-use crate::source::tree::yaml::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// So many findings get a suggestion.
@@ -267,11 +267,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
 
 /// The value of a key of a map, the map's own or a merged one.
 pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Option<NodeId> {
-    let own = context
-        .tree
-        .pairs(map)
-        .find(|(node, _)| context.tree.text(*node) == Some(key));
-    if let Some((_, value)) = own {
+    if let Some(value) = context.tree.get(map, key) {
         return Some(value);
     }
     let from = context.entries.len();

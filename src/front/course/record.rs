@@ -82,7 +82,7 @@ macro_rules! record {
 
         impl $crate::front::course::decode::Value for $name {
             fn decode(
-                node: $crate::source::tree::yaml::NodeId,
+                node: $crate::source::tree::NodeId,
                 context: &mut $crate::front::course::decode::Context<'_>,
             ) -> Option<Self> {
                 let mut reader = $crate::front::course::reader::Reader::open(&Self::RECORD, node, context)?;

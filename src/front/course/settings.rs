@@ -13,7 +13,7 @@ use super::schema::Definitions;
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun};
-use crate::source::tree::yaml::{NodeId, Shape};
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 record! {

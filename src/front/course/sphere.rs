@@ -10,7 +10,7 @@ use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir::{self, Field};
 use crate::math::{Vec3, turned_to_z, unit};
-use crate::source::tree::yaml::{NodeId, Shape};
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 record! {

@@ -6,7 +6,7 @@ use super::schema::Definitions;
 use super::spelling::{list, nearest};
 use crate::diag::clip;
 use crate::diag::codes;
-use crate::source::tree::yaml::{NodeId, Shape};
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the

@@ -6,7 +6,7 @@ use super::field::Fields;
 use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::{Kind, NodeId};
+use crate::source::tree::{Kind, NodeId};
 
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;

@@ -10,7 +10,7 @@ use super::layout::{Component, Layout};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// An animation.

@@ -8,7 +8,7 @@ use super::layout::{Component, Layout};
 use super::primitive::Primitive;
 use super::report::{Report, shown};
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an accessor is to the vertices.
@@ -25,7 +25,7 @@ pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
         let accessor = usize::try_from(fields.json.whole(at)?).ok()?;
         Some(Attribute {
             at,
-            name: fields.json.text(key)?.into_owned(),
+            name: fields.json.text(key)?.to_owned(),
             accessor,
         })
     };

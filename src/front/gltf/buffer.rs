@@ -5,7 +5,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::borrow::Cow;
 use std::rc::Rc;
 

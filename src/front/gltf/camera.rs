@@ -4,7 +4,7 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// A camera; it looks along its negative z axis, y is up.
 #[derive(Debug)]

@@ -10,7 +10,7 @@ use super::mesh::Mesh;
 use super::node::Transform;
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// What moves, and how.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use super::elements::Elements;
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// How far a vector of three or four components may be from length 1: what 8 bits a component
 /// allow.

@@ -12,7 +12,7 @@ use super::node::Node;
 use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
-use crate::source::tree::json::{NodeId, Tree};
+use crate::source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// An asset.
@@ -97,7 +97,7 @@ impl Document<'_> {
         let texts = json
             .list(json.root(), "extensionsUsed")
             .filter_map(|item| json.text(item));
-        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let extensions: BTreeSet<String> = texts.map(str::to_owned).collect();
         let has_lights = extensions.contains("KHR_lights_punctual");
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {

@@ -8,7 +8,7 @@ use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -4,8 +4,7 @@ use super::field::Fields;
 use super::report::{Report, shown};
 use super::schema;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
-use std::borrow::Cow;
+use crate::source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
@@ -115,10 +114,7 @@ pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
     major == 2
 }
 
-fn version(
-    asset: Fields<'_, '_>,
-    key: &str,
-) -> Option<(crate::source::tree::json::NodeId, (u64, u64))> {
+fn version(asset: Fields<'_, '_>, key: &str) -> Option<(crate::source::tree::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
     let number = |digits: &str| {
@@ -137,8 +133,8 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
             .collect()
     };
     let (used, required) = (texts("extensionsUsed"), texts("extensionsRequired"));
-    let names = |list: &[(NodeId, Cow<'_, str>)]| -> BTreeSet<String> {
-        list.iter().map(|(_, name)| name.to_string()).collect()
+    let names = |list: &[(NodeId, &str)]| -> BTreeSet<String> {
+        list.iter().map(|(_, name)| (*name).to_owned()).collect()
     };
     let (used_names, required_names) = (names(&used), names(&required));
     let has_used = json.get(json.root(), "extensionsUsed").is_some();
@@ -150,12 +146,12 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
-        check_required(*at, name, used_names.contains(&**name), report);
+        check_required(*at, name, used_names.contains(*name), report);
     }
     let in_materials = in_materials(report);
     for (at, name) in &used {
-        if !required_names.contains(&**name) {
-            check_not_required(*at, name, in_materials.contains(&**name), report);
+        if !required_names.contains(*name) {
+            check_not_required(*at, name, in_materials.contains(*name), report);
         }
         check_name(*at, name, report);
     }
@@ -230,5 +226,5 @@ fn in_materials(report: &Report<'_, '_>) -> BTreeSet<String> {
     let keys = extensions
         .flat_map(|all| json.pairs(all))
         .filter_map(|(key, _)| json.text(key));
-    keys.map(std::borrow::Cow::into_owned).collect()
+    keys.map(str::to_owned).collect()
 }

@@ -9,7 +9,7 @@ use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity};
 use crate::ir;
-use crate::source::tree::json::{Kind, NodeId};
+use crate::source::tree::{Kind, NodeId};
 use crate::source::{Budget, Exceeded};
 use std::collections::BTreeMap;
 

@@ -5,7 +5,7 @@ use super::elements::Elements;
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// What is wrong with the joints of some vertex, and where it was seen first.

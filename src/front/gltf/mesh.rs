@@ -8,7 +8,7 @@ use super::primitive::{self, Primitive};
 use super::report::Report;
 use super::usage::Usages;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// A mesh.

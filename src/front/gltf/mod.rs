@@ -44,7 +44,7 @@ pub(super) use lower::SURFACE;
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
-use crate::source::tree::json::{self, Tree};
+use crate::source::tree::{Tree, json};
 use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
@@ -98,7 +98,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
             return None;
         }
     };
-    keys_twice(&tree, sink);
+    check_keys(&tree, sink);
     let mut report = Report::new(&tree, sink, options, map.budget());
     let root = tree.root();
     let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
@@ -163,10 +163,10 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
         .alias("INVALID_JSON")
 }
 
-fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
-    for (first, second) in tree.twice() {
+fn check_keys(tree: &Tree<'_>, sink: &mut Sink) {
+    for (first, second) in tree.duplicate_keys() {
         sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
-            let key = report::shown(&tree.text(*second).unwrap_or_default());
+            let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
             let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");

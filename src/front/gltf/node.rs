@@ -5,7 +5,7 @@ use super::field::Fields;
 use super::report::Report;
 use crate::diag::codes;
 use crate::math::unit;
-use crate::source::tree::json::{NodeId, Tree};
+use crate::source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// How far a rotation may be from length 1.

@@ -13,7 +13,7 @@ use super::mesh::Links;
 use super::report::Report;
 use super::usage::Usage;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// The mode of triangles.
 pub(super) const TRIANGLES: u64 = 4;

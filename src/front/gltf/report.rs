@@ -3,7 +3,7 @@
 
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
-use crate::source::tree::json::{Kind, NodeId, Tree};
+use crate::source::tree::{Kind, NodeId, Tree};
 use crate::source::{Budget, Exceeded, Resource};
 
 /// Takes the findings about one asset.

@@ -11,7 +11,7 @@ use super::node::{Forest, Node, Transform};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.

@@ -5,7 +5,7 @@ use super::field::Fields;
 use super::image::Format;
 use super::report::{Report, shown};
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// An image and the way it is looked up.
 #[derive(Debug)]

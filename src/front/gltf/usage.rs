@@ -2,7 +2,7 @@
 
 use super::report::Report;
 use crate::diag::codes;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 
 /// What an accessor is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::super::field::Fields;
 use super::Lowering;
 use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
 use crate::math::{Vec3, cos, sin, unit};
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use glam::DAffine3;
 
 /// The height of a picture in pixels, and its width over its height where the asset does not say.

@@ -7,7 +7,7 @@ use super::super::report::Report;
 use super::mesh::to_u32;
 use super::texture::Textures;
 use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
-use crate::source::tree::json::Tree;
+use crate::source::tree::Tree;
 
 /// What became of the materials of the asset.
 pub(super) struct Materials {

@@ -9,7 +9,7 @@ use super::shape::{Shape, ShapeId};
 use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// Bytes that a corner of a triangle takes, and a triangle until it is rendered.

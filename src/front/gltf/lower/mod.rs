@@ -21,7 +21,7 @@ use crate::front::Options;
 use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
 use crate::math::Vec3;
 use crate::source::Resource;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;

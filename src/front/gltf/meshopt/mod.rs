@@ -15,7 +15,7 @@ use super::field::Fields;
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
-use crate::source::tree::json::NodeId;
+use crate::source::tree::NodeId;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::rc::Rc;

@@ -3,14 +3,14 @@
 use super::walk::Walk;
 use super::{Bounds, Pool, Value};
 use crate::diag::codes;
-use crate::source::tree::json::{Kind, NodeId};
+use crate::source::tree::{Kind, NodeId};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {
     /// Checks the value of the property `name`; what lies in it is put off.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {
-            Value::Truth => drop(self.expect(node, Kind::Truth, name)),
+            Value::Truth => drop(self.expect(node, Kind::Bool, name)),
             Value::Text => drop(self.expect(node, Kind::Text, name)),
             Value::Word(words) => self.word(node, words, name),
             Value::Version => self.pattern(node, is_version, "a version, as `2.0`", name),
@@ -118,7 +118,7 @@ impl Walk<'_, '_, '_> {
 
     fn pattern(&mut self, node: NodeId, fits: fn(&str) -> bool, what: &str, name: &str) {
         if self.expect(node, Kind::Text, name)
-            && !fits(&self.report.json.text(node).unwrap_or_default())
+            && !fits(self.report.json.text(node).unwrap_or_default())
         {
             let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
             self.report
@@ -293,7 +293,7 @@ impl Walk<'_, '_, '_> {
         for (key, value) in json.pairs(node) {
             count += 1;
             let attribute = json.text(key).unwrap_or_default();
-            if let Some(index) = self.item_index(value, &attribute)
+            if let Some(index) = self.item_index(value, attribute)
                 && !is_draco
             {
                 self.follow(value, super::Pool::Accessors, index);

@@ -1,377 +1,262 @@
-//! JSON as one flat vector of nodes, each with the bytes it was written in and its way from the
-//! root.
-//!
-//! A list or map knows where its descendants end, so nothing recurses, and a node costs 24 bytes,
-//! whatever it is.
+//! JSON text to nodes, strictly as RFC 8259 has it, bounded in depth, without recursion.
 
-mod scan;
 mod text;
 
-pub use scan::parse;
+use super::pointer::Step;
+use super::{Form, Node, NodeId, Tree, keys, to_u32};
+use crate::source::FileId;
 
-use crate::source::{FileId, Span};
-use std::borrow::Cow;
-use std::collections::BTreeMap;
+/// How deep lists and maps may lie in each other.
+const MAX_DEPTH: usize = 512;
 
-/// Names a node of a [`Tree`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct NodeId(u32);
-
-/// What a node is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// `null`.
-    Null,
-    /// `true` or `false`.
-    Truth,
-    /// A number.
-    Number,
-    /// A text; also each key of a map.
-    Text,
-    /// A list.
-    List,
-    /// A map: its keys and values are nodes in turn.
-    Map,
+/// Why a text is no tree, and where.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The offset in the text of the first byte that can't be.
+    pub at: usize,
+    /// What is wrong.
+    pub what: &'static str,
 }
 
-impl Kind {
-    /// As messages call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Null => "null",
-            Self::Truth => "a truth value",
-            Self::Number => "a number",
-            Self::Text => "a text",
-            Self::List => "a list",
-            Self::Map => "an object",
+impl From<(usize, &'static str)> for Fault {
+    fn from((at, what): (usize, &'static str)) -> Self {
+        Self { at, what }
+    }
+}
+
+/// Parses `text`, which begins `base` bytes into `file`.
+///
+/// # Errors
+/// The first fault.
+pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
+    match begin(file, base, text) {
+        (tree, None) => Ok(tree),
+        (_, Some(fault)) => Err(fault),
+    }
+}
+
+/// Parses `text` up to the first fault, and closes there what is open.
+#[must_use]
+pub fn begin(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<Fault>) {
+    let mut scan = Scan {
+        bytes: text.as_bytes(),
+        at: 0,
+        tree: Tree::new(file, base, text),
+        open: Vec::new(),
+    };
+    let fault = scan.document().err();
+    let end = to_u32(scan.at.min(text.len()));
+    let after = to_u32(scan.tree.nodes.len());
+    for (index, _) in scan.open {
+        let node = &mut scan.tree.nodes[index as usize];
+        (node.end, node.link) = (end, after);
+    }
+    (scan.tree, fault)
+}
+
+struct Scan<'s> {
+    bytes: &'s [u8],
+    at: usize,
+    tree: Tree<'s>,
+    /// The lists and maps that are not closed yet, and how many values they have so far.
+    open: Vec<(u32, u32)>,
+}
+
+impl Scan<'_> {
+    fn document(&mut self) -> Result<(), Fault> {
+        loop {
+            self.value()?;
+            if self.close_all()? {
+                break;
+            }
+        }
+        match self.peek() {
+            None => Ok(()),
+            Some(_) => Err(self.fault("something follows the end of the document")),
         }
     }
-}
 
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    start: u32,
-    end: u32,
-    /// One past the last descendant.
-    after: u32,
-    /// The list or map this node lies in; the root lies in itself.
-    parent: u32,
-    /// The index in a list; 0 elsewhere.
-    slot: u32,
-    kind: Kind,
-}
-
-/// A parsed text; offsets are those of the text, spans those of the file.
-#[derive(Debug)]
-pub struct Tree<'s> {
-    text: &'s str,
-    base: u32,
-    file: FileId,
-    nodes: Vec<Node>,
-    twice: Vec<(NodeId, NodeId)>,
-    /// The keys of each map that has many, sorted by what they say.
-    wide: BTreeMap<NodeId, Vec<NodeId>>,
-}
-
-/// The longest step of a pointer and the longest pointer in bytes: longer ones are cut, for
-/// findings are many.
-const LONG_STEP: usize = 256;
-const LONG_POINTER: usize = 512;
-
-impl<'s> Tree<'s> {
-    /// The node of the whole document.
-    pub fn root(&self) -> NodeId {
-        NodeId(0)
+    /// Skips white space; the byte after it.
+    fn peek(&mut self) -> Option<u8> {
+        while let Some(b' ' | b'\t' | b'\n' | b'\r') = self.bytes.get(self.at) {
+            self.at += 1;
+        }
+        self.bytes.get(self.at).copied()
     }
 
-    /// How many values there are, and keys.
-    pub fn count(&self) -> usize {
-        self.nodes.len()
+    fn fault(&self, what: &'static str) -> Fault {
+        Fault::from((self.at, what))
     }
 
-    fn node(&self, id: NodeId) -> Node {
-        self.nodes[id.0 as usize]
+    /// Reads a value up to its end, or a list or map up to its first value.
+    fn value(&mut self) -> Result<(), Fault> {
+        loop {
+            match self.peek() {
+                None => return Err(self.fault("the text ends too early")),
+                Some(b'[') => {
+                    self.open(Form::List)?;
+                    if self.peek() == Some(b']') {
+                        return Ok(());
+                    }
+                }
+                Some(b'{') => {
+                    self.open(Form::Map)?;
+                    if self.peek() == Some(b'}') {
+                        return Ok(());
+                    }
+                    self.key()?;
+                }
+                Some(b'"') => return self.quoted(false),
+                Some(b'-' | b'0'..=b'9') => return self.number(),
+                Some(_) => return self.word(),
+            }
+        }
     }
 
-    /// What the node is.
-    pub fn kind(&self, id: NodeId) -> Kind {
-        self.node(id).kind
-    }
-
-    /// Where the node was written.
-    pub fn span(&self, id: NodeId) -> Span {
-        let node = self.node(id);
-        Span::new(self.file, node.start + self.base, node.end + self.base)
-    }
-
-    /// As written.
-    pub fn written(&self, id: NodeId) -> &'s str {
-        let node = self.node(id);
-        self.text
-            .get(node.start as usize..node.end as usize)
-            .expect("a node starts and ends between characters")
-    }
-
-    /// The items of a list; of a map, its keys and values in turn.
-    pub fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
-        let node = self.node(id);
-        let end = if matches!(node.kind, Kind::List | Kind::Map) {
-            node.after
-        } else {
-            0
-        };
-        let inside = move |id: u32| (id < end).then_some(NodeId(id));
-        std::iter::successors(inside(id.0 + 1), move |id| inside(self.node(*id).after))
-    }
-
-    /// The items of the list that `key` of a map holds; none if there is no such list.
-    pub fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
-        let list = self
-            .get(map, key)
-            .filter(|list| self.kind(*list) == Kind::List);
-        list.into_iter().flat_map(|list| self.items(list))
-    }
-
-    /// The keys and values of a map; of anything else, nothing.
-    pub fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
-        let mut items = self.items(id).take(if self.kind(id) == Kind::Map {
-            usize::MAX
-        } else {
-            0
-        });
-        std::iter::from_fn(move || Some((items.next()?, items.next()?)))
-    }
-
-    /// The value of `key` in a map.
-    pub fn get(&self, map: NodeId, key: &str) -> Option<NodeId> {
-        let Some(sorted) = self.wide.get(&map) else {
-            return self
-                .pairs(map)
-                .find(|(name, _)| self.is(*name, key))
-                .map(|(_, value)| value);
-        };
-        let first = sorted.partition_point(|own| self.text(*own).is_some_and(|own| *own < *key));
-        sorted
-            .get(first)
-            .filter(|own| self.is(**own, key))
-            .map(|own| NodeId(own.0 + 1))
-    }
-
-    /// The value at the end of a way of keys.
-    pub fn at(&self, map: NodeId, keys: &[&str]) -> Option<NodeId> {
-        keys.iter().try_fold(map, |map, key| self.get(map, key))
-    }
-
-    /// The value of `key`, or the map itself where it has none: the best place to point at.
-    pub fn at_or(&self, map: NodeId, key: &str) -> NodeId {
-        self.get(map, key).unwrap_or(map)
-    }
-
-    /// True if the node is the text given.
-    pub fn is(&self, id: NodeId, text: &str) -> bool {
-        self.text(id).is_some_and(|own| own == text)
-    }
-
-    /// The text of a text.
-    pub fn text(&self, id: NodeId) -> Option<Cow<'s, str>> {
-        (self.kind(id) == Kind::Text).then(|| text::value(self.written(id)))
-    }
-
-    /// The number of a number; infinite if a 64-bit float can't hold it.
-    pub fn number(&self, id: NodeId) -> Option<f64> {
-        let written = self.written(id);
-        (self.kind(id) == Kind::Number).then(|| written.parse().unwrap_or(f64::INFINITY))
-    }
-
-    /// The number of a number that is whole, not negative and below 2^53, however it is written.
-    pub fn whole(&self, id: NodeId) -> Option<u64> {
-        const EXACT: f64 = 9_007_199_254_740_992.0;
-        let number = self
-            .number(id)
-            .filter(|number| (0.0..EXACT).contains(number) && number.fract() == 0.0);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "whole and in range, see above"
-        )]
-        number.map(|number| number as u64)
-    }
-
-    /// The truth of a truth value.
-    pub fn truth(&self, id: NodeId) -> Option<bool> {
-        (self.kind(id) == Kind::Truth).then(|| self.written(id) == "true")
-    }
-
-    /// The keys that stand twice in their map: an earlier one and a later.
-    pub fn twice(&self) -> &[(NodeId, NodeId)] {
-        &self.twice
-    }
-
-    /// The list or map the node lies in; the root lies in itself.
-    pub fn parent(&self, id: NodeId) -> NodeId {
-        NodeId(self.node(id).parent)
-    }
-
-    /// The way from the root to the node, a JSON pointer (RFC 6901). Of a long one the beginning is
-    /// left out, and of a long key the end: `…` stands there.
-    pub fn pointer(&self, id: NodeId) -> String {
-        let mut steps = Vec::new();
-        let (mut at, mut length) = (id, 0);
-        while at != self.root() && length <= LONG_POINTER {
-            let node = self.node(at);
-            let parent = NodeId(node.parent);
-            let step = if self.kind(parent) == Kind::List {
-                node.slot.to_string()
-            } else {
-                self.key(at)
+    /// Closes what ends here, and goes to the next value. True if the document has ended.
+    fn close_all(&mut self) -> Result<bool, Fault> {
+        loop {
+            let Some(&(parent, _)) = self.open.last() else {
+                return Ok(true);
             };
-            length += step.len() + 1;
-            steps.push(format!("/{}", step.replace('~', "~0").replace('/', "~1")));
-            at = parent;
-        }
-        if at != self.root() {
-            steps.push("…".to_owned());
-        }
-        steps.iter().rev().map(String::as_str).collect()
-    }
-
-    /// The key of a value of a map; of a key, itself. The beginning of a long one, as written.
-    fn key(&self, id: NodeId) -> String {
-        let before = NodeId(id.0 - 1);
-        let node = self.node(id);
-        let is_key = self.text.as_bytes()[node.end as usize..]
-            .trim_ascii_start()
-            .first()
-            == Some(&b':');
-        let key = if is_key { id } else { before };
-        let written = self.written(key);
-        if written.len() <= LONG_STEP {
-            return self.text(key).unwrap_or_default().into_owned();
-        }
-        let end = written.floor_char_boundary(LONG_STEP);
-        format!("{}…", written.get(1..end).unwrap_or_default())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::source::SourceMap;
-
-    fn file() -> FileId {
-        SourceMap::default().add("x", Vec::new())
-    }
-
-    #[test]
-    fn nodes_know_their_way_and_their_bytes() {
-        let text = r#" {"a": [1, {"b/c": "x\u00e9\ud83d\ude00"}, true], "d": {}, "e": -2.5e1} "#;
-        let tree = parse(file(), 10, text).unwrap();
-        let at = |keys: &[&str]| tree.at(tree.root(), keys).unwrap();
-        let inner = tree.items(at(&["a"])).nth(1).unwrap();
-        let text = tree.get(inner, "b/c").unwrap();
-        assert_eq!(
-            (
-                tree.pointer(text).as_str(),
-                tree.text(text).unwrap().as_ref()
-            ),
-            ("/a/1/b~1c", "xé😀")
-        );
-        assert_eq!(
-            (tree.number(at(&["e"])), tree.whole(at(&["e"]))),
-            (Some(-25.0), None)
-        );
-        assert_eq!(
-            tree.items(at(&["a"]))
-                .filter_map(|id| tree.truth(id))
-                .next(),
-            Some(true)
-        );
-        assert_eq!(
-            (
-                tree.pairs(at(&["d"])).count(),
-                tree.pairs(tree.root()).count()
-            ),
-            (0, 3)
-        );
-        assert_eq!(tree.span(tree.root()).start, 11);
-        let (key, _) = tree.pairs(tree.root()).nth(1).unwrap();
-        assert_eq!(tree.pointer(key), "/d");
-    }
-
-    #[test]
-    fn what_is_no_json_is_found_where_it_is() {
-        for (text, at) in [
-            ("", 0),
-            ("{", 1),
-            ("[1,]", 3),
-            ("{\"a\" 1}", 5),
-            ("{\"a\":1,}", 7),
-            ("01", 1),
-            ("1.", 2),
-            ("tru", 0),
-            ("\"a", 2),
-            ("\"\\x\"", 1),
-            ("[1 2]", 3),
-            ("{} {}", 3),
-            ("\"\n\"", 1),
-            ("-", 1),
-            ("1e", 2),
-            ("nan", 0),
-        ] {
-            assert_eq!(parse(file(), 0, text).unwrap_err().at, at, "{text}");
+            let form = self.tree.nodes[parent as usize].form;
+            match (self.peek(), form) {
+                (Some(b']'), Form::List) | (Some(b'}'), Form::Map) => self.close(),
+                (Some(b','), _) => {
+                    self.at += 1;
+                    if form == Form::Map {
+                        self.peek();
+                        self.key()?;
+                    }
+                    return Ok(false);
+                }
+                (None, _) => return Err(self.fault("the text ends too early")),
+                (Some(_), _) => return Err(self.fault("expected a comma or the closing bracket")),
+            }
         }
     }
 
-    #[test]
-    fn keys_that_stand_twice_are_found_in_small_maps_and_large() {
-        let twice = |text: &str| {
-            let tree = parse(file(), 0, text).unwrap();
-            tree.twice()
-                .iter()
-                .map(|(_, later)| tree.span(*later).start as usize)
-                .collect::<Vec<_>>()
+    fn push(&mut self, form: Form, link: u32, end: usize, is_key: bool) {
+        let (parent, slot) = match self.open.last_mut() {
+            Some((parent, count)) => {
+                let slot = *count;
+                *count += u32::from(!is_key);
+                (*parent, slot)
+            }
+            None => (0, 0),
         };
-        assert_eq!(twice(r#"{"a":1,"\u0061":2}"#), [7]);
-        let many: String = (0..100).map(|key| format!("\"{key}\":0,")).collect();
-        assert_eq!(twice(&format!("{{{many}\"50\":1}}")), [many.len() + 1]);
+        self.tree.steps.push(Step { parent, slot });
+        self.tree.nodes.push(Node {
+            start: to_u32(self.at),
+            end: to_u32(end),
+            link,
+            form,
+        });
+        self.at = end;
     }
 
-    #[test]
-    fn keys_of_wide_maps_are_found() {
-        let text: String = (0..100)
-            .map(|key| format!("\"\\u0061{key}\":{key},"))
-            .collect();
-        let text = format!("{{{text}\"b\":[1,{{\"c\":2}}]}}");
-        let tree = parse(file(), 0, &text).unwrap();
-        let found =
-            (0..100).filter_map(|key| tree.whole(tree.get(tree.root(), &format!("a{key}"))?));
-        assert!(found.eq(0..100));
-        assert_eq!(tree.get(tree.root(), "a100"), None);
-        assert_eq!(tree.list(tree.root(), "b").count(), 2);
+    fn open(&mut self, form: Form) -> Result<(), Fault> {
+        if self.open.len() == MAX_DEPTH {
+            return Err(self.fault("lists and objects lie too deep in each other"));
+        }
+        let index = to_u32(self.tree.nodes.len());
+        self.push(form, index + 1, self.at + 1, false);
+        self.open.push((index, 0));
+        Ok(())
     }
 
-    #[test]
-    fn long_pointers_are_cut() {
-        let text = format!("{{\"{}\":{{\"b\":1}}}}", "ü".repeat(1_000));
-        let tree = parse(file(), 0, &text).unwrap();
-        let inner = tree.pairs(tree.root()).next().unwrap().1;
-        let pointer = tree.pointer(tree.get(inner, "b").unwrap());
-        assert!(
-            pointer.starts_with("/ü") && pointer.ends_with("ü…/b") && pointer.len() < 300,
-            "{pointer}"
-        );
-        let text = r#"{"key":"#.repeat(500) + "1" + &"}".repeat(500);
-        let tree = parse(file(), 0, &text).unwrap();
-        let pointer = tree.pointer(NodeId(1_000));
-        assert!(
-            pointer.starts_with("…/key/key/") && pointer.len() < 600,
-            "{pointer}"
-        );
+    fn close(&mut self) {
+        self.at += 1;
+        let Some((index, _)) = self.open.pop() else {
+            return;
+        };
+        let after = to_u32(self.tree.nodes.len());
+        let node = &mut self.tree.nodes[index as usize];
+        (node.end, node.link) = (to_u32(self.at), after);
+        if node.form == Form::Map {
+            keys::close(&mut self.tree, NodeId(index));
+        }
     }
 
-    #[test]
-    fn depth_is_bounded() {
-        assert!(parse(file(), 0, &("[".repeat(500) + &"]".repeat(500))).is_ok());
-        assert_eq!(parse(file(), 0, &"[".repeat(100_000)).unwrap_err().at, 512);
+    fn key(&mut self) -> Result<(), Fault> {
+        if self.bytes.get(self.at) != Some(&b'"') {
+            return Err(self.fault("expected a key in quotes"));
+        }
+        self.quoted(true)?;
+        if self.peek() != Some(b':') {
+            return Err(self.fault("expected a colon after the key"));
+        }
+        self.at += 1;
+        Ok(())
+    }
+
+    /// Reads a text in quotes.
+    fn quoted(&mut self, is_key: bool) -> Result<(), Fault> {
+        let (end, has_escapes) = text::end(self.bytes, self.at)?;
+        if has_escapes {
+            let Tree { source, .. } = self.tree;
+            let inside = source.get(self.at + 1..end - 1);
+            let inside = inside.expect("quotes are characters");
+            let link = self.tree.cook(|said| text::resolve(inside, said));
+            self.push(Form::Cooked, link, end, is_key);
+        } else {
+            self.push(Form::Quoted, 0, end, is_key);
+        }
+        Ok(())
+    }
+
+    fn word(&mut self) -> Result<(), Fault> {
+        let words = [
+            ("null", Form::Null),
+            ("true", Form::Bool),
+            ("false", Form::Bool),
+        ];
+        let rest = &self.bytes[self.at..];
+        let Some((word, form)) = words
+            .into_iter()
+            .find(|(word, _)| rest.starts_with(word.as_bytes()))
+        else {
+            return Err(self.fault("expected a value"));
+        };
+        self.push(form, 0, self.at + word.len(), false);
+        Ok(())
+    }
+
+    fn number(&mut self) -> Result<(), Fault> {
+        let start = self.at;
+        self.at += usize::from(self.bytes[self.at] == b'-');
+        if self.bytes.get(self.at) == Some(&b'0') {
+            self.at += 1;
+            if self.bytes.get(self.at).is_some_and(u8::is_ascii_digit) {
+                return Err(self.fault("a number starts with a zero too many"));
+            }
+        } else {
+            self.digits()?;
+        }
+        if self.bytes.get(self.at) == Some(&b'.') {
+            self.at += 1;
+            self.digits()?;
+        }
+        if let Some(b'e' | b'E') = self.bytes.get(self.at) {
+            self.at += 1;
+            self.at += usize::from(matches!(self.bytes.get(self.at), Some(b'+' | b'-')));
+            self.digits()?;
+        }
+        let end = std::mem::replace(&mut self.at, start);
+        self.push(Form::Number, 0, end, false);
+        Ok(())
+    }
+
+    fn digits(&mut self) -> Result<(), Fault> {
+        let count = self.bytes[self.at..]
+            .iter()
+            .take_while(|byte| byte.is_ascii_digit())
+            .count();
+        self.at += count;
+        if count == 0 {
+            Err(self.fault("expected a digit"))
+        } else {
+            Ok(())
+        }
     }
 }

@@ -1,18 +1,17 @@
 //! Texts of JSON: where one ends, and what it says with its escapes resolved.
 
-use std::borrow::Cow;
-
-/// The end of the text that starts with the quote at `start`, past its closing quote.
+/// The end of the text that starts with the quote at `start`, past its closing quote, and whether
+/// it has escapes.
 ///
 /// # Errors
 /// Where the first byte is that can't be, with what is wrong.
-pub(super) fn end(text: &[u8], start: usize) -> Result<usize, (usize, &'static str)> {
-    let mut at = start + 1;
+pub(super) fn end(text: &[u8], start: usize) -> Result<(usize, bool), (usize, &'static str)> {
+    let (mut at, mut has_escapes) = (start + 1, false);
     loop {
         match text.get(at) {
             None => return Err((at, "a text is never closed")),
-            Some(b'"') => return Ok(at + 1),
-            Some(b'\\') => at = escape(text, at)?,
+            Some(b'"') => return Ok((at + 1, has_escapes)),
+            Some(b'\\') => (at, has_escapes) = (escape(text, at)?, true),
             Some(0..0x20) => return Err((at, "a control character stands in a text")),
             Some(_) => at += 1,
         }
@@ -34,16 +33,9 @@ fn escape(text: &[u8], at: usize) -> Result<usize, (usize, &'static str)> {
     }
 }
 
-/// What a text says; `written` has its quotes and is sound.
-pub(super) fn value(written: &str) -> Cow<'_, str> {
-    let inside = written
-        .strip_prefix('"')
-        .and_then(|rest| rest.strip_suffix('"'))
-        .expect("a text has its quotes");
-    if !inside.contains('\\') {
-        return Cow::Borrowed(inside);
-    }
-    let mut said = String::with_capacity(inside.len());
+/// Adds what a sound text says; `inside` is what stands between its quotes.
+pub(super) fn resolve(inside: &str, said: &mut String) {
+    said.reserve(inside.len());
     let mut rest = inside;
     while let Some((before, escape)) = rest.split_once('\\') {
         said.push_str(before);
@@ -51,7 +43,7 @@ pub(super) fn value(written: &str) -> Cow<'_, str> {
         said.push(character);
         rest = after;
     }
-    Cow::Owned(said + rest)
+    said.push_str(rest);
 }
 
 /// The character that an escape stands for, and what follows it; `escape` starts after the

@@ -1,7 +1,7 @@
 //! What the YAML parser refuses, in words a person who wrote the text understands.
 
-use super::text::to_u32;
-use super::{Mistake, NodeId, Tree};
+use super::super::{NodeId, Tree, to_u32};
+use super::Mistake;
 use crate::source::Span;
 use granit_parser::{ErrorKind, ScanError};
 
@@ -21,7 +21,7 @@ pub(super) fn syntax(
     });
     let kind = error.kind();
     let ran_on = |span: &Span| {
-        tree.written(span.start - tree.base..to_u32(at))
+        tree.slice(span.start - tree.base..to_u32(at))
             .is_some_and(|text| text.contains('\n'))
     };
     let unclosed = |bracket, runs_into| Mistake::Unclosed { bracket, runs_into };

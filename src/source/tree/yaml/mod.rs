@@ -1,236 +1,274 @@
-//! The spanned tree: YAML text as one flat vector of nodes, each with the bytes it was written in.
-//!
-//! A node is 16 bytes, in the order of the text; a list or map knows where its descendants end.
-//! Aliases are links and are never expanded, so a small text can't become a large tree. Only this
-//! folder names the YAML parser.
+//! YAML text to nodes, from the events of the parser, bounded in depth. Only this folder names that
+//! parser.
 
-mod build;
 mod fault;
 mod mistake;
 mod text;
 
-pub use build::{MAX_DEPTH, parse};
 pub use mistake::Mistake;
 
+use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};
 use crate::source::{FileId, Span};
+use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
+use std::borrow::Cow;
 use std::ops::Range;
+use text::{MAX_WORD, text, too_long};
 
-/// Names a node of a [`Tree`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct NodeId(u32);
+/// How deep lists and maps may lie in each other.
+pub const MAX_DEPTH: usize = 128;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    /// A word as written; `link` is unused.
-    Plain,
-    /// A word in quotes without escapes, quotes included in the range; `link` is unused.
-    Quoted,
-    /// A word that differs from its text; `link` is its index among the cooked ones.
-    Cooked,
-    /// A list; `link` is one past its last descendant.
-    List,
-    /// A map, keys and values in turn; `link` is one past its last descendant.
-    Map,
-    /// A link to the node at `link`.
-    Alias,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    start: u32,
-    end: u32,
-    link: u32,
-    kind: Kind,
-}
-
-/// What a node is, aliases followed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape<'s> {
-    /// A plain word: a number, a truth value, nothing, or text.
-    Word(&'s str),
-    /// Text in quotes or a block.
-    Text(&'s str),
-    /// A list.
-    List,
-    /// A map.
-    Map,
-}
-
-/// A parsed text. Offsets are those of the file.
-#[derive(Debug)]
-pub struct Tree<'s> {
-    source: &'s str,
-    base: u32,
+/// Parses a file into a tree; mistakes go to `tell`, the last of them says why there is no tree.
+pub fn parse<'s>(
     file: FileId,
-    nodes: Vec<Node>,
-    cooked: Vec<String>,
-}
-
-impl Tree<'_> {
-    /// The node of the whole document.
-    pub fn root(&self) -> NodeId {
-        NodeId(0)
-    }
-
-    /// The text written in these bytes, unless they cut a character.
-    fn written(&self, range: Range<u32>) -> Option<&str> {
-        self.source.get(range.start as usize..range.end as usize)
-    }
-
-    fn node(&self, id: NodeId) -> Node {
-        self.nodes[id.0 as usize]
-    }
-
-    /// The node an alias stands for, or the node itself. An alias never points at another.
-    pub fn target(&self, id: NodeId) -> NodeId {
-        let node = self.node(id);
-        if node.kind == Kind::Alias {
-            NodeId(node.link)
-        } else {
-            id
+    bytes: &'s [u8],
+    tell: &mut dyn FnMut(Mistake<'_>),
+) -> Option<Tree<'s>> {
+    let (source, base) = match text(file, bytes) {
+        Ok(text) => text,
+        Err(mistake) => {
+            tell(mistake);
+            return None;
         }
-    }
-
-    /// Where the node was written; for an alias, where the alias stands.
-    pub fn span(&self, id: NodeId) -> Span {
-        let node = self.node(id);
-        Span::new(self.file, node.start + self.base, node.end + self.base)
-    }
-
-    /// What the node is, aliases followed.
-    pub fn shape(&self, id: NodeId) -> Shape<'_> {
-        let node = self.node(self.target(id));
-        let written = |range| {
-            self.written(range)
-                .expect("a word was read where it was written")
-        };
-        match node.kind {
-            Kind::Plain => Shape::Word(written(node.start..node.end)),
-            Kind::Quoted => Shape::Text(written(inside_quotes(node.start, node.end))),
-            Kind::Cooked => Shape::Text(&self.cooked[node.link as usize]),
-            Kind::List => Shape::List,
-            Kind::Map => Shape::Map,
-            Kind::Alias => {
-                unreachable!("`target` follows aliases, and an alias can't carry an anchor")
+    };
+    let mut build = Build {
+        tree: Tree::new(file, base, source),
+        open: Vec::new(),
+        anchors: Vec::new(),
+        ended: false,
+        last_end: 0,
+        tell,
+    };
+    let options = granit_parser::options! {
+        flow_nesting_limit: MAX_DEPTH,
+        block_nesting_limit: MAX_DEPTH,
+    };
+    for event in Parser::new_from_str_with_options(source, options) {
+        let step = match event {
+            Ok((event, span)) => {
+                let range = span.byte_range().unwrap_or_default();
+                build.event(event, to_u32(range.start), to_u32(range.end))
             }
-        }
-    }
-
-    /// Whether the node is a map, aliases followed.
-    pub fn is_map(&self, id: NodeId) -> bool {
-        self.node(self.target(id)).kind == Kind::Map
-    }
-
-    /// Whether the node is a list, aliases followed.
-    pub fn is_list(&self, id: NodeId) -> bool {
-        self.node(self.target(id)).kind == Kind::List
-    }
-
-    /// The text of a word, quoted or not.
-    pub fn text(&self, id: NodeId) -> Option<&str> {
-        match self.shape(id) {
-            Shape::Word(text) | Shape::Text(text) => Some(text),
-            Shape::List | Shape::Map => None,
-        }
-    }
-
-    /// The items of a list; of a map, its keys and values in turn; of a word, nothing.
-    pub fn items(&self, id: NodeId) -> impl Iterator<Item = NodeId> + '_ {
-        let id = self.target(id);
-        let node = self.node(id);
-        let end = if matches!(node.kind, Kind::List | Kind::Map) {
-            node.link
-        } else {
-            0
+            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
         };
-        let inside = move |id: u32| (id < end).then_some(NodeId(id));
-        std::iter::successors(inside(id.0 + 1), move |id| inside(self.after(*id)))
-    }
-
-    /// The keys and values of a map as written, merge keys included.
-    pub fn pairs(&self, id: NodeId) -> impl Iterator<Item = (NodeId, NodeId)> + '_ {
-        let mut items = self.items(id);
-        std::iter::from_fn(move || Some((items.next()?, items.next()?)))
-    }
-
-    /// The index after the node and its descendants.
-    fn after(&self, id: NodeId) -> u32 {
-        let node = self.node(id);
-        if matches!(node.kind, Kind::List | Kind::Map) {
-            node.link
-        } else {
-            id.0 + 1
+        if let Err(fault) = step {
+            (build.tell)(fault);
+            return None;
         }
     }
+    build.finish()
 }
 
-/// The bytes between the quotes of a quoted word.
-fn inside_quotes(start: u32, end: u32) -> Range<u32> {
-    start + 1..end.saturating_sub(1)
+/// A list or map whose end is still to come.
+struct Open {
+    node: NodeId,
+    flow: bool,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::source::SourceMap;
+struct Build<'s, 'k> {
+    tree: Tree<'s>,
+    open: Vec<Open>,
+    /// Anchor numbers, rising, and their nodes.
+    anchors: Vec<(usize, NodeId)>,
+    ended: bool,
+    /// Where the last word or bracket ended: block lists and maps end there too.
+    last_end: u32,
+    tell: &'k mut dyn FnMut(Mistake<'_>),
+}
 
-    fn with<R>(text: &str, look: impl FnOnce(&Tree<'_>) -> R) -> R {
-        let mut map = SourceMap::default();
-        let file = map.add("t", text.as_bytes().to_vec());
-        let tree = parse(file, map.bytes(file), &mut |mistake| panic!("{mistake:?}")).unwrap();
-        look(&tree)
+type Step = Result<(), Mistake<'static>>;
+
+impl<'s> Build<'s, '_> {
+    fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
+        if let Event::Scalar(value, style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            let form = self.scalar(value, style, start, end)?;
+            self.word(form, anchor, start, end);
+            Ok(())
+        } else if let Event::Alias(anchor) = event {
+            self.alias(anchor, start, end)
+        } else if let Event::SequenceStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Form::List, style, anchor, start, end)
+        } else if let Event::MappingStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Form::Map, style, anchor, start, end)
+        } else if matches!(event, Event::SequenceEnd | Event::MappingEnd) {
+            self.end(end);
+            Ok(())
+        } else if matches!(event, Event::DocumentStart(..)) && self.ended {
+            let span = self.span(start, end);
+            Err(Mistake::TwoDocuments { span })
+        } else {
+            self.ended |= matches!(event, Event::DocumentEnd);
+            Ok(())
+        }
     }
 
-    #[test]
-    fn a_node_is_sixteen_bytes() {
-        assert_eq!(size_of::<Node>(), 16);
+    fn span(&self, start: u32, end: u32) -> Span {
+        Span::new(self.tree.file, start + self.tree.base, end + self.tree.base)
     }
 
-    #[test]
-    fn aliases_are_links_and_spans_are_bytes_of_the_file() {
-        with("\u{feff}a: &x [1, 'q', \"\\u0041\"]\nb: *x\n", |tree| {
-            let pairs: Vec<_> = tree.pairs(tree.root()).collect();
-            assert_eq!(pairs.len(), 2);
-            let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
-            assert_eq!(
-                words,
-                [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]
-            );
-            assert_eq!(tree.target(pairs[1].1), pairs[0].1);
-            let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
-            assert_eq!(
-                (list.start, list.end, alias.start, alias.end),
-                (9, 27, 31, 33)
-            );
+    fn tag(&mut self, tagged: bool, start: u32, end: u32) {
+        if tagged {
+            let span = self.span(start, end.max(start + 1));
+            (self.tell)(Mistake::Tag { span });
+        }
+    }
+
+    /// What form of word this is, and its link. The style says so: a block may begin with a quote.
+    fn scalar(
+        &mut self,
+        value: Cow<'s, str>,
+        style: ScalarStyle,
+        start: u32,
+        end: u32,
+    ) -> Result<(Form, u32), Mistake<'static>> {
+        if value.len() > MAX_WORD {
+            let at = start + self.tree.base;
+            return Err(too_long(self.tree.file, at as usize));
+        }
+        let is_written = |range: Range<u32>| self.tree.slice(range) == Some(value.as_ref());
+        let form = match style {
+            ScalarStyle::Plain if start == end || is_written(start..end) => Form::Word,
+            ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted
+                if is_written(inside_quotes(start, end)) =>
+            {
+                Form::Quoted
+            }
+            ScalarStyle::Plain
+            | ScalarStyle::SingleQuoted
+            | ScalarStyle::DoubleQuoted
+            | ScalarStyle::Literal
+            | ScalarStyle::Folded => {
+                return Ok((Form::Cooked, self.tree.cook(|text| text.push_str(&value))));
+            }
+        };
+        Ok((form, 0))
+    }
+
+    fn word(&mut self, (form, link): (Form, u32), anchor: usize, start: u32, end: u32) {
+        self.last_end = end;
+        self.push(
+            Node {
+                start,
+                end,
+                link,
+                form,
+            },
+            anchor,
+        );
+    }
+
+    fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {
+        let at = self
+            .anchors
+            .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
+        let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
+        if self.open.iter().any(|open| open.node == target) {
+            return Err(Mistake::SelfAlias {
+                span: self.span(start, end),
+                anchor: self.span(self.tree.node(target).start, start),
+            });
+        }
+        self.last_end = end;
+        self.push(
+            Node {
+                start,
+                end,
+                link: target.0,
+                form: Form::Alias,
+            },
+            0,
+        );
+        Ok(())
+    }
+
+    fn start(
+        &mut self,
+        form: Form,
+        style: StructureStyle,
+        anchor: usize,
+        start: u32,
+        end: u32,
+    ) -> Step {
+        if self.open.len() >= MAX_DEPTH {
+            let span = self.span(start, end.max(start + 1));
+            return Err(Mistake::TooDeep { span });
+        }
+        self.last_end = end;
+        let node = self.push(
+            Node {
+                start,
+                end,
+                link: 0,
+                form,
+            },
+            anchor,
+        );
+        self.open.push(Open {
+            node,
+            flow: style == StructureStyle::Flow,
         });
+        Ok(())
     }
 
-    #[test]
-    fn a_block_is_text_whatever_it_begins_with() {
-        for (text, word) in [
-            ("a: |\n  \"b \u{1cc}", "\"b \u{1cc}"),
-            ("a: |\n  'b \u{e9}", "'b \u{e9}"),
-            ("a: >\n  \"b\"", "\"b\""),
-            ("a: |-\n  '\n", "'"),
-            ("a: |\n  5", "5"),
-        ] {
-            with(text, |tree| {
-                let (_, value) = tree.pairs(tree.root()).next().unwrap();
-                let Shape::Text(found) = tree.shape(value) else {
-                    panic!("{text:?} is no text")
-                };
-                // Whether a last line that does not end gets an end is the parser's affair.
-                assert_eq!(found.trim_end_matches('\n'), word, "{text:?}");
+    fn end(&mut self, end: u32) {
+        let Open { node: id, flow } = self
+            .open
+            .pop()
+            .expect("the parser closes only what it opened");
+        self.last_end = if flow { end } else { self.last_end };
+        let link = to_u32(self.tree.nodes.len());
+        let node = &mut self.tree.nodes[id.0 as usize];
+        (node.end, node.link) = (self.last_end, link);
+        if node.form == Form::Map {
+            self.keys(id);
+        }
+    }
+
+    fn push(&mut self, node: Node, anchor: usize) -> NodeId {
+        let nodes = &mut self.tree.nodes;
+        if nodes.len() == nodes.capacity() {
+            // Doubling would hold as much again as the tree of a large scene.
+            nodes.reserve_exact(nodes.len() / 4 + 64);
+        }
+        let id = NodeId(to_u32(nodes.len()));
+        nodes.push(node);
+        if anchor != 0 {
+            self.anchors.push((anchor, id));
+        }
+        id
+    }
+
+    /// Looks at the keys of a map that has just closed.
+    fn keys(&mut self, map: NodeId) {
+        let known = self.tree.duplicate_keys().len();
+        keys::close(&mut self.tree, map);
+        for (first, second) in &self.tree.duplicate_keys()[known..] {
+            (self.tell)(Mistake::DuplicateKey {
+                key: self.tree.text(*second).unwrap_or_default(),
+                first: self.tree.span(*first),
+                second: self.tree.span(*second),
             });
         }
     }
 
-    #[test]
-    fn nothing_written_is_the_empty_word_after_its_key() {
-        with("Objects:\nLights: []\n", |tree| {
-            let (_, nothing) = tree.pairs(tree.root()).next().unwrap();
-            assert_eq!(tree.shape(nothing), Shape::Word(""));
-            assert_eq!((tree.span(nothing).start, tree.span(nothing).end), (7, 7));
-        });
+    /// The innermost bracket that is still open.
+    fn open_bracket(&self) -> Option<NodeId> {
+        self.open
+            .iter()
+            .rev()
+            .find(|open| open.flow)
+            .map(|open| open.node)
+    }
+
+    fn finish(self) -> Option<Tree<'s>> {
+        if self.tree.nodes.is_empty() {
+            let end = to_u32(self.tree.source.len()) + self.tree.base;
+            let span = Span::new(self.tree.file, end, end);
+            (self.tell)(Mistake::Empty { span });
+            return None;
+        }
+        Some(self.tree)
     }
 }

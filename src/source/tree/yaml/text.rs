@@ -1,5 +1,6 @@
 //! From bytes to text that is fit to parse: UTF-8, no control characters, no absurd word.
 
+use super::super::to_u32;
 use super::Mistake;
 use crate::source::{FileId, Span};
 
@@ -107,9 +108,4 @@ pub(super) fn too_long(file: FileId, at: usize) -> Mistake<'static> {
     Mistake::TooLong {
         span: Span::new(file, at, at + 1),
     }
-}
-
-/// An offset as spans hold it; the loader refuses files of 4 GiB and more.
-pub(super) fn to_u32(offset: usize) -> u32 {
-    u32::try_from(offset).unwrap_or(u32::MAX)
 }
