@@ -143,6 +143,11 @@ impl<'s> Tree<'s> {
         self.nodes.len()
     }
 
+    /// All nodes, in the order of the text.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeId> {
+        (0..to_u32(self.nodes.len())).map(NodeId)
+    }
+
     fn node(&self, id: NodeId) -> Node {
         self.nodes[id.0 as usize]
     }
@@ -176,6 +181,13 @@ impl<'s> Tree<'s> {
     pub fn span(&self, id: NodeId) -> Span {
         let node = self.node(id);
         Span::new(self.file, node.start + self.base, node.end + self.base)
+    }
+
+    /// The bytes of the text that the node was written in.
+    #[must_use]
+    pub fn place(&self, id: NodeId) -> (usize, usize) {
+        let node = self.node(id);
+        (node.start as usize, node.end as usize)
     }
 
     /// As written; for an alias, the alias.
