@@ -13,7 +13,7 @@
 
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Arithmetic, Plan, Rules};
 use rtc::render::{self, Film, Job};

@@ -5,7 +5,7 @@
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
 
 use rtc::diag::Sink;
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Features, Plan, Rules, Shapes};
 use rtc::render::{self, Film, Job};

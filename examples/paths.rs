@@ -17,7 +17,8 @@ mod setup;
 
 use cpu_time::ProcessTime;
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Mode, Scene, Stage};
+use rtc::ir::{Lowered, Mode, Scene};
+use rtc::passes::Stage;
 use rtc::pipeline;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Seeds, Values};

@@ -6,8 +6,9 @@
 //! 2. [`source`]: files, their bytes, and spans into them.
 //! 3. [`diag`]: one diagnostic type, the table of codes, the printers.
 //! 4. [`ir`]: the intermediate representation, [`ir::Scene`], with a version.
-//! 5. [`front`] lowers what people write to the IR; [`codec`] turns the IR into bytes and back;
-//!    [`valid`] proves a scene sound.
+//! 5. [`front`] lowers what people write to the IR, and [`emit`] writes it back; [`codec`] turns the
+//!    IR into bytes and back;
+//!    [`passes`] change a scene as one run asks; [`valid`] proves a scene sound.
 //! 6. [`plan`]: what the picture really needs, each omission with its reason.
 //! 7. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
 //! 8. [`study`]: accuracy against time: renders, measures, reports.
@@ -22,10 +23,12 @@ pub mod cli;
 pub mod codec;
 pub mod color;
 pub mod diag;
+pub mod emit;
 pub mod front;
 pub mod image;
 pub mod ir;
 pub mod math;
+pub mod passes;
 pub mod pipeline;
 pub mod plan;
 pub mod render;

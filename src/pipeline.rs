@@ -7,10 +7,12 @@ pub mod trial;
 pub use meter::Meter;
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
-use crate::front::{Asset, assets, course, gltf};
+use crate::front::course::assets::{self, Asset};
+use crate::front::{course, gltf};
 use crate::image::Layers;
-use crate::ir::{Lowered, Origins, Scene, Stage};
+use crate::ir::{Lowered, Origins, Scene};
 use crate::math::BasisFault;
+use crate::passes::Stage;
 use crate::plan::Plan;
 use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, Proceed};
 use crate::source::{FileId, SourceMap};

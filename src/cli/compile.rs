@@ -8,7 +8,7 @@ use super::output::{self, Output};
 use super::report::Report;
 use super::talk::Talk;
 use crate::codec::{self, Form};
-use crate::front::course;
+use crate::emit;
 use crate::ir::Scene;
 use std::io::{self, Write};
 use std::path::Path;
@@ -76,7 +76,7 @@ fn writer(emit: Emit, scene: &Scene) -> Result<impl Fn(&mut dyn Write) -> io::Re
     let (encoded, text) = match emit {
         Emit::Ir => (Some(ir(Form::Text)?), String::new()),
         Emit::IrBin => (Some(ir(Form::Binary)?), String::new()),
-        Emit::Yaml => (None, course::emit(scene)?),
+        Emit::Yaml => (None, emit::course::emit(scene)?),
     };
     Ok(move |out: &mut dyn Write| match &encoded {
         Some(encoded) => encoded.write(out),

@@ -4,8 +4,9 @@ use super::Failure;
 use super::args::{self, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::assets;
-use crate::ir::{Lowered, Scene, Stage, Surroundings, View};
+use crate::front::pixels;
+use crate::ir::{Lowered, Scene};
+use crate::passes::{Stage, Surroundings, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
 use crate::valid::Proof;
@@ -137,9 +138,9 @@ impl Input {
             bytes.map_err(|error| Failure::Trouble(format!("can't read `{name}`: {error}")))?;
         // Where the file lies is no part of the scene.
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let picture = assets::environment(&file, &bytes, self.map.budget());
+        let picture = pixels::environment(&file, &bytes, self.map.budget());
         Ok(picture
-            .map_err(|fault| self.push(assets::refusal(&fault, &name)))
+            .map_err(|fault| self.push(pixels::no_environment(&fault, &name)))
             .map(Surroundings::Picture)
             .ok())
     }

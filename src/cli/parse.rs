@@ -1,7 +1,7 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
 use crate::image::Backdrop;
-use crate::ir::Sun;
+use crate::passes::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
 use crate::source::Resource;

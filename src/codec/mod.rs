@@ -7,6 +7,7 @@
 
 mod binary;
 mod columns;
+mod faults;
 mod image;
 mod locate;
 mod mesh;
@@ -51,7 +52,7 @@ pub fn recognise(bytes: &[u8]) -> Option<Form> {
 /// Decodes a scene; what is wrong goes to the sink. The scene still has to be validated.
 pub fn decode(form: Form, file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Scene> {
     let scene = match form {
-        Form::Text => text::decode(file, map.bytes(file)),
+        Form::Text => text::decode(file, map.bytes(file), map.budget()),
         Form::Binary => binary::decode(file, map.bytes(file)).map_err(|fault| vec![*fault]),
     };
     scene

@@ -4,15 +4,14 @@
 //! Memory and depth are bounded by the text: numbers too large, keys twice and deep nesting are
 //! located errors.
 
-use super::{Decoded, locate, newer, span, typed, wrong_shape};
+use super::{Decoded, faults, locate, newer, span, typed, wrong_shape};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{
     Camera, Environment, Image, Light, Material, Mesh, Scene, Settings, Surface, Texture, VERSION,
 };
-use crate::source::FileId;
-use locate::Part;
+use crate::source::tree::{Tree, json};
+use crate::source::{Budget, FileId, Resource};
 use serde::Deserialize;
-use serde::de::IgnoredAny;
 use serde_json::Value;
 use serde_json::error::Category;
 
@@ -96,31 +95,54 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// All faults that can be told apart, at least one.
-pub(super) fn decode(file: FileId, bytes: &[u8]) -> Result<Scene, Vec<Diagnostic>> {
+pub(super) fn decode(
+    file: FileId,
+    bytes: &[u8],
+    budget: &Budget,
+) -> Result<Scene, Vec<Diagnostic>> {
     let text =
         std::str::from_utf8(bytes).map_err(|error| vec![*not_utf8(file, error.valid_up_to())])?;
     let (base, text) = text
         .strip_prefix(BOM)
         .map_or((0, text), |rest| (BOM.len(), rest));
     let source = Source { file, base, text };
-    scene(&source, bytes.len()).map_err(|first| source.faults(*first))
+    scene(&source, bytes.len()).map_err(|stop| match stop {
+        Stop::Said(fault) => vec![*fault],
+        Stop::Json(error) => source.faults(&error, budget),
+    })
 }
 
-fn scene(source: &Source<'_>, end: usize) -> Decoded<Scene> {
-    let Source { file, base, .. } = *source;
-    let Head { ir_version } = source.parse()?;
+/// Why decoding ended.
+enum Stop {
+    /// What is to be said of it, and nothing else.
+    Said(Box<Diagnostic>),
+    /// The text is no document of the current version.
+    Json(serde_json::Error),
+}
+
+fn scene(source: &Source<'_>, end: usize) -> Result<Scene, Stop> {
+    let Source { file, text, .. } = *source;
+    let Head { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
     if ir_version > VERSION {
         let (start, end) = source.version_place();
-        Err(newer(ir_version, "IR", VERSION, span(file, start, end)))
+        let place = span(file, start, end);
+        Err(Stop::Said(newer(ir_version, "IR", VERSION, place)))
     } else if ir_version == VERSION {
-        let document: Document = source.parse()?;
+        let document: Document = serde_json::from_str(text).map_err(Stop::Json)?;
         Ok(document.into())
     } else {
-        let mut tree: Value = source.parse()?;
-        tree.as_object_mut()
-            .map(|members| members.shift_remove("irVersion"));
-        typed(ir_version, tree, span(file, base, end))
+        older(source, ir_version, end).map_err(Stop::Said)
     }
+}
+
+/// The scene that a document of an older version stands for.
+fn older(source: &Source<'_>, version: u32, end: usize) -> Decoded<Scene> {
+    let Source { file, base, text } = *source;
+    let tree = serde_json::from_str::<Value>(text);
+    let mut tree = tree.map_err(|error| Box::new(source.fault(&error, None)))?;
+    tree.as_object_mut()
+        .map(|members| members.shift_remove("irVersion"));
+    typed(version, tree, span(file, base, end))
 }
 
 fn not_utf8(file: FileId, at: usize) -> Box<Diagnostic> {
@@ -135,12 +157,12 @@ struct Source<'a> {
     text: &'a str,
 }
 
-impl<'a> Source<'a> {
-    fn parse<T: Deserialize<'a>>(&self) -> Decoded<T> {
-        serde_json::from_str(self.text).map_err(|error| self.fault(&error))
-    }
+/// Bytes that each node of a tree may take while the tree grows.
+const NODE: u64 = 48;
 
-    fn fault(&self, error: &serde_json::Error) -> Box<Diagnostic> {
+impl<'a> Source<'a> {
+    /// The fault that `serde_json` stopped at.
+    fn fault(&self, error: &serde_json::Error, tree: Option<&Tree<'_>>) -> Diagnostic {
         let full = error.to_string();
         let what = full
             .rsplit_once(" at line ")
@@ -153,8 +175,8 @@ impl<'a> Source<'a> {
                     start,
                     end,
                     pointer,
-                } = locate::culprit(self.text, read);
-                Box::new(wrong_shape(what, place(start, end)).pointer(pointer))
+                } = locate::culprit(tree, self.text, read);
+                wrong_shape(what, place(start, end)).pointer(pointer)
             }
             Category::Eof => not_json(
                 "the text ends too early",
@@ -172,66 +194,43 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The first fault, and those of the other parts of the document, each decoded by itself.
-    fn faults(&self, first: Diagnostic) -> Vec<Diagnostic> {
-        let is_located =
-            |fault: &Diagnostic| fault.code == &codes::WRONG_SHAPE && fault.pointer.is_some();
-        if !is_located(&first) {
-            return vec![first];
-        }
-        let parts = locate::parts(self.text);
-        let mut faults: Vec<_> = parts
-            .iter()
-            .filter_map(|part| self.fault_of(part))
-            .collect();
-        let place = |fault: &Diagnostic| {
-            fault
-                .primary
-                .as_ref()
-                .map(|label| (label.span.start, label.span.end))
-        };
-        if !faults.iter().any(|fault| place(fault) == place(&first)) {
-            faults.push(first);
-        }
-        faults.sort_by_key(place);
-        faults
+    /// The tree of the text; none if it is no JSON, or if there is no memory for a tree.
+    fn tree(&self, budget: &Budget) -> Option<Tree<'a>> {
+        let begins_node = |byte: &u8| matches!(*byte, b',' | b':' | b'[' | b'{');
+        let nodes = 1 + self.text.bytes().filter(begins_node).count() as u64;
+        let cost = nodes
+            .saturating_mul(NODE)
+            .saturating_add(self.text.len() as u64);
+        budget.has(Resource::Memory, cost).ok()?;
+        let base = u32::try_from(self.base).ok()?;
+        json::parse(self.file, base, self.text).ok()
     }
 
-    fn fault_of(&self, part: &Part) -> Option<Diagnostic> {
-        let Part {
-            key,
-            index,
-            start,
-            end,
-        } = part;
-        let text = self.text.get(*start..*end)?;
-        let own = Source {
-            file: self.file,
-            base: self.base + start,
-            text,
+    /// The fault that `serde_json` stopped at, and all others.
+    fn faults(&self, first: &serde_json::Error, budget: &Budget) -> Vec<Diagnostic> {
+        let Some(tree) = self.tree(budget) else {
+            return vec![self.fault(first, None)];
         };
-        let found = match (key.as_str(), index) {
-            ("camera", None) => own.parse::<Camera>().err(),
-            ("settings", None) => own.parse::<Settings>().err(),
-            ("environment", None) => own.parse::<Option<Environment>>().err(),
-            ("lights", Some(_)) => own.parse::<Light>().err(),
-            ("images", Some(_)) => own.parse::<Image>().err(),
-            ("textures", Some(_)) => own.parse::<Texture>().err(),
-            ("meshes", Some(_)) => own.parse::<Mesh>().err(),
-            ("materials", Some(_)) => own.parse::<Material>().err(),
-            ("surfaces", Some(_)) => own.parse::<Surface>().err(),
-            ("names", Some(_)) => own.parse::<String>().err(),
-            (
-                "lights" | "images" | "textures" | "meshes" | "materials" | "surfaces" | "names",
-                None,
-            ) => own.parse::<Vec<IgnoredAny>>().err(),
-            _ => None,
-        };
-        let place = index.map_or_else(|| format!("/{key}"), |index| format!("/{key}/{index}"));
-        found.map(|fault| {
-            let within = fault.pointer.clone().unwrap_or_default();
-            fault.pointer(place + &within)
-        })
+        let first_fault = self.fault(first, Some(&tree));
+        let mut faults = Vec::new();
+        for faults::Fault {
+            span,
+            pointer,
+            what,
+        } in faults::all::<Document>(&tree)
+        {
+            faults.push(wrong_shape(&what, span).pointer(pointer));
+        }
+        if !faults
+            .iter()
+            .any(|fault| covers(fault, &first_fault, first.is_data()))
+        {
+            faults.push(first_fault);
+        }
+        let start = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span.start);
+        let end = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span.end);
+        faults.sort_by_key(|fault| (start(fault), end(fault)));
+        faults
     }
 
     /// The bytes of the value of `irVersion`, where it is the first key; else where the text
@@ -252,6 +251,20 @@ impl<'a> Source<'a> {
     }
 }
 
-fn not_json(how: &str, what: &str, place: crate::source::Span) -> Box<Diagnostic> {
-    Box::new(Diagnostic::new(&codes::NOT_JSON, format!("{how}: {what}")).at(place, "here"))
+/// Whether a fault is the one that `serde_json` stopped at. Where it stopped for what it takes for a
+/// fault of JSON, as a list that is too long, that lies within.
+fn covers(fault: &Diagnostic, first: &Diagnostic, is_data: bool) -> bool {
+    let place = |fault: &Diagnostic| fault.primary.as_ref().map(|label| label.span);
+    let Some((own, first)) = place(fault).zip(place(first)) else {
+        return false;
+    };
+    if is_data {
+        own == first
+    } else {
+        own.start <= first.start && first.end <= own.end
+    }
+}
+
+fn not_json(how: &str, what: &str, place: crate::source::Span) -> Diagnostic {
+    Diagnostic::new(&codes::NOT_JSON, format!("{how}: {what}")).at(place, "here")
 }

@@ -1,13 +1,13 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language, one for the
-//! files they name, and what decodes pictures within the budget for all of them.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language, and
+//! what decodes pictures within the budget for all of them.
 
-pub mod assets;
 pub mod course;
 pub mod gltf;
+pub mod mesh;
 pub mod pixels;
 
-use crate::ir::{ImageId, MeshId};
-use crate::source::Span;
+use crate::diag::{Diagnostic, codes};
+use crate::source::Exceeded;
 use std::path::PathBuf;
 
 /// What a front end lets pass, and where it may look.
@@ -32,26 +32,11 @@ pub struct Options {
     pub camera: Option<String>,
 }
 
-/// A file that a scene names, for a place in the IR that waits for it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
-    /// What the file is for.
-    pub asset: Asset,
-    /// Its path as the scene writes it.
-    pub path: String,
-    /// Where the scene writes it.
-    pub span: Option<Span>,
-}
-
-/// The place in the IR that a file is for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asset {
-    /// An image, of one pixel until its file is there.
-    Image(ImageId),
-    /// A mesh, empty until its file is there.
-    Mesh(MeshId),
-    /// The image of the environment, of one dark pixel until its file is there.
-    Environment(ImageId),
-    /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
-    Gltf([[f64; 3]; 4]),
+/// A file asks for more than the budget has.
+fn over_limit(what: &str, fault: &Exceeded) -> Diagnostic {
+    Diagnostic::new(
+        &codes::OVER_LIMIT,
+        format!("{what} asks for too much: {fault}"),
+    )
+    .hint(fault.hint())
 }

@@ -1,7 +1,10 @@
 //! Pixel files decoded within the budget of the run: what a file takes is charged before it is
 //! decoded.
 
+use super::over_limit;
+use crate::diag::{Diagnostic, codes};
 use crate::image::{Cost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
+use crate::ir;
 use crate::source::{Budget, Exceeded, Resource};
 
 /// Why there is no picture.
@@ -37,6 +40,53 @@ pub fn decode_radiance(bytes: &[u8], budget: &Budget) -> Result<Radiance, Refuse
     let file = RadianceFile::open(bytes, budget.limit(Resource::Pixels))?;
     charge(file.cost(), budget)?;
     Ok(file.decode()?)
+}
+
+/// The image of an environment: a Radiance HDR or OpenEXR file.
+///
+/// # Errors
+/// As [`decode`].
+pub fn environment(name: &str, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refused> {
+    budget.read(bytes.len());
+    let Radiance {
+        width,
+        height,
+        bytes,
+    } = decode_radiance(bytes, budget)?;
+    Ok(ir::Image {
+        name: name.to_owned(),
+        width,
+        height,
+        kind: ir::Pixels::Rgb32f,
+        pixels: bytes.into(),
+    })
+}
+
+/// What to say of the file of an environment that can't be read.
+#[must_use]
+pub fn no_environment(fault: &Refused, name: &str) -> Diagnostic {
+    let formats = "environments are Radiance HDR or OpenEXR";
+    refusal(fault, &format!("the environment `{name}`"), formats)
+}
+
+/// What to say of a file that can't be read: `what` names it, `formats` says what it may be.
+pub(super) fn refusal(fault: &Refused, what: &str, formats: &'static str) -> Diagnostic {
+    let fault = match fault {
+        Refused::Limit(fault) => return over_limit(what, fault),
+        Refused::File(fault) => fault,
+    };
+    let (code, hint) = match fault {
+        DecodeError::Format(_) => (&codes::BAD_PICTURE, formats),
+        DecodeError::Damaged(_) => (&codes::BAD_PICTURE, "save the picture again"),
+        DecodeError::TooLarge {
+            width: _,
+            height: _,
+        } => (
+            &codes::HUGE_PICTURE,
+            "scale it down, or set another limit by `--limit pixels=…`",
+        ),
+    };
+    Diagnostic::new(code, format!("{what} {fault}")).hint(hint)
 }
 
 fn charge(cost: Cost, budget: &Budget) -> Result<(), Refused> {

@@ -101,22 +101,24 @@ fn corners(shape: &Shape, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
             cube(*base, *radius);
             visit(Vec3::from_array(*base) + Vec3::from_array(*up));
         }
-        Shape::Instance(Instance {
-            mesh,
-            world_from_object,
-        }) => {
-            let Some(around) = boxes
-                .get(mesh.0 as usize)
-                .filter(|[low, _]| low.is_finite())
-            else {
-                return;
-            };
-            let world = DAffine3::from_cols_array_2d(world_from_object);
-            box_corners(*around)
-                .into_iter()
-                .for_each(|corner| visit(world.transform_point3(corner)));
-        }
+        Shape::Instance(instance) => placed(instance, boxes, visit),
     }
+}
+
+/// Visits the corners of the box around a mesh, where the instance places them.
+fn placed(instance: &Instance, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
+    let Instance {
+        mesh,
+        world_from_object,
+    } = instance;
+    let around = boxes.get(mesh.0 as usize);
+    let Some(around) = around.filter(|[low, _]| low.is_finite()) else {
+        return;
+    };
+    let world = DAffine3::from_cols_array_2d(world_from_object);
+    box_corners(*around)
+        .into_iter()
+        .for_each(|corner| visit(world.transform_point3(corner)));
 }
 
 fn box_corners([low, high]: [Vec3; 2]) -> [Vec3; 8] {

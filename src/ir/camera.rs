@@ -1,5 +1,6 @@
 //! The camera: an eye, an image plane, and a lens.
 
+use crate::math::{Vec3, cos, length, sin, unit, unit_scale};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,6 +28,80 @@ pub struct Camera {
     /// How the rays run.
     #[serde(default, skip_serializing_if = "Projection::is_perspective")]
     pub projection: Projection,
+}
+
+impl Camera {
+    /// The size of a pixel at a distance, if `height` of them span the angle `yfov` (radians).
+    #[must_use]
+    pub fn pixel(yfov: f64, distance: f64, height: u32) -> f64 {
+        2.0 * sin(yfov / 2.0) / cos(yfov / 2.0) * distance / f64::from(height)
+    }
+
+    /// The axis of the world that is nearest to the upward direction.
+    #[must_use]
+    pub fn upright(&self) -> Vec3 {
+        let up = Vec3::from_array(self.up);
+        let better = |best: Vec3, axis: Vec3| {
+            if up.dot(axis).abs() > up.dot(best).abs() {
+                axis
+            } else {
+                best
+            }
+        };
+        let axis = [Vec3::Z, Vec3::X].into_iter().fold(Vec3::Y, better);
+        if up.dot(axis) < 0.0 { -axis } else { axis }
+    }
+
+    /// The same camera after a turn by `angle` (radians) about an axis, a unit vector, through a
+    /// point.
+    #[must_use]
+    pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
+        let (sine, cosine) = (sin(angle), cos(angle));
+        // Rodrigues' formula.
+        let turn =
+            |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
+        let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
+        let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
+        let Self {
+            eye,
+            center,
+            right,
+            up,
+            size,
+            lens,
+            projection,
+        } = self.clone();
+        Self {
+            eye: point(eye),
+            center: point(center),
+            right: step(right),
+            up: step(up),
+            size,
+            lens,
+            projection,
+        }
+    }
+
+    /// The distance from the eye to the plane of the image.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        let [eye, center, right, up] =
+            [self.eye, self.center, self.right, self.up].map(Vec3::from_array);
+        let [right, up] =
+            [right, up].map(|step| unit_scale(step).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        (center - eye)
+            .dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO))
+            .abs()
+    }
+
+    /// Opens to an angle from bottom to top, in radians, in its place.
+    pub fn open(&mut self, yfov: f64) {
+        let [_, height] = self.size;
+        let scale = Self::pixel(yfov, self.distance(), height) / length(Vec3::from_array(self.up));
+        let scaled = |step: [f64; 3]| step.map(|component| component * scale);
+        (self.right, self.up) = (scaled(self.right), scaled(self.up));
+        self.projection = Projection::Perspective;
+    }
 }
 
 /// How the rays of a camera run.
@@ -63,4 +138,58 @@ pub struct Lens {
     /// How many points of the aperture each sub-sample takes, at least 1.
     #[schemars(range(min = 1))]
     pub samples: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        Camera {
+            eye: [0.0, 0.0, 10.0],
+            center: [0.0; 3],
+            right: [0.5, 0.0, 0.0],
+            up: [0.0, 0.5, 0.0],
+            size: [8, 4],
+            lens: Lens {
+                radius: 0.0,
+                samples: 1,
+            },
+            projection: Projection::Perspective,
+        }
+    }
+
+    #[test]
+    fn an_angle_spans_the_height_of_the_picture() {
+        let mut camera = camera();
+        camera.open(std::f64::consts::FRAC_PI_2);
+        assert!(
+            (4.0 * camera.up[1] - 20.0).abs() < 1e-12
+                && (camera.right[0] - camera.up[1]).abs() < 1e-12
+        );
+    }
+
+    #[test]
+    fn a_turn_of_a_quarter_and_the_axis_that_is_up() {
+        let turned = camera().turned(
+            std::f64::consts::FRAC_PI_2,
+            Vec3::Y,
+            Vec3::new(0.0, 7.0, 0.0),
+        );
+        let near =
+            |a: [f64; 3], b: [f64; 3]| Vec3::from_array(a).distance(Vec3::from_array(b)) < 1e-12;
+        assert!(
+            near(turned.eye, [10.0, 0.0, 0.0]) && near(turned.right, [0.0, 0.0, -0.5]),
+            "{turned:?}"
+        );
+        assert!(near(turned.up, [0.0, 0.5, 0.0]) && near(turned.center, [0.0; 3]));
+        let tilted = Camera {
+            up: [0.1, 0.2, -0.4],
+            ..camera()
+        };
+        assert_eq!(
+            (camera().upright(), tilted.upright()),
+            (Vec3::Y, Vec3::NEG_Z)
+        );
+    }
 }

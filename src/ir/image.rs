@@ -1,5 +1,6 @@
 //! The images: pixels, as textures look them up.
 
+use super::Scene;
 use crate::math::Shared;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
@@ -30,6 +31,14 @@ pub struct Image {
     #[serde(with = "base64_text")]
     #[schemars(with = "String")]
     pub pixels: Shared<u8>,
+}
+
+impl Scene {
+    /// Adds an image.
+    pub fn add_image(&mut self, image: Image) -> ImageId {
+        self.images.push(image);
+        ImageId(u32::try_from(self.images.len() - 1).unwrap_or(u32::MAX))
+    }
 }
 
 /// What a pixel is made of.

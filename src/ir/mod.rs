@@ -13,12 +13,9 @@ mod light;
 mod material;
 mod mesh;
 mod origin;
-mod overrides;
 mod settings;
 mod shape;
-mod stage;
 mod standard;
-mod studio;
 mod texture;
 
 pub use crate::math::{Column, Shared};
@@ -30,12 +27,10 @@ pub use light::{Emitter, Light, PointLight, Punctual};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
-pub use overrides::Overrides;
 pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };
-pub use stage::{Integrator, Stage, Sun, Surroundings, View};
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
 

@@ -1,6 +1,5 @@
 //! The settings: what a pixel shows and how much work goes into it.
 
-use crate::diag::{clip, clip_words};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -25,64 +24,6 @@ pub struct Settings {
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(range(min = 1))]
     pub light_samples: u32,
-}
-
-impl Settings {
-    /// The names of the fields in the text form.
-    const NAMES: [&str; 6] = [
-        "mode",
-        "shadows",
-        "maxDepth",
-        "supersampling",
-        "pattern",
-        "lightSamples",
-    ];
-
-    /// Replaces one value, by the name that the text form gives it: a field of the settings, or of
-    /// the parameters of their mode. What is no JSON is a word.
-    ///
-    /// # Errors
-    /// If there is no field of this name, or the value is none for it; in words.
-    pub fn set(&mut self, name: &str, value: &str) -> Result<(), String> {
-        let wrong = |fault: serde_json::Error| {
-            format!(
-                "`{name}` can't be `{}`: {}",
-                clip(value),
-                clip_words(&fault.to_string())
-            )
-        };
-        let mut text = serde_json::to_value(&*self).map_err(wrong)?;
-        let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
-        let parameters = text["mode"]
-            .as_object()
-            .and_then(|mode| mode.values().next()?.as_object());
-        let parameters: Vec<_> = parameters
-            .into_iter()
-            .flat_map(|fields| fields.keys().cloned())
-            .collect();
-        if Self::NAMES.contains(&name) {
-            text[name] = value;
-        } else if parameters.iter().any(|own| own == name) {
-            let mode = text["mode"]
-                .as_object_mut()
-                .and_then(|mode| mode.values_mut().next());
-            mode.into_iter()
-                .for_each(|fields| fields[name] = value.clone());
-        } else {
-            let names = Self::NAMES
-                .map(str::to_owned)
-                .into_iter()
-                .chain(parameters)
-                .collect::<Vec<_>>()
-                .join(", ");
-            return Err(format!(
-                "there is no setting `{}`; there are {names}",
-                clip(name)
-            ));
-        }
-        *self = serde_json::from_value(text).map_err(wrong)?;
-        Ok(())
-    }
 }
 
 fn one() -> u32 {
@@ -176,74 +117,4 @@ pub struct Gooch {
     pub alpha: f64,
     /// How much of the surface's colour the warm tone takes.
     pub beta: f64,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn paths() -> Settings {
-        Settings {
-            mode: Mode::Path(Path {
-                samples: 64,
-                multiple_scattering: true,
-            }),
-            shadows: true,
-            max_depth: 16,
-            supersampling: 1,
-            pattern: Pattern::Jitter,
-            light_samples: 2,
-        }
-    }
-
-    #[test]
-    fn every_field_can_be_set_by_its_name() {
-        let text = serde_json::to_value(paths()).unwrap();
-        let names: Vec<_> = text.as_object().unwrap().keys().collect();
-        assert_eq!(names, Settings::NAMES);
-        let mut settings = paths();
-        let values = [
-            ("multipleScattering", "false"),
-            ("samples", "9"),
-            ("maxDepth", "3"),
-            ("pattern", "random"),
-            ("shadows", "false"),
-        ];
-        for (name, value) in values {
-            settings.set(name, value).unwrap();
-        }
-        let mode = Mode::Path(Path {
-            samples: 9,
-            multiple_scattering: false,
-        });
-        let expected = Settings {
-            mode,
-            max_depth: 3,
-            pattern: Pattern::Random,
-            shadows: false,
-            ..paths()
-        };
-        assert_eq!(settings, expected);
-        settings.set("mode", "normal").unwrap();
-        assert_eq!(settings.mode, Mode::Normal);
-    }
-
-    #[test]
-    fn what_is_wrong_is_said_and_changes_nothing() {
-        let mut settings = paths();
-        let unknown = settings.set("sample", "3").unwrap_err();
-        assert!(
-            unknown.starts_with("there is no setting `sample`; there are mode, ")
-                && unknown.contains("samples")
-        );
-        for (name, value) in [
-            ("samples", "-1"),
-            ("shadows", "maybe"),
-            ("mode", "{\"path\": {}}"),
-            ("b", "1"),
-        ] {
-            assert!(settings.set(name, value).is_err(), "{name} {value}");
-        }
-        assert_eq!(settings, paths());
-    }
 }

@@ -11,6 +11,7 @@ mod flat;
 mod func;
 mod number;
 mod onb;
+mod rotation;
 mod turns;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
@@ -22,8 +23,9 @@ pub use flat::is_flat;
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};
 pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
-pub use number::{NonNegative, Positive, UnitInterval};
+pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
+pub use rotation::{axis_and_angle, turned_to_z};
 pub use turns::{cos_sin_turns, golden_turns};
 
 /// The unit round-off of f64, u = 2⁻⁵³.

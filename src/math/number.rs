@@ -1,4 +1,4 @@
-//! Numbers with a range, so that who holds one need not ask again.
+//! Numbers with a range, so that who holds one need not ask again; and numbers as people write them.
 
 /// A finite number above 0.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -112,6 +112,18 @@ impl UnitInterval {
     }
 }
 
+/// The shortest text that reads back as the same number.
+#[must_use]
+pub fn shortest(value: f64) -> String {
+    let (plain, scientific) = (format!("{value}"), format!("{value:e}"));
+    // People read 0.0001 and 100000 better than the few characters less.
+    if plain.len() <= scientific.len() + 4 {
+        plain
+    } else {
+        scientific
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,6 +144,19 @@ mod tests {
         assert!(UnitInterval::new(f64::NAN).is_none());
         assert!(UnitInterval::new(-0.0).unwrap().get().is_sign_positive());
         assert!(UnitInterval::saturating(-0.0).get().is_sign_positive());
+    }
+
+    #[test]
+    fn numbers_are_short_and_read_back() {
+        for (value, text) in [
+            (0.0001, "0.0001"),
+            (1e5, "100000"),
+            (1e-9, "1e-9"),
+            (0.1 + 0.2, "0.30000000000000004"),
+        ] {
+            assert_eq!(shortest(value), text);
+            assert_eq!(text.parse(), Ok(value));
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod budget;
 mod loader;
 mod map;
 mod search;
+pub mod tree;
 
 pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use loader::{Identity, LoadError, Loader};

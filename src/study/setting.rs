@@ -1,7 +1,8 @@
 //! A setting: a value for each knob, read from a scene and written into one.
 
 use super::knob::{Knob, arithmetic, place};
-use crate::ir::{Material, Mode, Overrides, Scene};
+use crate::ir::{Material, Mode, Scene};
+use crate::passes::Overrides;
 use crate::plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 

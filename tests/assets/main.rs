@@ -14,7 +14,8 @@ mod search;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
-use rtc::front::{Asset, Options, Wanted, assets};
+use rtc::front::Options;
+use rtc::front::course::assets::{self, Asset, Wanted};
 use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::source::{Loader, SourceMap, Span};
 use std::fs;

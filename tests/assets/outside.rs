@@ -2,7 +2,8 @@
 
 use super::search::found;
 use super::{IMAGE, MESH, bring, folder, pixels, png, write};
-use rtc::front::{Asset, Options};
+use rtc::front::Options;
+use rtc::front::course::assets::Asset;
 use std::fs;
 use tempfile::TempDir;
 

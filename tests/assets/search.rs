@@ -2,7 +2,8 @@
 
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
 use rtc::diag::Sink;
-use rtc::front::{Options, Wanted, assets};
+use rtc::front::Options;
+use rtc::front::course::assets::{self, Wanted};
 use rtc::ir::TextureId;
 use rtc::source::{SourceMap, Span};
 

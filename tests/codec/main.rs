@@ -7,6 +7,7 @@
     reason = "a test stops at the first surprise and reads what it checks"
 )]
 mod container;
+mod faults;
 mod scenes;
 mod sections;
 mod versions;
@@ -277,34 +278,4 @@ fn a_course_scene_is_not_taken_for_the_ir() {
             "{text}"
         );
     }
-}
-
-/// Each part of a text is decoded by itself once one has a fault.
-#[test]
-fn two_faults_of_a_text_are_two_findings() {
-    let text = r#"{"irVersion": 3, "camera": {"eye": 1}, "settings": {}, "lights": [{"point": {}}, {"sun": 1}],
-        "materials": 4, "surfaces": []}"#;
-    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = map.add("two.json", text.as_bytes().to_vec());
-    assert!(codec::decode(Form::Text, file, &map, &mut sink).is_none());
-    let found: Vec<_> = sink
-        .kept()
-        .iter()
-        .map(|f| (f.code.id, f.pointer.clone().unwrap()))
-        .collect();
-    let expected = [
-        "/camera/eye",
-        "/settings",
-        "/lights/0/point",
-        "/lights/1/sun",
-        "/materials",
-    ];
-    assert_eq!(
-        found
-            .iter()
-            .map(|(_, pointer)| pointer.as_str())
-            .collect::<Vec<_>>(),
-        expected
-    );
-    assert!(found.iter().all(|(code, _)| *code == "IR003"));
 }

@@ -11,7 +11,9 @@ mod solid;
 
 use proptest::prelude::*;
 use rtc::diag::Sink;
-use rtc::front::{Asset, Options, course};
+use rtc::emit;
+use rtc::front::course::assets::Asset;
+use rtc::front::{Options, course};
 use rtc::ir::{self, Scene};
 use rtc::math::{Vec3, camera_basis};
 use rtc::source::SourceMap;
@@ -56,7 +58,7 @@ fn texts() -> Vec<(PathBuf, String)> {
 
 /// Writes the scene and reads it again, ourselves and by way of another YAML reader.
 fn comes_back(scene_in: &Scene) {
-    let text = course::emit(scene_in).unwrap();
+    let text = emit::course::emit(scene_in).unwrap();
     assert_eq!(scene(&text).as_ref(), Some(scene_in), "{text}");
     let other: serde_json::Value = serde_yaml::from_str(&text).unwrap();
     let unshared = scene(&other.to_string()).unwrap();
@@ -119,13 +121,15 @@ fn a_camera_of_any_frame_comes_back() {
     let mut seen = scene("Eye: [0, 200, 1000]\n").unwrap();
     comes_back(&seen);
     assert!(
-        course::emit(&seen).unwrap().contains("right: [1, 0, 0]"),
+        emit::course::emit(&seen)
+            .unwrap()
+            .contains("right: [1, 0, 0]"),
         "it looks at a slant"
     );
     seen = scene("Eye: [200, 200, 1000]\n").unwrap();
     comes_back(&seen);
     assert!(
-        !course::emit(&seen).unwrap().contains("right:"),
+        !emit::course::emit(&seen).unwrap().contains("right:"),
         "an `up` says it all"
     );
     for right in [[2.0, 0.0, 0.0], [-1.0, 0.0, 0.0]] {
@@ -138,14 +142,18 @@ fn a_camera_of_any_frame_comes_back() {
 fn what_the_format_cant_hold_is_said_in_words() {
     let mut seen = scene("Eye: [200, 200, 1000]\n").unwrap();
     seen.camera.projection = ir::Projection::Orthographic;
-    assert!(course::emit(&seen).unwrap_err().contains("orthographic"));
+    assert!(
+        emit::course::emit(&seen)
+            .unwrap_err()
+            .contains("orthographic")
+    );
     seen.camera.projection = ir::Projection::Perspective;
     seen.lights.push(ir::Light::Point(ir::PointLight {
         position: [f64::NAN, 0.0, 0.0],
         color: [1.0; 3],
         radius: 0.0,
     }));
-    assert!(course::emit(&seen).unwrap_err().contains("finite"));
+    assert!(emit::course::emit(&seen).unwrap_err().contains("finite"));
 }
 
 #[test]

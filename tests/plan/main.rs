@@ -26,7 +26,8 @@ mod told;
 mod validation;
 
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::ir::{Lowered, Origins, Scene};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Effect, Plan, Rule, Rules, State, Verdict};
 use rtc::render::{Film, Job, Values};

@@ -7,7 +7,7 @@ use super::suite::needs;
 use libtest_mimic::Trial;
 use rtc::color::quantize8;
 use rtc::diag::Sink;
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;

@@ -3,7 +3,8 @@
 use super::suite::{absent, files, shared, trial};
 use libtest_mimic::Trial;
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::ir::{Lowered, Origins, Scene};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job};

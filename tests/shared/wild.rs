@@ -5,7 +5,7 @@ use super::scenes::{COURSE, each};
 use super::suite::{files, needs};
 use libtest_mimic::Trial;
 use rtc::diag::{Severity, Sink};
-use rtc::ir::Overrides;
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;

@@ -3,7 +3,8 @@
 #![allow(dead_code, reason = "no suite needs all of it")]
 
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Origins, Overrides, Scene};
+use rtc::ir::{Lowered, Origins, Scene};
+use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Behind, Film, Job, Seeds, Stride, Values};

@@ -1,6 +1,7 @@
 //! What a plan of paths tells, beside what its picture counts; and that its rules change no bit.
 
-use rtc::ir::{self, Mode, Overrides, Scene};
+use rtc::ir::{self, Mode, Scene};
+use rtc::passes::Overrides;
 use rtc::pipeline;
 use rtc::plan::{Effect, Plan, Rules, State};
 use rtc::render::{Counts, Film, Job, Values};

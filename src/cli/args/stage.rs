@@ -1,7 +1,7 @@
 //! What every command that shows a scene is told of view and light.
 
 use super::super::parse::{color, degrees, sun, vector};
-use crate::ir;
+use crate::passes;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub(in crate::cli) struct Stage {
     /// A sun: the direction to it, and the irradiance on a surface that faces it, one number or
     /// three
     #[arg(long, value_name = "DX,DY,DZ,E", value_parser = sun, allow_hyphen_values = true)]
-    pub(in crate::cli) sun: Vec<ir::Sun>,
+    pub(in crate::cli) sun: Vec<passes::Sun>,
     /// Leave out the lights of the scene
     #[arg(long)]
     pub(in crate::cli) no_scene_lights: bool,
@@ -48,7 +48,7 @@ pub(in crate::cli) enum Integrator {
     Path,
 }
 
-impl From<Integrator> for ir::Integrator {
+impl From<Integrator> for passes::Integrator {
     fn from(integrator: Integrator) -> Self {
         match integrator {
             Integrator::Whitted => Self::Whitted,

@@ -12,7 +12,8 @@ use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
 use crate::image::{Layers, Lost, Origin};
-use crate::ir::{Overrides, Scene};
+use crate::ir::Scene;
+use crate::passes::{self, Overrides};
 use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
 use crate::render::Crop;
@@ -99,10 +100,9 @@ impl Plan {
         let mut set = Ok(());
         let proven = input::require(input, talk, |lowered| {
             self.overrides.apply(&mut lowered.scene);
-            set = self
-                .set
-                .iter()
-                .try_for_each(|(name, value)| lowered.scene.settings.set(name, value));
+            set = self.set.iter().try_for_each(|(name, value)| {
+                passes::set(&mut lowered.scene.settings, name, value)
+            });
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         self.window(&proven.lowered.scene)?;

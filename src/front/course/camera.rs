@@ -7,7 +7,7 @@ use super::record::{Found, keys, record};
 use super::value::{Point, Size, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
-use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
 use crate::source::Span;
 
 record! {
@@ -231,7 +231,8 @@ fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
 /// Reports an `up` along the view, with a better one; that one if repairs are wanted.
 fn parallel(gaze: Vec3, up: Vec3, span: Span, context: &mut Context<'_>) -> Option<Vec3> {
     let better = fallback_up(gaze, up);
-    let text = super::emit::triple(better.to_array());
+    let [x, y, z] = better.to_array().map(shortest);
+    let text = format!("[{x}, {y}, {z}]");
     let lenient = context.options.lenient;
     context.report(
         &codes::UP_PARALLEL,

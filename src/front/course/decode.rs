@@ -1,10 +1,10 @@
 //! What decoding stands on: values with their spans, and the context that collects every finding.
 
 use super::schema::Definitions;
-use super::tree::{NodeId, Shape, Tree};
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
+use crate::source::tree::{NodeId, Shape, Tree};
 use crate::source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;

@@ -5,10 +5,10 @@ use super::lower::Lowering;
 use super::number::NonNegative;
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
-use super::tree::NodeId;
 use super::value::{Channels, Color, Point, Vector, word, word_schema};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
+use crate::source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {

@@ -1,16 +1,19 @@
 //! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
 //! value.
 
+use super::assets::{Asset, Wanted};
 use super::camera;
 use super::decode::{Context, Key, Value};
 use super::mesh;
 use super::record::Found;
 use super::settings::Scene;
+use super::syntax;
 use super::texture::Files;
-use super::tree::{self, NodeId, Shape};
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{Asset, Options, Wanted};
+use crate::front::Options;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
+use crate::source::tree::yaml::{self, Mistake};
+use crate::source::tree::{NodeId, Shape};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
@@ -20,7 +23,8 @@ use std::collections::BTreeMap;
 /// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so
 /// that the proof can find the mistakes of the rest; the sink has an error for each.
 pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
-    let tree = tree::parse(file, map.bytes(file), sink)?;
+    let tell = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
+    let tree = yaml::parse(file, map.bytes(file), tell)?;
     match tree.shape(tree.root()) {
         Shape::Map => {}
         Shape::Word("" | "~" | "null" | "Null" | "NULL") => {

@@ -1,15 +1,14 @@
-//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR, and the IR
-//! back to text.
+//! The YAML of the course: text to spanned tree, tree to declaration, declaration to IR.
 //!
 //! Each record of the format is declared once, in the file of its noun; the declaration is its
 //! type, its decoder and its schema. Every mistake is collected; none stops the pass.
 
+pub mod assets;
 mod camera;
 mod cone;
 mod cylinder;
 mod decode;
 mod disc;
-mod emit;
 mod environment;
 mod form;
 mod gltf;
@@ -22,19 +21,20 @@ mod object;
 mod page;
 mod plane;
 mod quad;
+mod reader;
 mod record;
 mod schema;
 mod settings;
 mod solid;
 mod spelling;
 mod sphere;
+mod syntax;
 mod texture;
 mod torus;
-mod tree;
+
 mod triangle;
 mod value;
 
-pub use emit::emit;
 pub use lower::{Draft, lower};
 pub use page::page;
 pub use schema::schema;

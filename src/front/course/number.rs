@@ -5,9 +5,9 @@
 
 use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
-use super::tree::{NodeId, Shape};
 use crate::diag::clip;
 use crate::diag::codes;
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 /// What a word says about a number.

@@ -10,19 +10,20 @@ use super::material::Material;
 use super::mesh::Mesh;
 use super::plane::{BoundedPlane, Plane};
 use super::quad::Quad;
-use super::record::{Record, look_up, missing_keys};
+use super::reader::{look_up, missing_keys};
+use super::record::Record;
 use super::schema::{self, Definitions};
 use super::solid::{Cuboid, Prism, Tetrahedron};
 use super::spelling::{list, nearest};
 use super::sphere::Sphere;
 use super::torus::Torus;
-use super::tree::NodeId;
 use super::triangle::Triangle;
 use super::value::Text;
 use crate::diag::clip;
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
+use crate::source::tree::NodeId;
 use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.

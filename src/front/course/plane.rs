@@ -7,12 +7,12 @@ use super::number::{Positive, Real};
 use super::quad::EDGES;
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
-use super::tree::NodeId;
 use super::triangle::CORNERS;
 use super::value::{Point, Text, Vector, word, word_schema};
 use crate::diag::codes;
 use crate::ir::{self, Field};
 use crate::math::{Vec3, unit, unit_scale};
+use crate::source::tree::NodeId;
 use serde_json::Value as Json;
 
 record! {

@@ -1,5 +1,6 @@
 //! The whole file, and of it the settings: what a pixel shows and how much work goes into it.
 
+use super::assets::Asset;
 use super::camera::Camera;
 use super::decode::{Context, Each, Spanned, Value};
 use super::environment::Environment;
@@ -9,11 +10,10 @@ use super::number::{Count, Natural, Real, plain_number};
 use super::object::Object;
 use super::record::{Found, keys, record};
 use super::schema::Definitions;
-use super::tree::{NodeId, Shape};
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
-use crate::front::Asset;
 use crate::ir::{self, Field, Noun};
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -151,7 +151,7 @@ record! {
 pub(super) struct Pattern(ir::Pattern);
 
 /// The words for the patterns.
-pub(super) const PATTERNS: &[(&str, ir::Pattern)] = &[
+const PATTERNS: &[(&str, ir::Pattern)] = &[
     ("grid", ir::Pattern::Grid),
     ("jitter", ir::Pattern::Jitter),
     ("random", ir::Pattern::Random),

@@ -1,13 +1,14 @@
 //! The textures, and the files that images and meshes are to come from: each is wanted once.
 
+use super::assets::{Asset, Wanted};
 use super::decode::Spanned;
 use super::value::FileName;
-use crate::front::{Asset, Wanted};
+
 use crate::ir::{Image, ImageId, Mesh, MeshId, Pixels, Scene, Texture, TextureId};
 use std::collections::BTreeMap;
 
 /// The word that stands for the uv of the surface in place of a file.
-pub(super) const UV: &str = "UV";
+const UV: &str = "UV";
 
 /// One white pixel.
 const PLACEHOLDER: [u8; 3] = [255; 3];

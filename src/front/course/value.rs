@@ -4,9 +4,9 @@ use super::decode::{Context, Value};
 use super::number::{is_number, json_number, number, plain_number, whole};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
-use super::tree::{NodeId, Shape};
 use crate::diag::clip;
 use crate::diag::codes;
+use crate::source::tree::{NodeId, Shape};
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the

@@ -3,139 +3,13 @@
 use super::buffer::{Purpose, Purposes};
 use super::document::Document;
 use super::field::Fields;
-use super::json::{Kind, NodeId};
+use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::{Kind, NodeId};
 
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;
-
-/// The type of a component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Component {
-    I8,
-    U8,
-    I16,
-    U16,
-    U32,
-    F32,
-}
-
-impl Component {
-    pub(super) fn from_code(code: u64) -> Option<Self> {
-        Some(match code {
-            5120 => Self::I8,
-            5121 => Self::U8,
-            5122 => Self::I16,
-            5123 => Self::U16,
-            5125 => Self::U32,
-            5126 => Self::F32,
-            _ => return None,
-        })
-    }
-
-    /// Its size in bytes.
-    pub(super) fn size(self) -> usize {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::U32 | Self::F32 => 4,
-        }
-    }
-
-    /// The least and the greatest value of an integer type.
-    pub(super) fn range(self) -> Option<[f64; 2]> {
-        Some(match self {
-            Self::I8 => [f64::from(i8::MIN), f64::from(i8::MAX)],
-            Self::U8 => [0.0, f64::from(u8::MAX)],
-            Self::I16 => [f64::from(i16::MIN), f64::from(i16::MAX)],
-            Self::U16 => [0.0, f64::from(u16::MAX)],
-            Self::U32 => [0.0, f64::from(u32::MAX)],
-            Self::F32 => return None,
-        })
-    }
-
-    /// True if indices may be of the type.
-    pub(super) fn is_index(self) -> bool {
-        matches!(self, Self::U8 | Self::U16 | Self::U32)
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::I8 => "i8",
-            Self::U8 => "u8",
-            Self::I16 => "i16",
-            Self::U16 => "u16",
-            Self::U32 => "u32",
-            Self::F32 => "f32",
-        }
-    }
-}
-
-/// How an element is laid out: columns of components, each column of a matrix starting at a
-/// multiple of four bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Layout {
-    pub(super) component: Component,
-    pub(super) columns: usize,
-    pub(super) rows: usize,
-    /// Integers stand for fractions of the greatest.
-    pub(super) normalized: bool,
-}
-
-impl Layout {
-    /// How many components an element has.
-    pub(super) fn components(self) -> usize {
-        self.columns * self.rows
-    }
-
-    /// Bytes from one column to the next.
-    pub(super) fn column(self) -> usize {
-        let bytes = self.rows * self.component.size();
-        if self.columns > 1 {
-            bytes.next_multiple_of(4)
-        } else {
-            bytes
-        }
-    }
-
-    /// Bytes from one element to the next where nothing lies between.
-    pub(super) fn packed(self) -> usize {
-        self.columns * self.column()
-    }
-
-    /// Bytes of an element without what pads it.
-    fn size(self) -> usize {
-        self.packed() - self.column() + self.rows * self.component.size()
-    }
-
-    /// True if the numbers can be a bound of the elements.
-    fn is_bound(self, bound: &[f64]) -> bool {
-        let [least, most] = self
-            .component
-            .range()
-            .unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
-        let is_whole = |number: f64| self.component == Component::F32 || number.fract() == 0.0;
-        bound.len() == self.components()
-            && bound
-                .iter()
-                .all(|own| is_whole(*own) && (least..=most).contains(own))
-    }
-
-    /// As messages call it: `vec3 of f32`.
-    pub(super) fn name(self) -> String {
-        let shape = match (self.columns, self.rows) {
-            (1, 1) => "scalar".to_owned(),
-            (1, rows) => format!("vec{rows}"),
-            (columns, _) => format!("mat{columns}"),
-        };
-        format!(
-            "{shape} of {}{}",
-            if self.normalized { "normalised " } else { "" },
-            self.component.name()
-        )
-    }
-}
 
 /// Elements.
 #[derive(Debug)]
@@ -506,30 +380,5 @@ pub(super) fn check_claims(doc: &Document<'_>, report: &mut Report<'_, '_>) {
                 report.say(&codes::GLTF_HUGE, "", at, message);
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_of_matrices_are_padded_as_the_specification_says() {
-        let layout = |component, columns, rows| Layout {
-            component,
-            columns,
-            rows,
-            normalized: false,
-        };
-        let sizes = |component, columns, rows| {
-            let layout = layout(component, columns, rows);
-            (layout.size(), layout.packed())
-        };
-        assert_eq!(sizes(Component::U8, 2, 2), (6, 8));
-        assert_eq!(sizes(Component::I8, 3, 3), (11, 12));
-        assert_eq!(sizes(Component::U16, 3, 3), (22, 24));
-        assert_eq!(sizes(Component::U16, 2, 2), (8, 8));
-        assert_eq!(sizes(Component::F32, 4, 4), (64, 64));
-        assert_eq!(sizes(Component::U8, 1, 3), (3, 3));
     }
 }

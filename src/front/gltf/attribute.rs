@@ -1,13 +1,36 @@
 //! Attributes of vertices: their names, their formats, and where they lie.
 
-use super::accessor::{Accessor, Component, Layout};
-use super::contents::{Demand, Demands};
+use super::accessor::Accessor;
+use super::demand::{Demand, Demands};
 use super::document::Document;
-use super::json::NodeId;
-use super::mesh::{Attribute, Primitive, is_aligned};
+use super::field::Fields;
+use super::layout::{Component, Layout};
+use super::primitive::Primitive;
 use super::report::{Report, shown};
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// What an accessor is to the vertices.
+#[derive(Debug)]
+pub(super) struct Attribute {
+    pub(super) at: NodeId,
+    pub(super) name: String,
+    pub(super) accessor: usize,
+}
+
+/// Reads a map of attributes and their accessors.
+pub(super) fn read(fields: Fields<'_, '_>) -> Vec<Attribute> {
+    let attribute = |(key, at): (NodeId, NodeId)| {
+        let accessor = usize::try_from(fields.json.whole(at)?).ok()?;
+        Some(Attribute {
+            at,
+            name: fields.json.text(key)?.to_owned(),
+            accessor,
+        })
+    };
+    fields.json.pairs(fields.at).filter_map(attribute).collect()
+}
 
 /// What an attribute says of a vertex, with the number of its set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -287,4 +310,10 @@ pub(super) fn demand(attribute: &Attribute, accessor: &Accessor, demands: &mut D
         | Semantic::Custom
         | Semantic::None => {}
     }
+}
+
+/// True if an accessor has an alignment that vertices need.
+fn is_aligned(accessor: &Accessor, stride: Option<usize>) -> bool {
+    let packed = accessor.layout.map_or(4, Layout::packed);
+    accessor.offset.is_multiple_of(4) && stride.unwrap_or(packed).is_multiple_of(4)
 }

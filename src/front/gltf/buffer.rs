@@ -3,9 +3,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 use std::borrow::Cow;
 use std::rc::Rc;
 

@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 
 /// A camera; it looks along its negative z axis, y is up.
 #[derive(Debug)]
@@ -85,36 +85,32 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
                 );
             }
         }
-        if let Some(part) =
-            perspective.filter(|part| part.number_or("yfov", 0.0) >= std::f64::consts::PI)
-        {
-            let message = "the camera opens half a turn or more".to_owned();
-            report.say(
-                &codes::GLTF_MATERIAL_ODD,
-                "CAMERA_YFOV_GEQUAL_PI",
-                part.at,
-                message,
-            );
+        if let Some(part) = perspective {
+            check_perspective(part, report);
         }
         if let Some(part) = orthographic {
-            let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
-            if mags.contains(&0.0) {
-                let message = "the picture of the camera has no width or no height".to_owned();
-                report.say(
-                    &codes::GLTF_VALUE,
-                    "CAMERA_XMAG_YMAG_ZERO",
-                    part.at,
-                    message,
-                );
-            } else if mags.iter().any(|mag| *mag < 0.0) {
-                let message = "a negative `xmag` or `ymag` mirrors the picture".to_owned();
-                report.say(
-                    &codes::GLTF_MATERIAL_ODD,
-                    "CAMERA_XMAG_YMAG_NEGATIVE",
-                    part.at,
-                    message,
-                );
-            }
+            check_orthographic(part, report);
         }
+    }
+}
+
+fn check_perspective(part: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    if part.number_or("yfov", 0.0) >= std::f64::consts::PI {
+        let message = "the camera opens half a turn or more";
+        let alias = "CAMERA_YFOV_GEQUAL_PI";
+        report.say(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
+    }
+}
+
+fn check_orthographic(part: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+    let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
+    if mags.contains(&0.0) {
+        let message = "the picture of the camera has no width or no height";
+        let alias = "CAMERA_XMAG_YMAG_ZERO";
+        report.say(&codes::GLTF_VALUE, alias, part.at, message);
+    } else if mags.iter().any(|mag| *mag < 0.0) {
+        let message = "a negative `xmag` or `ymag` mirrors the picture";
+        let alias = "CAMERA_XMAG_YMAG_NEGATIVE";
+        report.say(&codes::GLTF_MATERIAL_ODD, alias, part.at, message);
     }
 }

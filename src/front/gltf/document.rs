@@ -1,16 +1,18 @@
 //! A whole asset, typed: every part with the node it was read from, references as indices.
 
 use super::accessor::Accessor;
-use super::animation::{Animation, Channel, Sampler as Keyframes};
+use super::animation::{Animation, Sampler as Keyframes};
 use super::buffer::{Buffer, View};
 use super::camera::Camera;
+use super::channel::Channel;
 use super::field::Fields;
 use super::image::Image;
-use super::json::{NodeId, Tree};
-use super::mesh::{Mesh, Primitive};
+use super::mesh::Mesh;
 use super::node::Node;
+use super::primitive::Primitive;
 use super::skin::Skin;
 use super::texture::{Sampler, Texture};
+use crate::source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// An asset.
@@ -78,7 +80,7 @@ pub(super) fn cost(json: &Tree<'_>) -> u64 {
         .iter()
         .map(|(count, size)| *count as u64 * *size as u64)
         .sum();
-    parts.saturating_add(VALUE * json.len() as u64)
+    parts.saturating_add(VALUE * json.count() as u64)
 }
 
 impl Document<'_> {
@@ -95,7 +97,7 @@ impl Document<'_> {
         let texts = json
             .list(json.root(), "extensionsUsed")
             .filter_map(|item| json.text(item));
-        let extensions: BTreeSet<String> = texts.map(std::borrow::Cow::into_owned).collect();
+        let extensions: BTreeSet<String> = texts.map(str::to_owned).collect();
         let has_lights = extensions.contains("KHR_lights_punctual");
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {

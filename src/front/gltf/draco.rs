@@ -1,14 +1,14 @@
 //! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put
 //! in place as views of the accessors that stand for them. The one file that names the decoder.
 
-use super::accessor::{Component, Layout};
 use super::buffer::{Bytes, Stretch, View, stretch};
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
+use super::layout::{Component, Layout};
 use super::report::Report;
 use crate::diag::codes;
 use crate::source::Resource;
+use crate::source::tree::NodeId;
 use draco_core::{DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use std::borrow::Cow;
 use std::collections::BTreeMap;

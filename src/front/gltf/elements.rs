@@ -1,7 +1,8 @@
 //! The elements of an accessor one after another, from packed, interleaved or sparse data, or none.
 
-use super::accessor::{Accessor, Component, Layout};
+use super::accessor::Accessor;
 use super::document::Document;
+use super::layout::{Component, Layout};
 use crate::ir::Column;
 
 /// The components of an element; a matrix has the most.

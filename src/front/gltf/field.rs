@@ -1,7 +1,7 @@
 //! The properties of an object as values, once its shape was checked: what is absent or wrong is
 //! simply not there.
 
-use super::json::{Kind, NodeId, Tree};
+use crate::source::tree::{Kind, NodeId, Tree};
 
 /// The object at a node.
 #[derive(Clone, Copy)]
@@ -95,14 +95,12 @@ impl<'t, 's> Fields<'t, 's> {
 
     pub(super) fn truth(&self, key: &str) -> bool {
         self.node(key)
-            .and_then(|node| self.json.truth(node))
+            .and_then(|node| self.json.boolean(node))
             .unwrap_or_default()
     }
 
     pub(super) fn text(&self, key: &str) -> Option<String> {
-        self.json
-            .text(self.node(key)?)
-            .map(std::borrow::Cow::into_owned)
+        self.json.text(self.node(key)?).map(str::to_owned)
     }
 
     /// True if `key` holds the text given.

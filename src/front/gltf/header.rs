@@ -1,11 +1,10 @@
 //! What an asset says about itself: its version and its extensions.
 
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::{Report, shown};
 use super::schema;
 use crate::diag::codes;
-use std::borrow::Cow;
+use crate::source::tree::NodeId;
 use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
@@ -115,7 +114,7 @@ pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
     major == 2
 }
 
-fn version(asset: Fields<'_, '_>, key: &str) -> Option<(super::json::NodeId, (u64, u64))> {
+fn version(asset: Fields<'_, '_>, key: &str) -> Option<(crate::source::tree::NodeId, (u64, u64))> {
     let text = asset.text(key)?;
     let (major, minor) = text.split_once('.')?;
     let number = |digits: &str| {
@@ -134,8 +133,8 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
             .collect()
     };
     let (used, required) = (texts("extensionsUsed"), texts("extensionsRequired"));
-    let names = |list: &[(NodeId, Cow<'_, str>)]| -> BTreeSet<String> {
-        list.iter().map(|(_, name)| name.to_string()).collect()
+    let names = |list: &[(NodeId, &str)]| -> BTreeSet<String> {
+        list.iter().map(|(_, name)| (*name).to_owned()).collect()
     };
     let (used_names, required_names) = (names(&used), names(&required));
     let has_used = json.get(json.root(), "extensionsUsed").is_some();
@@ -147,88 +146,73 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
         report.say(&codes::GLTF_TOGETHER, "UNSATISFIED_DEPENDENCY", at, message);
     }
     for (at, name) in &required {
-        if !used_names.contains(&**name) {
-            let message = format!(
-                "`{}` is required and not listed in `extensionsUsed`",
-                shown(name)
-            );
-            report.say(
-                &codes::GLTF_EXTENSION,
-                "UNUSED_EXTENSION_REQUIRED",
-                *at,
-                message,
-            );
-        }
-        if !schema::is_supported(name) {
-            let message = format!(
-                "the asset requires the extension `{}`, which is not supported",
-                shown(name)
-            );
-            let hint = "export the asset without it".to_owned();
-            report.advise(
-                &codes::GLTF_REQUIRES,
-                "UNSUPPORTED_EXTENSION",
-                *at,
-                message,
-                hint,
-            );
-        }
+        check_required(*at, name, used_names.contains(*name), report);
     }
     let in_materials = in_materials(report);
     for (at, name) in &used {
-        let is_required = required_names.contains(&**name);
-        let needed = name == "KHR_mesh_quantization";
-        if needed && !is_required {
-            let message = format!("no reader can do without `{name}`, so it must be required");
-            report.say(
-                &codes::GLTF_EXTENSION,
-                "NON_REQUIRED_EXTENSION",
-                *at,
-                message,
+        if !required_names.contains(*name) {
+            check_not_required(*at, name, in_materials.contains(*name), report);
+        }
+        check_name(*at, name, report);
+    }
+}
+
+fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut Report<'_, '_>) {
+    let shown = shown(name);
+    if !is_listed {
+        let message = format!("`{shown}` is required and not listed in `extensionsUsed`");
+        let alias = "UNUSED_EXTENSION_REQUIRED";
+        report.say(&codes::GLTF_EXTENSION, alias, at, message);
+    }
+    if !schema::is_supported(name) {
+        let message = format!("the asset requires the extension `{shown}`, which is not supported");
+        let hint = "export the asset without it".to_owned();
+        let alias = "UNSUPPORTED_EXTENSION";
+        report.advise(&codes::GLTF_REQUIRES, alias, at, message, hint);
+    }
+}
+
+/// Checks an extension that the asset uses and does not require.
+fn check_not_required(at: NodeId, name: &str, is_in_materials: bool, report: &mut Report<'_, '_>) {
+    if name == "KHR_mesh_quantization" {
+        let message = format!("no reader can do without `{name}`, so it must be required");
+        let alias = "NON_REQUIRED_EXTENSION";
+        report.say(&codes::GLTF_EXTENSION, alias, at, message);
+    }
+    if schema::is_supported(name) {
+        return;
+    }
+    let shown = shown(name);
+    if is_in_materials {
+        let message = format!("materials have `{shown}`, which is not drawn: they look otherwise");
+        report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+    } else {
+        let message = format!("the extension `{shown}` has no effect");
+        let alias = match schema::find(name) {
+            None => "UNSUPPORTED_EXTENSION",
+            Some(_) => "INCOMPLETE_EXTENSION_SUPPORT",
+        };
+        report.say(&codes::GLTF_IGNORES, alias, at, message);
+    }
+}
+
+/// Checks that the name of an extension is one, of a registered prefix.
+fn check_name(at: NodeId, name: &str, report: &mut Report<'_, '_>) {
+    let parts = name.split_once('_');
+    match parts.filter(|(prefix, rest)| !prefix.is_empty() && !rest.is_empty()) {
+        Some((prefix, _)) if PREFIXES.contains(&prefix) => {}
+        Some((prefix, _)) => {
+            let message = format!("`{}` is no registered prefix of extensions", shown(prefix));
+            let alias = "UNRESERVED_EXTENSION_PREFIX";
+            report.say(&codes::GLTF_EXTENSION_ODD, alias, at, message);
+        }
+        None => {
+            let message = format!(
+                "`{}` is no name of an extension, as `KHR_lights_punctual` is",
+                shown(name)
             );
-        }
-        if !is_required && !schema::is_supported(name) {
-            if in_materials.contains(&**name) {
-                let message = format!(
-                    "materials have `{}`, which is not drawn: they look otherwise",
-                    shown(name)
-                );
-                report.say(&codes::GLTF_MATERIAL_ODD, "", *at, message);
-            } else {
-                let message = format!("the extension `{}` has no effect", shown(name));
-                let alias = if schema::find(name).is_none() {
-                    "UNSUPPORTED_EXTENSION"
-                } else {
-                    "INCOMPLETE_EXTENSION_SUPPORT"
-                };
-                report.say(&codes::GLTF_IGNORES, alias, *at, message);
-            }
-        }
-        match name.split_once('_') {
-            Some((prefix, rest)) if !prefix.is_empty() && !rest.is_empty() => {
-                if !PREFIXES.contains(&prefix) {
-                    let message =
-                        format!("`{}` is no registered prefix of extensions", shown(prefix));
-                    report.say(
-                        &codes::GLTF_EXTENSION_ODD,
-                        "UNRESERVED_EXTENSION_PREFIX",
-                        *at,
-                        message,
-                    );
-                }
-            }
-            _ => {
-                let message = format!(
-                    "`{}` is no name of an extension, as `KHR_lights_punctual` is",
-                    shown(name)
-                );
-                report.say(
-                    &codes::GLTF_EXTENSION_ODD,
-                    "INVALID_EXTENSION_NAME_FORMAT",
-                    *at,
-                    message,
-                );
-            }
+            let alias = "INVALID_EXTENSION_NAME_FORMAT";
+            report.say(&codes::GLTF_EXTENSION_ODD, alias, at, message);
         }
     }
 }
@@ -242,5 +226,5 @@ fn in_materials(report: &Report<'_, '_>) -> BTreeSet<String> {
     let keys = extensions
         .flat_map(|all| json.pairs(all))
         .filter_map(|(key, _)| json.text(key));
-    keys.map(std::borrow::Cow::into_owned).collect()
+    keys.map(str::to_owned).collect()
 }

@@ -4,12 +4,12 @@ use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
 use super::features;
 use super::field::Fields;
-use super::json::{Kind, NodeId};
 use super::report::Report;
 use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity};
 use crate::ir;
+use crate::source::tree::{Kind, NodeId};
 use crate::source::{Budget, Exceeded};
 use std::collections::BTreeMap;
 
@@ -178,23 +178,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
             );
             continue;
         };
-        if let Some(media) = media.filter(|media| *media != format.media()) {
-            let message = format!(
-                "the image is {}, not {}, as is said",
-                format.media(),
-                super::report::shown(media)
-            );
-            report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
-        }
-        if format == Format::WebP && !doc.uses("EXT_texture_webp") {
-            let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
-            report.say(
-                &codes::GLTF_IMAGE,
-                "IMAGE_NON_ENABLED_MIME_TYPE",
-                at,
-                message,
-            );
-        }
+        check_media(doc, (format, media), at, report);
         if let Some(what) = features::unfollowed(format, bytes) {
             let message = format!("the image has {what}, and that is not followed");
             report.say(
@@ -223,6 +207,28 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
         let image = &mut doc.images[index];
         (image.format, image.picture) = (Some(format), picture.as_ref().ok().copied());
         known.insert(own, picture);
+    }
+}
+
+/// An image is of the type that is said, and of one that the asset may have.
+fn check_media(
+    doc: &Document<'_>,
+    (format, media): (Format, Option<&str>),
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    if let Some(media) = media.filter(|media| *media != format.media()) {
+        let message = format!(
+            "the image is {}, not {}, as is said",
+            format.media(),
+            super::report::shown(media)
+        );
+        report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
+    }
+    if format == Format::WebP && !doc.uses("EXT_texture_webp") {
+        let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
+        let alias = "IMAGE_NON_ENABLED_MIME_TYPE";
+        report.say(&codes::GLTF_IMAGE, alias, at, message);
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::{Kind, NodeId, Tree};
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::{Kind, NodeId, Tree};
 
 /// Each texture of a material with the set of texture coordinates it asks for.
 pub(super) fn texture_coordinates(
@@ -13,7 +13,7 @@ pub(super) fn texture_coordinates(
     material: NodeId,
 ) -> Vec<(NodeId, u64)> {
     let parts = json.at(material, &["pbrMetallicRoughness"]).into_iter();
-    let is_used = |key: NodeId| json.text(key).is_some_and(|name| doc.uses(&name));
+    let is_used = |key: NodeId| json.text(key).is_some_and(|name| doc.uses(name));
     let extensions = json
         .get(material, "extensions")
         .into_iter()

@@ -10,8 +10,10 @@ mod animation;
 mod attribute;
 mod buffer;
 mod camera;
+mod channel;
 mod container;
 mod contents;
+mod demand;
 mod document;
 mod draco;
 mod elements;
@@ -19,13 +21,16 @@ mod features;
 mod field;
 mod header;
 mod image;
-mod json;
+mod influences;
+
+mod layout;
 mod light;
 mod lower;
 mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod primitive;
 mod report;
 mod resource;
 mod schema;
@@ -39,12 +44,12 @@ pub(super) use lower::SURFACE;
 use super::Options;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
+use crate::source::tree::{Tree, json};
 use crate::source::{FileId, Resource, Search, SourceMap, Span};
 use buffer::Purposes;
 use container::Parts;
-use contents::Demands;
+use demand::Demands;
 use document::Document;
-use json::Tree;
 use report::Report;
 use resource::Resources;
 use usage::Usages;
@@ -93,10 +98,10 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
             return None;
         }
     };
-    keys_twice(&tree, sink);
+    check_keys(&tree, sink);
     let mut report = Report::new(&tree, sink, options, map.budget());
     let root = tree.root();
-    let is_small = report.charge(Resource::Nodes, tree.len() as u64, root, "the asset")
+    let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
         && report.charge(Resource::Memory, document::cost(&tree), root, "the asset");
     if !is_small {
         return None;
@@ -158,10 +163,10 @@ fn not_json(span: Span, message: &str) -> Diagnostic {
         .alias("INVALID_JSON")
 }
 
-fn keys_twice(tree: &Tree<'_>, sink: &mut Sink) {
-    for (first, second) in tree.twice() {
+fn check_keys(tree: &Tree<'_>, sink: &mut Sink) {
+    for (first, second) in tree.duplicate_keys() {
         sink.push_with(codes::GLTF_KEY_TWICE.severity, || {
-            let key = report::shown(&tree.text(*second).unwrap_or_default());
+            let key = report::shown(tree.text(*second).unwrap_or_default());
             let message = format!("the key `{key}` stands twice in one object");
             let finding = Diagnostic::new(&codes::GLTF_KEY_TWICE, message)
                 .at(tree.span(*second), "the second");

@@ -2,10 +2,10 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::{NodeId, Tree};
 use super::report::Report;
 use crate::diag::codes;
 use crate::math::unit;
+use crate::source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
 /// How far a rotation may be from length 1.

@@ -1,9 +1,9 @@
 //! Findings about an asset, each with its bytes, its JSON pointer, and the name that the validator
 //! of Khronos has for it.
 
-use super::json::{Kind, NodeId, Tree};
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::front::Options;
+use crate::source::tree::{Kind, NodeId, Tree};
 use crate::source::{Budget, Exceeded, Resource};
 
 /// Takes the findings about one asset.

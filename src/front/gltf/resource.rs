@@ -4,10 +4,10 @@
 use super::buffer::Bytes;
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::{Report, shown};
 use super::uri::{self, Fault, Uri};
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 use crate::source::{Identity, Loader, Missing, Search, SourceMap};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -119,7 +119,7 @@ impl<'m> Resources<'m> {
     /// The bytes behind the URI at a node; why there are none is reported.
     fn fetch(&mut self, at: NodeId, is_glb: bool, report: &mut Report<'_, '_>) -> Option<Found> {
         let text = report.json.text(at)?;
-        match uri::parse(&text) {
+        match uri::parse(text) {
             Ok(Uri::Data { media, bytes }) => {
                 if is_glb {
                     let message = "data is written in Base64 where a chunk would do".to_owned();
@@ -135,12 +135,12 @@ impl<'m> Resources<'m> {
             }
             Ok(Uri::Path(path)) => self.file(&path, at, report).map(|bytes| (bytes, None)),
             Err(Fault::Malformed(why)) => {
-                let message = format!("`{}` is no URI: {why}", shown(&text));
+                let message = format!("`{}` is no URI: {why}", shown(text));
                 report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
             Err(Fault::Outside(how)) => {
-                outside(&text, how, at, report);
+                outside(text, how, at, report);
                 None
             }
         }

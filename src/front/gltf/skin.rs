@@ -1,18 +1,17 @@
-//! Skins: joints in one tree, their matrices, and the weights by which vertices follow them.
+//! Skins: joints in one tree, their matrices, and the nodes that have one.
 
-use super::accessor::{self, Component, Layout};
+use super::accessor;
 use super::buffer::{Purpose, Purposes};
-use super::contents::{Demand, Demands};
+use super::demand::{Demand, Demands};
 use super::document::Document;
-use super::elements::Elements;
 use super::field::Fields;
-use super::json::NodeId;
-use super::mesh::Primitive;
+use super::influences;
+use super::layout::{Component, Layout};
 use super::node::{Forest, Node, Transform};
 use super::report::Report;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
-use crate::source::Resource;
+use crate::source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A skin.
@@ -69,7 +68,14 @@ pub(super) fn check(
         }
         if done.meshes.insert((at, skin.joints.len())) {
             for primitive in &mesh.primitives {
-                check_influences(doc, primitive, skin.joints.len(), &mut done, report);
+                let accessors: Vec<[usize; 2]> = primitive.influences().collect();
+                if done
+                    .influences
+                    .insert((accessors.clone(), skin.joints.len()))
+                {
+                    let own = (primitive.at, accessors);
+                    influences::check(doc, own, skin.joints.len(), report);
+                }
             }
         }
     }
@@ -271,144 +277,5 @@ fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut Repor
     if node.transform != unmoved {
         let message = "the transformation of the node does not move a skinned mesh".to_owned();
         report.say(code, "NODE_SKINNED_MESH_LOCAL_TRANSFORMS", node.at, message);
-    }
-}
-
-/// What is wrong with the joints of some vertex, and where it was seen first.
-#[derive(Default)]
-struct Influences {
-    out: Option<usize>,
-    twice: Option<usize>,
-    negative: Option<usize>,
-    sum: Option<usize>,
-    idle: Option<usize>,
-}
-
-/// Checks which joints each vertex follows, and by how much.
-fn check_influences(
-    doc: &Document<'_>,
-    primitive: &Primitive,
-    joints: usize,
-    done: &mut Done,
-    report: &mut Report<'_, '_>,
-) {
-    let accessors: Vec<[usize; 2]> = primitive.influences().collect();
-    if !done.influences.insert((accessors.clone(), joints)) {
-        return;
-    }
-    let part = |accessor: usize| {
-        let accessor = doc.accessors.get(accessor)?;
-        Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
-    };
-    let sets = accessors
-        .into_iter()
-        .map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
-    let sets: Vec<[Elements<'_>; 2]> = sets.collect();
-    let count = sets.first().map_or(0, |[own, _]| own.count);
-    if sets
-        .iter()
-        .flatten()
-        .any(|elements| elements.count != count)
-    {
-        return;
-    }
-    let work = (count as u64).saturating_mul(sets.len() as u64);
-    if !report.charge(Resource::Vertices, work, primitive.at, "the skin") {
-        return;
-    }
-    let mut found = Influences::default();
-    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-    let joints = joints as f64;
-    let mut vertex = Vec::new();
-    for at in 0..count {
-        vertex.clear();
-        for [own, weights] in &sets {
-            vertex.extend(own.at::<4>(at).into_iter().zip(weights.at::<4>(at)));
-        }
-        found.look(at, &vertex, joints);
-    }
-    let Influences {
-        out,
-        twice,
-        negative,
-        sum,
-        idle,
-    } = found;
-    let skin = &codes::GLTF_SKIN;
-    for (code, place, alias, set, what) in [
-        (
-            skin,
-            out,
-            "ACCESSOR_JOINTS_INDEX_OOB",
-            "JOINTS_0",
-            "follows a joint that the skin has not",
-        ),
-        (
-            skin,
-            twice,
-            "ACCESSOR_JOINTS_INDEX_DUPLICATE",
-            "JOINTS_0",
-            "follows a joint twice",
-        ),
-        (
-            skin,
-            negative,
-            "ACCESSOR_WEIGHTS_NEGATIVE",
-            "WEIGHTS_0",
-            "has a negative weight",
-        ),
-        (
-            skin,
-            sum,
-            "ACCESSOR_WEIGHTS_NON_NORMALIZED",
-            "WEIGHTS_0",
-            "has weights that don't sum to 1",
-        ),
-        (
-            &codes::GLTF_SKIN_ODD,
-            idle,
-            "ACCESSOR_JOINTS_USED_ZERO_WEIGHT",
-            "JOINTS_0",
-            "names a joint of weight 0",
-        ),
-    ] {
-        let Some(vertex) = place else { continue };
-        let at = report
-            .json
-            .at(primitive.at, &["attributes", set])
-            .unwrap_or(primitive.at);
-        report.say(code, alias, at, format!("vertex {vertex} {what}"));
-    }
-}
-
-impl Influences {
-    fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
-        /// What each weight may add to what the sum misses.
-        const ROUNDING: f64 = 2e-7;
-        let put = |slot: &mut Option<usize>| {
-            slot.get_or_insert(at);
-        };
-        let (mut sum, mut slack, mut moving) = (0.0_f64, 0.0, BTreeSet::new());
-        for (joint, weight) in vertex {
-            if *joint >= joints {
-                put(&mut self.out);
-            } else if *weight == 0.0 {
-                if *joint != 0.0 {
-                    put(&mut self.idle);
-                }
-            } else if !moving.insert(joint.to_bits()) {
-                put(&mut self.twice);
-            } else if *weight < 0.0 {
-                put(&mut self.negative);
-            } else {
-                #[expect(clippy::cast_possible_truncation, reason = "readers sum in 32 bits")]
-                let added = (sum + weight) as f32;
-                sum = f64::from(added);
-                slack += ROUNDING;
-            }
-        }
-        if (sum - 1.0).abs() > slack {
-            put(&mut self.sum);
-        }
     }
 }

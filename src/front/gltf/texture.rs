@@ -3,9 +3,9 @@
 use super::document::Document;
 use super::field::Fields;
 use super::image::Format;
-use super::json::NodeId;
 use super::report::{Report, shown};
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 
 /// An image and the way it is looked up.
 #[derive(Debug)]

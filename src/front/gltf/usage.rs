@@ -1,8 +1,8 @@
 //! What each accessor is used for: one purpose only.
 
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
+use crate::source::tree::NodeId;
 
 /// What an accessor is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,7 +6,8 @@
 use libtest_mimic::Failed;
 use rtc::color::Tone;
 use rtc::image::Backdrop;
-use rtc::ir::{Integrator, Overrides, Sun, View};
+use rtc::passes::Overrides;
+use rtc::passes::{Integrator, Sun, View};
 use rtc::plan::Arithmetic;
 use rtc::render::Aov;
 use std::fs;

@@ -5,9 +5,10 @@ use super::options::Options;
 use libtest_mimic::Failed;
 use rtc::color::Tone;
 use rtc::diag::Sink;
-use rtc::front::assets;
+use rtc::front::pixels;
 use rtc::image::{Association, Backdrop, Form, Image, Layers, Look, Picture};
-use rtc::ir::{Lowered, Stage, Surroundings};
+use rtc::ir::Lowered;
+use rtc::passes::{Stage, Surroundings};
 use rtc::pipeline::{self, Renderer};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Aov, Behind, Crop, Job, Values};
@@ -83,8 +84,8 @@ fn stage(
     let mut surroundings = options.env_color.map(Surroundings::Color);
     if let Some(name) = &options.env {
         let bytes = fs::read(case.with_file_name(name))?;
-        let image = assets::environment(name, &bytes, map.budget())
-            .map_err(|fault| assets::refusal(&fault, name).message)?;
+        let image = pixels::environment(name, &bytes, map.budget())
+            .map_err(|fault| pixels::no_environment(&fault, name).message)?;
         surroundings = Some(Surroundings::Picture(image));
     }
     let stage = Stage {

@@ -3,10 +3,10 @@
 
 use super::super::camera::Projection;
 use super::super::field::Fields;
-use super::super::json::NodeId;
 use super::Lowering;
 use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
 use crate::math::{Vec3, cos, sin, unit};
+use crate::source::tree::NodeId;
 use glam::DAffine3;
 
 /// The height of a picture in pixels, and its width over its height where the asset does not say.

@@ -1,8 +1,9 @@
 //! Meshes out of their rest: moved by morph targets, then by the joints of a skin.
 
+use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::mesh::{Attribute, Primitive};
+use super::super::primitive::Primitive;
 use super::shape::Shape;
 use crate::ir::{self, Column};
 use crate::math::Vec3;

@@ -2,10 +2,10 @@
 //! scale has no effect.
 
 use super::super::field::Fields;
-use super::super::json::NodeId;
 use super::Lowering;
 use crate::ir::{Emitter, Field, Light, Noun, Place, Punctual};
 use crate::math::{Vec3, unit};
+use crate::source::tree::NodeId;
 use glam::DAffine3;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 

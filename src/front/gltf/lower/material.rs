@@ -2,12 +2,12 @@
 
 use super::super::document::Document;
 use super::super::field::Fields;
-use super::super::json::Tree;
-use super::super::mesh::Primitive;
+use super::super::primitive::Primitive;
 use super::super::report::Report;
 use super::mesh::to_u32;
 use super::texture::Textures;
 use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
+use crate::source::tree::Tree;
 
 /// What became of the materials of the asset.
 pub(super) struct Materials {

@@ -1,14 +1,15 @@
 //! Meshes: the attributes of a primitive as the IR has them; what is the same is made once.
 
+use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::json::NodeId;
-use super::super::mesh::{Attribute, Primitive, TRIANGLES};
+use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::Report;
 use super::shape::{Shape, ShapeId};
 use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
+use crate::source::tree::NodeId;
 use std::collections::BTreeMap;
 
 /// Bytes that a corner of a triangle takes, and a triangle until it is rendered.

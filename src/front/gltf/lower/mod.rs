@@ -15,13 +15,13 @@ mod topology;
 
 use super::document::Document;
 use super::field::Fields;
-use super::json::NodeId;
 use super::report::Report;
 use crate::diag::codes;
 use crate::front::Options;
 use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
 use crate::math::Vec3;
 use crate::source::Resource;
+use crate::source::tree::NodeId;
 use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
@@ -243,7 +243,7 @@ impl Lowering<'_, '_, '_> {
         self.scene.names.push(name.to_owned());
     }
 
-    fn material(&mut self, primitive: &super::mesh::Primitive) -> MaterialId {
+    fn material(&mut self, primitive: &super::primitive::Primitive) -> MaterialId {
         if let Some(known) = self.chosen.get(&primitive.at) {
             return *known;
         }

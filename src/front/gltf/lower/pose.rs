@@ -1,7 +1,8 @@
 //! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a
 //! moment of an animation.
 
-use super::super::animation::{Animation, Interpolation, Path, Sampler};
+use super::super::animation::{Animation, Interpolation, Sampler};
+use super::super::channel::Path;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::node::Transform;

@@ -2,7 +2,7 @@
 
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::mesh::Primitive;
+use super::super::primitive::Primitive;
 
 const TRIANGLES: u64 = 4;
 const STRIP: u64 = 5;

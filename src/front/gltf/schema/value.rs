@@ -1,16 +1,16 @@
 //! The value of one property against what its table says.
 
 use super::walk::Walk;
-use super::{Bounds, Value};
+use super::{Bounds, Pool, Value};
 use crate::diag::codes;
-use crate::front::gltf::json::{Kind, NodeId};
+use crate::source::tree::{Kind, NodeId};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {
     /// Checks the value of the property `name`; what lies in it is put off.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {
-            Value::Truth => drop(self.expect(node, Kind::Truth, name)),
+            Value::Truth => drop(self.expect(node, Kind::Bool, name)),
             Value::Text => drop(self.expect(node, Kind::Text, name)),
             Value::Word(words) => self.word(node, words, name),
             Value::Version => self.pattern(node, is_version, "a version, as `2.0`", name),
@@ -27,24 +27,7 @@ impl Walk<'_, '_, '_> {
                     self.follow(node, *pool, index);
                 }
             }
-            Value::Indices(pool) => {
-                let mut seen = BTreeSet::new();
-                for item in self.items(node, name) {
-                    let Some(index) = self.item_index(item, name) else {
-                        continue;
-                    };
-                    if !seen.insert(index) {
-                        let message = format!("`{name}` holds {index} twice");
-                        self.report.say(
-                            &codes::GLTF_DUPLICATE,
-                            "DUPLICATE_ELEMENTS",
-                            item,
-                            message,
-                        );
-                    }
-                    self.follow(item, *pool, index);
-                }
-            }
+            Value::Indices(pool) => self.indices(node, *pool, name),
             Value::Attributes => self.attributes(node, name),
             Value::Targets => {
                 for item in self.items(node, name) {
@@ -71,6 +54,22 @@ impl Walk<'_, '_, '_> {
                     }
                 }
             }
+        }
+    }
+
+    fn indices(&mut self, node: NodeId, pool: Pool, name: &str) {
+        let mut seen = BTreeSet::new();
+        for item in self.items(node, name) {
+            let Some(index) = self.item_index(item, name) else {
+                continue;
+            };
+            if !seen.insert(index) {
+                let message = format!("`{name}` holds {index} twice");
+                let alias = "DUPLICATE_ELEMENTS";
+                self.report
+                    .say(&codes::GLTF_DUPLICATE, alias, item, message);
+            }
+            self.follow(item, pool, index);
         }
     }
 
@@ -119,7 +118,7 @@ impl Walk<'_, '_, '_> {
 
     fn pattern(&mut self, node: NodeId, fits: fn(&str) -> bool, what: &str, name: &str) {
         if self.expect(node, Kind::Text, name)
-            && !fits(&self.report.json.text(node).unwrap_or_default())
+            && !fits(self.report.json.text(node).unwrap_or_default())
         {
             let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
             self.report
@@ -294,7 +293,7 @@ impl Walk<'_, '_, '_> {
         for (key, value) in json.pairs(node) {
             count += 1;
             let attribute = json.text(key).unwrap_or_default();
-            if let Some(index) = self.item_index(value, &attribute)
+            if let Some(index) = self.item_index(value, attribute)
                 && !is_draco
             {
                 self.follow(value, super::Pool::Accessors, index);

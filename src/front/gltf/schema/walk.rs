@@ -4,8 +4,8 @@
 use super::core::ROOT;
 use super::{Key, Object, POOLS, Pool, extension};
 use crate::diag::codes;
-use crate::front::gltf::json::{Kind, NodeId};
 use crate::front::gltf::report::{Report, shown};
+use crate::source::tree::{Kind, NodeId};
 use std::collections::BTreeSet;
 
 /// The properties of an asset that say what the others are.
@@ -24,7 +24,7 @@ pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
     let declared = json
         .list(root, "extensionsUsed")
         .filter_map(|item| json.text(item));
-    let declared = declared.map(std::borrow::Cow::into_owned).collect();
+    let declared = declared.map(str::to_owned).collect();
     let slot = |item| {
         if json.kind(item) == Kind::Map {
             Slot::Unused
@@ -128,7 +128,7 @@ impl Walk<'_, '_, '_> {
 
     fn unknown(&mut self, name: NodeId, object: &'static Object) {
         let written = self.report.json.text(name).unwrap_or_default();
-        let message = format!("the {} has no property `{}`", object.name, shown(&written));
+        let message = format!("the {} has no property `{}`", object.name, shown(written));
         self.report
             .say(&codes::GLTF_UNKNOWN, "UNEXPECTED_PROPERTY", name, message);
     }
@@ -148,11 +148,11 @@ impl Walk<'_, '_, '_> {
         }
         for (key, value) in json.pairs(node) {
             let name = json.text(key).unwrap_or_default();
-            let is_object = self.expect(value, Kind::Map, &name);
-            if !self.declared.contains(&*name) {
+            let is_object = self.expect(value, Kind::Map, name);
+            if !self.declared.contains(name) {
                 let message = format!(
                     "the extension `{}` is not listed in `extensionsUsed`",
-                    shown(&name)
+                    shown(name)
                 );
                 self.report.say(
                     &codes::GLTF_EXTENSION,
@@ -162,7 +162,7 @@ impl Walk<'_, '_, '_> {
                 );
                 continue;
             }
-            let Some(extension) = extension::find(&name) else {
+            let Some(extension) = extension::find(name) else {
                 continue;
             };
             let place = extension
@@ -170,7 +170,7 @@ impl Walk<'_, '_, '_> {
                 .iter()
                 .find(|(place, _)| *place == owner.name);
             if place.is_some() {
-                self.has_root(&name, value, owner);
+                self.has_root(name, value, owner);
             }
             match place {
                 Some((_, object)) if is_object => self.open.push((value, object)),

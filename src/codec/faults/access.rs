@@ -1,0 +1,255 @@
+//! Lists, maps and variants handed out piece by piece: what is missing is stood in for, what is too
+//! much is noted and passed over.
+
+use super::error::Error;
+use super::reader::Reader;
+use super::{Fields, Notes, Part};
+use crate::source::tree::{Kind, NodeId};
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected, IntoDeserializer, MapAccess,
+    SeqAccess, Unexpected, VariantAccess, Visitor,
+};
+
+/// The items of a list.
+pub(super) struct Items<'n, 't> {
+    notes: &'n Notes<'t>,
+    items: std::vec::IntoIter<NodeId>,
+    /// How many are still to be handed out, whether they are there or not; as many as there are
+    /// without.
+    left: Option<usize>,
+}
+
+impl<'n, 't> Items<'n, 't> {
+    pub(super) fn new(notes: &'n Notes<'t>, items: Vec<NodeId>, length: Option<usize>) -> Self {
+        Self {
+            notes,
+            items: items.into_iter(),
+            left: length,
+        }
+    }
+}
+
+impl<'de> SeqAccess<'de> for Items<'_, '_> {
+    type Error = Error;
+
+    fn next_element_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let item = self.items.next();
+        let is_wanted = match &mut self.left {
+            None => item.is_some(),
+            Some(0) => false,
+            Some(left) => {
+                *left -= 1;
+                true
+            }
+        };
+        if !is_wanted {
+            return Ok(None);
+        }
+        let stand_in = || Reader::stand_in(self.notes);
+        let reader = item.map_or_else(stand_in, |item| Reader::new(self.notes, item));
+        seed.deserialize(reader).map(Some)
+    }
+}
+
+/// The members of a map.
+pub(super) struct Members<'n, 't> {
+    notes: &'n Notes<'t>,
+    map: Option<NodeId>,
+    pairs: std::vec::IntoIter<(NodeId, NodeId)>,
+    /// The fields there are; without, keys of any kind are handed out.
+    fields: Option<Fields>,
+    /// Fields that must be there and were not yet.
+    absent: Vec<&'static str>,
+    seen: Vec<&'n str>,
+    /// A key means nothing: it may be one of those that are missing.
+    has_unknown: bool,
+    /// The value after the last key.
+    value: Option<NodeId>,
+}
+
+impl<'n, 't> Members<'n, 't> {
+    /// The members of a map as the fields of a struct; without a map, stand-ins.
+    pub(super) fn of(notes: &'n Notes<'t>, map: Option<NodeId>, fields: Fields) -> Self {
+        let pairs: Vec<_> = map.map_or_else(Vec::new, |map| notes.tree.pairs(map).collect());
+        Self {
+            notes,
+            map,
+            pairs: pairs.into_iter(),
+            fields: Some(fields),
+            absent: notes.required(fields).to_vec(),
+            seen: Vec::new(),
+            has_unknown: false,
+            value: None,
+        }
+    }
+
+    /// The members of a map as they are.
+    pub(super) fn any(notes: &'n Notes<'t>, map: NodeId) -> Self {
+        Self {
+            fields: None,
+            absent: Vec::new(),
+            ..Self::of(notes, Some(map), &[])
+        }
+    }
+
+    /// The next key that means something.
+    fn next_key(&mut self) -> Option<&'n str> {
+        for (key, value) in self.pairs.by_ref() {
+            let text = self.notes.tree.text(key).unwrap_or_default();
+            let fault = match self.fields {
+                Some(fields) if !fields.contains(&text) => Error::unknown_field(text, fields),
+                // Which field it is does not matter for the words.
+                Some(_) if self.seen.contains(&text) => {
+                    Error::custom(format_args!("duplicate field `{text}`"))
+                }
+                Some(_) | None => {
+                    self.seen.push(text);
+                    self.absent.retain(|name| *name != text);
+                    self.value = Some(value);
+                    return Some(text);
+                }
+            };
+            self.has_unknown |= !self.seen.contains(&text);
+            self.notes.note(key, Part::Whole, fault.what);
+        }
+        let name = self.absent.pop()?;
+        if let Some(map) = self.map.filter(|_| !self.has_unknown) {
+            self.notes
+                .note(map, Part::Whole, Error::missing_field(name).what);
+        }
+        self.value = None;
+        Some(name)
+    }
+}
+
+impl<'de> MapAccess<'de> for Members<'_, '_> {
+    type Error = Error;
+
+    fn next_key_seed<S: DeserializeSeed<'de>>(
+        &mut self,
+        seed: S,
+    ) -> Result<Option<S::Value>, Error> {
+        let key = self.next_key();
+        key.map(|key| seed.deserialize(deserializer(key)))
+            .transpose()
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
+        let stand_in = || Reader::stand_in(self.notes);
+        seed.deserialize(
+            self.value
+                .map_or_else(stand_in, |value| Reader::new(self.notes, value)),
+        )
+    }
+}
+
+/// A variant of an enum and what it holds.
+pub(super) struct Variant<'n, 't> {
+    name: &'n str,
+    content: Reader<'n, 't>,
+    /// The name stands alone, where this is.
+    bare: Option<Reader<'n, 't>>,
+}
+
+impl<'n, 't> Variant<'n, 't> {
+    /// The variant at a node; the first one if it is none.
+    pub(super) fn of(at: Reader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
+        let (notes, tree) = (at.notes, at.notes.tree);
+        let first = Self {
+            name: variants.first().copied().unwrap_or_default(),
+            content: Reader::stand_in(notes),
+            bare: None,
+        };
+        let Some(node) = at.at else { return first };
+        let kind = tree.kind(node);
+        let mut pairs = tree.pairs(node);
+        let (name, own) = match (kind, pairs.next(), pairs.next()) {
+            (Kind::Text, ..) => {
+                let bare = Some(at);
+                (node, Self { bare, ..first })
+            }
+            (Kind::Map, Some((key, value)), None) => {
+                let content = Reader::new(notes, value);
+                (key, Self { content, ..first })
+            }
+            (Kind::Map, ..) => {
+                at.note(Error::invalid_value(Unexpected::Map, &"a map with one key"));
+                return first;
+            }
+            _ => {
+                at.wrong_type(expected);
+                return first;
+            }
+        };
+        let text = tree.text(name).unwrap_or_default();
+        if variants.contains(&text) {
+            return Self { name: text, ..own };
+        }
+        notes.note(
+            name,
+            Part::Whole,
+            Error::unknown_variant(text, variants).what,
+        );
+        Self {
+            content: Reader::stand_in(notes),
+            bare: None,
+            ..own
+        }
+    }
+
+    /// Notes that the name alone is not enough.
+    fn need(&self, what: &str) {
+        if let Some(bare) = self.bare {
+            bare.note(Error::invalid_type(Unexpected::UnitVariant, &what));
+        }
+    }
+}
+
+impl<'de, 'n, 't> EnumAccess<'de> for Variant<'n, 't> {
+    type Error = Error;
+    type Variant = Self;
+
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self), Error> {
+        Ok((seed.deserialize(deserializer(self.name))?, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Variant<'_, '_> {
+    type Error = Error;
+
+    fn unit_variant(self) -> Result<(), Error> {
+        let content = self.content;
+        let kind = content.at.map(|at| content.notes.tree.kind(at));
+        if kind.is_some_and(|kind| kind != Kind::Null) {
+            content.wrong_type(&"unit");
+        }
+        Ok(())
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
+        self.need("newtype variant");
+        seed.deserialize(self.content)
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Error> {
+        self.need("tuple variant");
+        self.content.deserialize_tuple(length, visitor)
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        fields: Fields,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.need("struct variant");
+        self.content.deserialize_struct("", fields, visitor)
+    }
+}
+
+fn deserializer(text: &str) -> StrDeserializer<'_, Error> {
+    text.into_deserializer()
+}

@@ -1,0 +1,140 @@
+//! All faults of an IR text that is JSON: the document is decoded from its tree, and where a value
+//! is wrong, that is noted and a stand-in takes its place, so that decoding goes on.
+//!
+//! The words are those of `serde_json`, which decodes texts without faults and says the first one.
+
+mod access;
+mod error;
+mod reader;
+
+use crate::source::Span;
+use crate::source::tree::{NodeId, Tree};
+use error::Error;
+use reader::Reader;
+use serde::de::DeserializeOwned;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// No more faults than this are noted.
+const MAX_FAULTS: usize = 10_000;
+
+/// The document is decoded this often at most: faults that no stand-in can take the place of at once
+/// cost one more time each.
+const MAX_RUNS: usize = 64;
+
+/// A fault of a text.
+#[derive(Debug)]
+pub(super) struct Fault {
+    /// The bytes that are wrong.
+    pub(super) span: Span,
+    /// The way to them, a JSON pointer.
+    pub(super) pointer: String,
+    /// What is wrong.
+    pub(super) what: String,
+}
+
+/// All that is wrong with a tree as a `T`.
+pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<Fault> {
+    let mut notes = Notes::new(tree);
+    notes.learn::<T>();
+    for _ in 0..MAX_RUNS {
+        match T::deserialize(Reader::new(&notes, tree.root())) {
+            Err(error) if notes.mend(&error) => {}
+            Ok(_) | Err(_) => break,
+        }
+    }
+    let found = notes.found.into_inner().into_iter();
+    found
+        .map(|((at, what), part)| fault(tree, at, what, part))
+        .collect()
+}
+
+fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: Part) -> Fault {
+    let whole = tree.span(at);
+    let span = match part {
+        Part::Whole => whole,
+        Part::Bracket => Span {
+            end: whole.start + 1,
+            ..whole
+        },
+    };
+    Fault {
+        span,
+        pointer: tree.pointer(at),
+        what,
+    }
+}
+
+/// What is wrong of a node.
+#[derive(Clone, Copy)]
+enum Part {
+    /// All of it.
+    Whole,
+    /// The bracket that opens it: something else than a list or map should be here.
+    Bracket,
+}
+
+/// The fields of a struct: they name it.
+type Fields = &'static [&'static str];
+
+/// What was noted so far.
+struct Notes<'t> {
+    tree: &'t Tree<'t>,
+    found: RefCell<BTreeMap<(NodeId, String), Part>>,
+    /// Nodes that can't be read, and are stood in for.
+    refused: BTreeSet<NodeId>,
+    /// The fields that must be there, as far as is known.
+    required: BTreeMap<Fields, Vec<&'static str>>,
+}
+
+impl<'t> Notes<'t> {
+    fn new(tree: &'t Tree<'t>) -> Self {
+        Self {
+            tree,
+            found: RefCell::default(),
+            refused: BTreeSet::new(),
+            required: BTreeMap::new(),
+        }
+    }
+
+    /// Learns which fields must be there from a document in which nothing is.
+    fn learn<T: DeserializeOwned>(&mut self) {
+        loop {
+            let missing = T::deserialize(Reader::stand_in(self)).err();
+            let missing = missing.and_then(|error| error.missing);
+            if !missing.is_some_and(|(fields, name)| self.require(fields, name)) {
+                return;
+            }
+        }
+    }
+
+    /// Takes in that a field must be there. False if that was known.
+    fn require(&mut self, fields: Fields, name: &'static str) -> bool {
+        let known = self.required.entry(fields).or_default();
+        let is_new = !known.contains(&name);
+        known.extend(is_new.then_some(name));
+        is_new
+    }
+
+    fn required(&self, fields: Fields) -> &[&'static str] {
+        self.required.get(fields).map_or(&[], Vec::as_slice)
+    }
+
+    /// Sees to it that the next run passes an error. False if nothing helps.
+    fn mend(&mut self, error: &Error) -> bool {
+        if let Some((fields, name)) = error.missing {
+            return self.require(fields, name);
+        }
+        let Some(at) = error.at else { return false };
+        self.note(at, Part::Whole, error.what.clone());
+        self.refused.insert(at)
+    }
+
+    /// Notes a fault, once.
+    fn note(&self, at: NodeId, part: Part, what: String) {
+        let mut found = self.found.borrow_mut();
+        if found.len() < MAX_FAULTS {
+            found.entry((at, what)).or_insert(part);
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! Values decoded from the nodes of a tree: each type that is asked for gets a value, a stand-in if
+//! the node has none.
+
+use super::access::{Items, Members, Variant};
+use super::error::Error;
+use super::{Fields, Notes, Part};
+use crate::source::tree::{Kind, NodeId};
+use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
+
+/// Decodes one node, or stands in for one that is not there.
+#[derive(Clone, Copy)]
+pub(super) struct Reader<'n, 't> {
+    pub(super) notes: &'n Notes<'t>,
+    pub(super) at: Option<NodeId>,
+}
+
+/// A number of JSON, as `serde_json` takes it.
+#[derive(Clone, Copy)]
+enum Number {
+    Unsigned(u64),
+    Signed(i64),
+    Float(f64),
+}
+
+impl Number {
+    fn of(written: &str) -> Self {
+        let is_whole = written
+            .bytes()
+            .all(|byte| byte == b'-' || byte.is_ascii_digit());
+        let unsigned = written.parse().ok().filter(|_| is_whole);
+        let signed = written
+            .parse()
+            .ok()
+            .filter(|number| is_whole && *number != 0);
+        match (unsigned, signed) {
+            (Some(number), _) => Self::Unsigned(number),
+            (None, Some(number)) => Self::Signed(number),
+            (None, None) => Self::Float(written.parse().unwrap_or(f64::INFINITY)),
+        }
+    }
+
+    fn is_from(self, least: i128, most: i128) -> bool {
+        let range = least..=most;
+        match self {
+            Self::Unsigned(number) => range.contains(&i128::from(number)),
+            Self::Signed(number) => range.contains(&i128::from(number)),
+            Self::Float(_) => false,
+        }
+    }
+
+    fn unexpected(self) -> Unexpected<'static> {
+        match self {
+            Self::Unsigned(number) => Unexpected::Unsigned(number),
+            Self::Signed(number) => Unexpected::Signed(number),
+            Self::Float(number) => Unexpected::Float(number),
+        }
+    }
+
+    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self {
+            Self::Unsigned(number) => visitor.visit_u64(number),
+            Self::Signed(number) => visitor.visit_i64(number),
+            Self::Float(number) => visitor.visit_f64(number),
+        }
+    }
+}
+
+impl<'n, 't> Reader<'n, 't> {
+    /// Decodes a node, unless it is one to stand in for.
+    pub(super) fn new(notes: &'n Notes<'t>, at: NodeId) -> Self {
+        let at = (!notes.refused.contains(&at)).then_some(at);
+        Self { notes, at }
+    }
+
+    /// Stands in for a value.
+    pub(super) fn stand_in(notes: &'n Notes<'t>) -> Self {
+        Self { notes, at: None }
+    }
+
+    fn kind(self) -> Option<Kind> {
+        self.at.map(|at| self.notes.tree.kind(at))
+    }
+
+    fn number(self) -> Option<Number> {
+        let at = self.at.filter(|_| self.kind() == Some(Kind::Number))?;
+        Some(Number::of(self.notes.tree.written(at)))
+    }
+
+    fn text(self) -> Option<&'n str> {
+        self.at.and_then(|at| self.notes.tree.text(at))
+    }
+
+    /// Notes that the node is of another type than expected.
+    pub(super) fn wrong_type(self, expected: &dyn Expected) {
+        let Some((at, kind)) = self.at.zip(self.kind()) else {
+            return;
+        };
+        let (found, part) = match kind {
+            Kind::Null => (Unexpected::Unit, Part::Whole),
+            Kind::Bool => {
+                let truth = self.notes.tree.boolean(at).unwrap_or_default();
+                (Unexpected::Bool(truth), Part::Whole)
+            }
+            Kind::Number => {
+                let number = Number::of(self.notes.tree.written(at));
+                (number.unexpected(), Part::Whole)
+            }
+            Kind::Word | Kind::Text => (
+                Unexpected::Str(self.text().unwrap_or_default()),
+                Part::Whole,
+            ),
+            Kind::List => (Unexpected::Seq, Part::Bracket),
+            Kind::Map => (Unexpected::Map, Part::Bracket),
+        };
+        let error = Error::invalid_type(found, expected);
+        self.notes.note(at, part, error.what);
+    }
+
+    /// Notes an error at the node as a whole.
+    pub(super) fn note(self, error: Error) {
+        if let Some(at) = self.at {
+            self.notes.note(at, Part::Whole, error.what);
+        }
+    }
+
+    /// A whole number from `least` to `most`.
+    fn whole<'de, V: Visitor<'de>>(
+        self,
+        visitor: V,
+        (least, most): (i128, i128),
+    ) -> Result<V::Value, Error> {
+        match self.number() {
+            Some(number) if number.is_from(least, most) => return number.visit(visitor),
+            Some(number @ (Number::Unsigned(_) | Number::Signed(_))) => {
+                self.note(Error::invalid_value(number.unexpected(), &visitor));
+            }
+            Some(Number::Float(_)) | None => self.wrong_type(&visitor),
+        }
+        visitor.visit_u64(0)
+    }
+
+    fn float<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if let Some(number) = self.number() {
+            return number.visit(visitor);
+        }
+        self.wrong_type(&visitor);
+        visitor.visit_f64(0.0)
+    }
+
+    /// The fields of a struct as a list, which `serde_json` takes as well.
+    fn positional<'de, V: Visitor<'de>>(
+        self,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        let list = self.at.into_iter();
+        let items: Vec<NodeId> = list.flat_map(|list| self.notes.tree.items(list)).collect();
+        if items.len() != length {
+            let expected = format!("{} with {length} elements", &visitor as &dyn Expected);
+            self.note(Error::invalid_length(items.len(), &expected.as_str()));
+        }
+        let items = Items::new(self.notes, items, Some(length));
+        visitor.visit_seq(items).map_err(|error| error.at(self.at))
+    }
+
+    fn list<'de, V: Visitor<'de>>(
+        self,
+        visitor: V,
+        length: Option<usize>,
+    ) -> Result<V::Value, Error> {
+        let list = self.at.filter(|_| self.kind() == Some(Kind::List));
+        let items: Vec<NodeId> = match list {
+            Some(list) => self.notes.tree.items(list).collect(),
+            None => {
+                self.wrong_type(&visitor);
+                Vec::new()
+            }
+        };
+        if list.is_some() && length.is_some_and(|length| items.len() != length) {
+            self.note(Error::invalid_length(items.len(), &visitor));
+        }
+        let items = Items::new(self.notes, items, length);
+        visitor.visit_seq(items).map_err(|error| error.at(self.at))
+    }
+}
+
+/// Types of whole numbers, with what asks for them.
+macro_rules! whole {
+    ($($method:ident $type:ident)+) => {
+        $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+            self.whole(visitor, (i128::from($type::MIN), i128::from($type::MAX)))
+        })+
+    };
+}
+
+impl<'de> Deserializer<'de> for Reader<'_, '_> {
+    type Error = Error;
+
+    whole! {
+        deserialize_u8 u8 deserialize_u16 u16 deserialize_u32 u32 deserialize_u64 u64
+        deserialize_i8 i8 deserialize_i16 i16 deserialize_i32 i32 deserialize_i64 i64
+    }
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        let tree = self.notes.tree;
+        let Some((at, kind)) = self.at.zip(self.kind()) else {
+            // What takes anything takes nothing in a list, as columns do.
+            return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
+        };
+        let value: Result<V::Value, Error> = match kind {
+            Kind::Null => visitor.visit_unit(),
+            Kind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
+            Kind::Number => Number::of(tree.written(at)).visit(visitor),
+            Kind::Word | Kind::Text => visitor.visit_str(self.text().unwrap_or_default()),
+            Kind::List => visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None)),
+            Kind::Map => visitor.visit_map(Members::any(self.notes, at)),
+        };
+        value.map_err(|error| error.at(self.at))
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        let truth = self.at.and_then(|at| self.notes.tree.boolean(at));
+        if truth.is_none() {
+            self.wrong_type(&visitor);
+        }
+        visitor.visit_bool(truth.unwrap_or_default())
+    }
+
+    fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.float(visitor)
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.float(visitor)
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        let text = self.text();
+        if text.is_none() {
+            self.wrong_type(&visitor);
+        }
+        let value = visitor.visit_str(text.unwrap_or_default());
+        value.map_err(|error: Error| error.at(self.at))
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_char<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_byte_buf<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.kind() {
+            Some(Kind::Null) | None => visitor.visit_none(),
+            Some(_) => visitor.visit_some(self),
+        }
+    }
+
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if self.kind() != Some(Kind::Null) {
+            self.wrong_type(&visitor);
+        }
+        visitor.visit_unit()
+    }
+
+    fn deserialize_unit_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.deserialize_unit(visitor)
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        visitor.visit_newtype_struct(self)
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.list(visitor, None)
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(
+        self,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.list(visitor, Some(length))
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.list(visitor, Some(length))
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        self.deserialize_any(visitor)
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        fields: Fields,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        if self.kind() == Some(Kind::List) {
+            return self.positional(fields.len(), visitor);
+        }
+        let map = self.at.filter(|_| self.kind() == Some(Kind::Map));
+        if map.is_none() {
+            self.wrong_type(&visitor);
+        }
+        let members = Members::of(self.notes, map, fields);
+        let value = visitor.visit_map(members);
+        value.map_err(|error| error.of(fields).at(self.at))
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _: &'static str,
+        variants: Fields,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        let variant = Variant::of(self, variants, &visitor);
+        let value = visitor.visit_enum(variant);
+        value.map_err(|error| error.at(self.at))
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_unit()
+    }
+}

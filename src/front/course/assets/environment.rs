@@ -1,0 +1,42 @@
+//! The environments: pictures of light as the IR holds them.
+
+use super::{Porter, Wanted, Without};
+use crate::front::pixels;
+use crate::image::is_radiance;
+use crate::ir::{ImageId, Lowered};
+use crate::source::Kind;
+
+/// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
+const MAX_BYTES: u64 = 1 << 29;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind {
+    extensions: &["hdr", "pic", "exr"],
+    begins: is_radiance,
+};
+
+/// Brings the image of the environment; without its file there is none.
+pub(super) fn bring(id: ImageId, wish: &Wanted, lowered: &mut Lowered, porter: &mut Porter<'_>) {
+    let found = porter.find(wish, Without::Environment);
+    let image = found.and_then(
+        |found| match porter.loader.found(&found, MAX_BYTES, porter.map) {
+            Ok(bytes) => {
+                let image = pixels::environment(&wish.path, &bytes, porter.map.budget());
+                let refuse = |fault| {
+                    let name = found.shown.display().to_string();
+                    let finding = pixels::no_environment(&fault, &name).at(wish.span, "named here");
+                    porter.refuse(finding, Without::Environment);
+                };
+                image.map_err(refuse).ok()
+            }
+            Err(error) => {
+                porter.unreadable(&found, &error.to_string(), wish.span, Without::Environment);
+                None
+            }
+        },
+    );
+    match (image, lowered.scene.images.get_mut(id.0 as usize)) {
+        (Some(image), Some(place)) => *place = image,
+        (_, _) => lowered.scene.environment = None,
+    }
+}

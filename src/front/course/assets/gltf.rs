@@ -1,0 +1,256 @@
+//! The glTF assets that a scene holds: what each shows, in its place. Their cameras do not count,
+//! their lights do.
+
+use super::{Known, Porter, Wanted, Without};
+use crate::diag::{Diagnostic, codes};
+use crate::front::{Options, gltf, over_limit};
+use crate::ir::{
+    Emitter, Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual,
+    Scene, Shape, Surface, Texture, TextureId,
+};
+use crate::math::Vec3;
+use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
+use glam::DAffine3;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind {
+    extensions: &["gltf", "glb"],
+    begins: gltf::begins,
+};
+
+/// The largest asset read, in bytes.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// The assets brought so far: what is to be placed of them.
+#[derive(Default)]
+pub(super) struct Assets {
+    known: Known<Placeable>,
+    /// The budget had no room for one of them: that is said once.
+    is_over: bool,
+}
+
+/// What is placed of an asset; it refers to what was added to the scene.
+struct Placeable {
+    surfaces: Vec<Surface>,
+    names: Vec<String>,
+    lights: Vec<Light>,
+}
+
+impl Assets {
+    /// Brings an asset and places it; without its file, nothing shows of it.
+    pub(super) fn bring(
+        &mut self,
+        place: [[f64; 3]; 4],
+        wish: &Wanted,
+        lowered: &mut Lowered,
+        porter: &mut Porter<'_>,
+    ) {
+        if self.is_over {
+            return;
+        }
+        let Some(found) = porter.find(wish, Without::Object) else {
+            return;
+        };
+        let asset = self.known.of(&found, || {
+            let bytes = porter.loader.found(&found, MAX_BYTES, porter.map);
+            let bytes = bytes.map_err(|error| {
+                porter.unreadable(&found, &error.to_string(), wish.span, Without::Object)
+            });
+            let file = add_asset(&found, bytes.ok()?, wish, porter)?;
+            let options = Options {
+                camera: None,
+                ..porter.options.clone()
+            };
+            let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
+            Some(add(asset, lowered))
+        });
+        let Some(asset) = asset else { return };
+        match asset.charge(porter.map.budget()) {
+            Ok(()) => asset.place(DAffine3::from_cols_array_2d(&place), wish, lowered),
+            Err(fault) => {
+                self.is_over = true;
+                porter
+                    .sink
+                    .push(over_limit("the asset", &fault).at(wish.span, "placed here"));
+            }
+        }
+    }
+}
+
+/// Adds the bytes of an asset to the map, if they are one: a finding within would quote a file of
+/// another kind.
+fn add_asset(
+    found: &Found,
+    bytes: Vec<u8>,
+    wish: &Wanted,
+    porter: &mut Porter<'_>,
+) -> Option<FileId> {
+    if gltf::recognise("", &bytes) {
+        return Some(porter.map.add_found(found, bytes));
+    }
+    let message = format!("`{}` is no glTF asset", found.shown.display());
+    porter.refuse(
+        Diagnostic::new(&codes::GLTF_NOT_JSON, message).at(wish.span, "named here"),
+        Without::Object,
+    );
+    None
+}
+
+/// How many images, textures, meshes and materials a scene had before an asset came.
+struct Before {
+    images: u32,
+    textures: u32,
+    meshes: u32,
+    materials: u32,
+}
+
+impl Before {
+    fn of(scene: &Scene) -> Self {
+        let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        Self {
+            images: count(scene.images.len()),
+            textures: count(scene.textures.len()),
+            meshes: count(scene.meshes.len()),
+            materials: count(scene.materials.len()),
+        }
+    }
+
+    /// Keeps the places of what an asset is made of.
+    fn record(&self, asset: &Lowered, origins: &mut Origins) {
+        let Scene {
+            images,
+            textures,
+            meshes,
+            materials,
+            ..
+        } = &asset.scene;
+        for (noun, before, count) in [
+            (Noun::Image, self.images, images.len()),
+            (Noun::Texture, self.textures, textures.len()),
+            (Noun::Mesh, self.meshes, meshes.len()),
+            (Noun::Material, self.materials, materials.len()),
+        ] {
+            for index in 0..count {
+                let place = Place::new(noun, before as usize + index, Field::Whole);
+                let own = Place::new(noun, index, Field::Whole);
+                origins.record(place, asset.origins.span(own));
+            }
+        }
+    }
+
+    fn texture(&self, texture: Texture) -> Texture {
+        match texture {
+            Texture::Uv => Texture::Uv,
+            Texture::Image(ImageId(image)) => Texture::Image(ImageId(image + self.images)),
+            Texture::Sampled(mut sampled) => {
+                sampled.image.0 += self.images;
+                Texture::Sampled(sampled)
+            }
+        }
+    }
+
+    fn material(&self, mut material: Material) -> Material {
+        if let Material::Standard(standard) = &mut material {
+            standard
+                .maps_mut()
+                .for_each(|map| map.texture = TextureId(map.texture.0 + self.textures));
+        }
+        material
+    }
+
+    fn surface(&self, mut surface: Surface) -> Surface {
+        if let Shape::Instance(instance) = &mut surface.shape {
+            instance.mesh = MeshId(instance.mesh.0 + self.meshes);
+        }
+        surface.material.0 += self.materials;
+        surface
+    }
+}
+
+/// Adds what an asset is made of to a scene.
+fn add(asset: Lowered, lowered: &mut Lowered) -> Placeable {
+    let Lowered { scene, origins } = lowered;
+    let before = Before::of(scene);
+    before.record(&asset, origins);
+    let own = asset.scene;
+    let textures = own.textures.into_iter();
+    let materials = own.materials.into_iter();
+    let surfaces = own.surfaces.into_iter();
+    scene.images.extend(own.images);
+    scene
+        .textures
+        .extend(textures.map(|own| before.texture(own)));
+    scene.meshes.extend(own.meshes);
+    scene
+        .materials
+        .extend(materials.map(|own| before.material(own)));
+    Placeable {
+        surfaces: surfaces.map(|own| before.surface(own)).collect(),
+        names: own.names,
+        lights: own.lights,
+    }
+}
+
+impl Placeable {
+    /// Charges one more of it.
+    fn charge(&self, budget: &Budget) -> Result<(), Exceeded> {
+        let names = self.names.iter().map(|name| name.len() as u64).sum::<u64>();
+        let lights = size_of::<Light>() as u64 * self.lights.len() as u64;
+        let surfaces = self.surfaces.len() as u64;
+        budget.charge(Resource::Surfaces, surfaces)?;
+        budget.charge(Resource::Memory, surfaces * gltf::SURFACE + names + lights)
+    }
+
+    /// Puts the asset into its place.
+    fn place(&self, world: DAffine3, wish: &Wanted, lowered: &mut Lowered) {
+        let Lowered { scene, origins } = lowered;
+        if !self.names.is_empty() || !scene.names.is_empty() {
+            scene.names.resize(scene.surfaces.len(), String::new());
+            scene.names.extend(self.names.iter().cloned());
+            scene
+                .names
+                .resize(scene.surfaces.len() + self.surfaces.len(), String::new());
+        }
+        for surface in &self.surfaces {
+            let mut surface = surface.clone();
+            if let Shape::Instance(instance) = &mut surface.shape {
+                let own = DAffine3::from_cols_array_2d(&instance.world_from_object);
+                instance.world_from_object = (world * own).to_cols_array_2d();
+            }
+            origins.record(
+                Place::new(Noun::Surface, scene.surfaces.len(), Field::Whole),
+                wish.span,
+            );
+            scene.surfaces.push(surface);
+        }
+        for light in &self.lights {
+            origins.record(
+                Place::new(Noun::Light, scene.lights.len(), Field::Whole),
+                wish.span,
+            );
+            scene.lights.push(placed(light, world));
+        }
+    }
+}
+
+/// A light moved and turned; its strength and its reach know no scale, as in the asset.
+fn placed(light: &Light, world: DAffine3) -> Light {
+    let Light::Punctual(Punctual { emitter, intensity }) = light else {
+        return light.clone();
+    };
+    let mut emitter = emitter.clone();
+    if let Emitter::Point { position, .. } | Emitter::Spot { position, .. } = &mut emitter {
+        *position = world
+            .transform_point3(Vec3::from_array(*position))
+            .to_array();
+    }
+    if let Emitter::Sun { direction } | Emitter::Spot { direction, .. } = &mut emitter {
+        *direction = world
+            .transform_vector3(Vec3::from_array(*direction))
+            .to_array();
+    }
+    Light::Punctual(Punctual {
+        emitter,
+        intensity: *intensity,
+    })
+}

@@ -1,0 +1,147 @@
+//! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
+
+use super::{Known, Porter, Wanted, Without};
+use crate::diag::{Diagnostic, Sink, clip_path, codes};
+use crate::front::pixels::{self, Refused};
+use crate::image::{Opacity, Pixels, is_picture};
+use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
+use crate::source::{Found, Kind};
+use std::collections::BTreeMap;
+
+/// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored
+/// plainly.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Such files.
+pub(super) const KIND: Kind = Kind {
+    extensions: &["png", "jpg", "jpeg", "webp"],
+    begins: is_picture,
+};
+
+/// Brings one image, or the one that the same file became before, whatever it was called; `None`
+/// without a file.
+pub(super) fn bring(
+    id: ImageId,
+    wish: &Wanted,
+    lowered: &mut Lowered,
+    known: &mut Known<ImageId>,
+    porter: &mut Porter<'_>,
+) -> Option<ImageId> {
+    let found = porter.find(wish, Without::Color)?;
+    let image = known.of(&found, || {
+        let Pixels {
+            width,
+            height,
+            has_alpha: _,
+            bytes,
+        } = read(&found, wish, porter)?;
+        let image = lowered.scene.images.get_mut(id.0 as usize)?;
+        (image.width, image.height) = (width, height);
+        image.pixels = bytes.into();
+        Some(id)
+    });
+    image.copied()
+}
+
+/// Has textures look at the images that came of those they wanted, and no material at a texture of
+/// which none came.
+pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scene) {
+    let mut missing = vec![false; scene.textures.len()];
+    for (texture, missing) in scene.textures.iter_mut().zip(&mut missing) {
+        if let Texture::Image(id) = texture {
+            match image_of.get(&id.0) {
+                Some(Some(image)) => *id = *image,
+                Some(None) => *missing = true,
+                None => {}
+            }
+        }
+    }
+    let is_missing = |texture: &TextureId| missing.get(texture.0 as usize) == Some(&true);
+    for phong in scene.materials.iter_mut().filter_map(Material::phong_mut) {
+        for map in [
+            &mut phong.color_map,
+            &mut phong.specular_map,
+            &mut phong.normal_map,
+        ] {
+            map.take_if(|texture| is_missing(texture));
+        }
+        phong.bump.take_if(|bump| is_missing(&bump.texture));
+    }
+}
+
+fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
+    match porter.loader.found(found, MAX_BYTES, porter.map) {
+        Ok(bytes) => {
+            porter.map.budget().read(bytes.len());
+            let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
+            pixels
+                .map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color))
+                .ok()
+        }
+        Err(error) => {
+            porter.unreadable(found, &error.to_string(), wish.span, Without::Color);
+            None
+        }
+    }
+}
+
+fn refusal(fault: &Refused, found: &Found, wish: &Wanted) -> Diagnostic {
+    let what = format!("the texture `{}`", found.shown.display());
+    pixels::refusal(fault, &what, "textures are PNG, JPEG or WebP").at(wish.span, "named here")
+}
+
+/// Makes normal maps of the bump maps that hold normals.
+pub(super) fn find_normal_maps(lowered: &mut Lowered, sink: &mut Sink) {
+    let Scene {
+        materials,
+        textures,
+        images,
+        ..
+    } = &mut lowered.scene;
+    let image = |texture: TextureId| match textures.get(texture.0 as usize) {
+        Some(Texture::Image(image)) => Some(*image),
+        Some(Texture::Uv | Texture::Sampled(_)) | None => None,
+    };
+    let mut known: Vec<Option<bool>> = vec![None; images.len()];
+    for (index, material) in materials.iter_mut().enumerate() {
+        let Some(phong) = material.phong_mut() else {
+            continue;
+        };
+        let (Some(Bump { texture, height: _ }), None) = (&phong.bump, phong.normal_map) else {
+            continue;
+        };
+        let texture = *texture;
+        let Some(image) = image(texture)
+            .map(|image| image.0 as usize)
+            .filter(|image| *image < images.len())
+        else {
+            continue;
+        };
+        if *known[image].get_or_insert_with(|| holds_normals(&images[image].pixels)) {
+            phong.normal_map = Some(texture);
+            phong.bump = None;
+            let message = format!(
+                "`{}` holds normals, so it is used as a normal map",
+                clip_path(&images[image].name)
+            );
+            let span = lowered
+                .origins
+                .span(Place::new(Noun::Material, index, Field::Bump));
+            sink.push(
+                Diagnostic::new(&codes::NORMALS_AS_BUMP, message)
+                    .at(span, "holds normals")
+                    .hint("name it by `normalMap`"),
+            );
+        }
+    }
+}
+
+/// True if most pixels, taken as 2·rgb − 1, are directions that point out of the surface.
+fn holds_normals(pixels: &[u8]) -> bool {
+    let pixels = pixels.as_chunks::<3>().0;
+    let is_normal = |pixel: &&[u8; 3]| {
+        let [x, y, z] = pixel.map(|channel| f64::from(channel) / 127.5 - 1.0);
+        z > 0.0 && z > x && z > y && (0.75..1.25).contains(&(x * x + y * y + z * z))
+    };
+    2 * pixels.iter().filter(is_normal).count() > pixels.len()
+}

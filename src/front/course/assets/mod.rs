@@ -1,0 +1,262 @@
+//! The files a scene names, brought into its IR: textures and meshes.
+//!
+//! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
+//! is wrong there. A lenient run goes on without the file and says what is missing.
+
+mod environment;
+mod gltf;
+mod image;
+mod mesh;
+
+use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
+use crate::front::Options;
+use crate::ir::{ImageId, Lowered, MeshId};
+use crate::source::{FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// A file that a scene names, for a place in the IR that waits for it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// What the file is for.
+    pub asset: Asset,
+    /// Its path as the scene writes it.
+    pub path: String,
+    /// Where the scene writes it.
+    pub span: Option<Span>,
+}
+
+/// The place in the IR that a file is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asset {
+    /// An image, of one pixel until its file is there.
+    Image(ImageId),
+    /// A mesh, empty until its file is there.
+    Mesh(MeshId),
+    /// The image of the environment, of one dark pixel until its file is there.
+    Environment(ImageId),
+    /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
+    Gltf([[f64; 3]; 4]),
+}
+
+/// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
+///
+/// Mesh files come into the source map, so that findings can point into them.
+pub fn bring(
+    lowered: &mut Lowered,
+    wanted: Vec<Wanted>,
+    scene: FileId,
+    options: &Options,
+    map: &mut SourceMap,
+    sink: &mut Sink,
+) {
+    if wanted.is_empty() {
+        return;
+    }
+    let folder = map.folder(scene);
+    let search = Search::new(folder, options.asset_root.as_deref())
+        .with_parent(folder, options.home.as_deref());
+    let mut porter = Porter {
+        search,
+        options,
+        loader: Loader,
+        map,
+        sink,
+    };
+    let (mut images, mut meshes) = (Known::default(), Known::default());
+    let mut assets = gltf::Assets::default();
+    // Which image and which mesh came of each that was wanted.
+    let (mut image_of, mut mesh_of) = (BTreeMap::new(), BTreeMap::new());
+    for wish in wanted {
+        match wish.asset {
+            Asset::Image(id) => {
+                image_of.insert(
+                    id.0,
+                    image::bring(id, &wish, lowered, &mut images, &mut porter),
+                );
+            }
+            Asset::Mesh(id) => {
+                mesh_of.insert(
+                    id.0,
+                    mesh::bring(id, &wish, lowered, &mut meshes, &mut porter),
+                );
+            }
+            Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
+            Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
+        }
+    }
+    image::settle(&image_of, &mut lowered.scene);
+    mesh::settle(&mesh_of, &mut lowered.scene);
+    image::find_normal_maps(lowered, porter.sink);
+    lowered.origins.finish();
+}
+
+/// What became of the files read so far, each read once, however it is named; `None` if it can't be
+/// used.
+struct Known<T>(BTreeMap<Identity, Option<T>>);
+
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Self(BTreeMap::new())
+    }
+}
+
+impl<T> Known<T> {
+    /// What became of a file; `read` is called if that is not known.
+    fn of(&mut self, found: &Found, read: impl FnOnce() -> Option<T>) -> Option<&T> {
+        let Some(identity) = found.identity() else {
+            // It has gone meanwhile: to read it reports that.
+            read();
+            return None;
+        };
+        self.0.entry(identity).or_insert_with(read).as_ref()
+    }
+}
+
+/// Finds files, reads them, and reports on them.
+struct Porter<'run> {
+    search: Search,
+    options: &'run Options,
+    loader: Loader,
+    map: &'run mut SourceMap,
+    sink: &'run mut Sink,
+}
+
+/// What a lenient run does without a file.
+#[derive(Clone, Copy)]
+enum Without {
+    Color,
+    Environment,
+    Object,
+}
+
+impl Without {
+    fn consequence(self) -> &'static str {
+        match self {
+            Self::Color => "the texture is left out",
+            Self::Environment => "the environment is left out",
+            Self::Object => "the object is left out",
+        }
+    }
+}
+
+impl Porter<'_> {
+    /// The file, unless there is none: that is reported.
+    fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
+        let extensions: &[&str] = match without {
+            Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
+            Without::Object | Without::Color | Without::Environment => &[""],
+        };
+        let mut first_fault = None;
+        for extension in extensions {
+            match self
+                .search
+                .find(&format!("{}{extension}", wish.path), kind_of(&wish.asset))
+            {
+                Ok(found) => {
+                    self.tell_where(wish, &found, found.elsewhere || !extension.is_empty());
+                    return Some(found);
+                }
+                Err(fault) => drop(first_fault.get_or_insert(fault)),
+            }
+        }
+        if let Some(fault) = first_fault {
+            self.refuse(missing(wish, &fault), without);
+        }
+        None
+    }
+
+    fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
+        if elsewhere {
+            let message = format!(
+                "`{}` is taken from `{}`",
+                clip_path(&wish.path),
+                found.shown.display()
+            );
+            self.sink.push(
+                Diagnostic::new(&codes::FILE_ELSEWHERE, message)
+                    .at(wish.span, "found under another name"),
+            );
+        }
+    }
+
+    /// Reports a file that can't be used; lenient, as a warning with what is done instead.
+    fn refuse(&mut self, mut finding: Diagnostic, without: Without) {
+        if self.options.lenient {
+            finding.message = format!("{}; {}", finding.message, without.consequence());
+            finding.severity = Severity::Warning;
+        }
+        self.sink.push(finding);
+    }
+
+    /// Reports a file that was found and can't be read.
+    fn unreadable(&mut self, found: &Found, why: &str, span: Option<Span>, without: Without) {
+        let message = format!("can't read `{}`: {why}", found.shown.display());
+        self.refuse(
+            Diagnostic::new(&codes::CANNOT_READ, message).at(span, "named here"),
+            without,
+        );
+    }
+}
+
+/// The kind of file that an asset is in.
+fn kind_of(asset: &Asset) -> &'static Kind {
+    match asset {
+        Asset::Image(_) => &image::KIND,
+        Asset::Mesh(_) => &mesh::KIND,
+        Asset::Environment(_) => &environment::KIND,
+        Asset::Gltf(_) => &gltf::KIND,
+    }
+}
+
+/// True if the last component has a dot within: `cat.obj`, and `cat` has not.
+fn has_extension(path: &str) -> bool {
+    let name = path.trim().rsplit(['/', '\\']).next().unwrap_or_default();
+    name.trim_start_matches('.').contains('.')
+}
+
+fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
+    let name = clip_path(&wish.path);
+    match fault {
+        Missing::NoFolder => {
+            let message =
+                format!("`{name}` can't be looked for: a scene from a stream has no folder");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "no folder to look in")
+                .hint("name the folder of its files by `--asset-root`")
+        }
+        Missing::Absent(looked) => {
+            Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
+                .at(wish.span, "not found")
+                .hint(places(looked))
+        }
+        Missing::Outside(looked) => {
+            let message = format!("`{name}` leads out of the folder of the scene");
+            Diagnostic::new(&codes::FILE_OUTSIDE, message)
+                .at(wish.span, "not followed")
+                .hint(places(looked))
+                .hint("put the file beside the scene, or allow its folder by `--asset-root`")
+        }
+    }
+}
+
+/// The places a file was looked for, the most telling ones if there are many.
+fn places(looked: &[PathBuf]) -> String {
+    const SHOWN: usize = 6;
+    let shown: Vec<String> = looked
+        .iter()
+        .take(SHOWN)
+        .map(|path| format!("`{}`", clip_path(&path.to_string_lossy())))
+        .collect();
+    let more = looked.len().saturating_sub(SHOWN);
+    let tail = if more > 0 {
+        format!(" and {more} more places")
+    } else {
+        String::new()
+    };
+    if shown.is_empty() {
+        "name a file".to_owned()
+    } else {
+        format!("looked for it at {}{tail}", shown.join(", "))
+    }
+}

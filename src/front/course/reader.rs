@@ -1,0 +1,281 @@
+//! Maps read field by field, in the order of a record's declaration; what was left unread and what
+//! is missing is reported.
+
+use super::decode::{Context, Entry, Key, describe};
+use super::form;
+use super::record::{Field, Found, Need, Record, Slot};
+use super::spelling::{list, nearest};
+use crate::diag::clip;
+use crate::diag::codes;
+use crate::source::Span;
+use crate::source::tree::NodeId;
+use std::collections::BTreeSet;
+
+/// So many findings get a suggestion.
+const ADVISED: usize = 100;
+
+/// The longest row of any field.
+const MAX_ROW: usize = 4;
+
+/// Reads one map, field by field in the order of the declaration.
+pub(super) struct Reader {
+    record: &'static Record,
+    /// The row of keys under which each field so far was there, if it was.
+    rows: Vec<Option<&'static [&'static str]>>,
+    /// Where the map's entries start among those of the context.
+    from: usize,
+    /// Stands for the map in findings.
+    head: Span,
+}
+
+impl Reader {
+    /// Opens a map; anything else is reported.
+    pub(super) fn open(
+        record: &'static Record,
+        node: NodeId,
+        context: &mut Context<'_>,
+    ) -> Option<Self> {
+        if !context.tree.is_map(node) {
+            return context.expected(node, "a map");
+        }
+        let head = context.key.span.unwrap_or_else(|| context.head(node));
+        let from = context.entries.len();
+        gather(node, context);
+        Some(Self {
+            record,
+            rows: Vec::with_capacity(record.fields.len()),
+            from,
+            head,
+        })
+    }
+
+    /// The next field of the declaration.
+    pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> Found<S> {
+        let field = &self.record.fields[self.rows.len()];
+        let found = self.row(field, context);
+        self.rows.push(found.map(|(row, _)| row));
+        let Some((row, found)) = found else {
+            return Found::Absent;
+        };
+        for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
+            context.entries[at].claimed = true;
+            if key != canonical {
+                context.note_spelling(
+                    key,
+                    canonical,
+                    context.tree.span(context.entries[at].key_node),
+                );
+            }
+        }
+        S::take(&found[..row.len()], context).map_or(Found::Broken, Found::Read)
+    }
+
+    /// The first row of the field whose keys are all there and not yet used, and where.
+    fn row(
+        &self,
+        field: &Field,
+        context: &Context<'_>,
+    ) -> Option<(&'static [&'static str], [usize; MAX_ROW])> {
+        let entries = &context.entries[self.from..];
+        let find = |key: &str| {
+            Some(
+                self.from
+                    + entries
+                        .iter()
+                        .position(|entry| entry.key == key && !entry.claimed)?,
+            )
+        };
+        field.rows.iter().find_map(|row| {
+            let mut found = [find(row[0])?; MAX_ROW];
+            for (slot, key) in found.iter_mut().zip(*row).skip(1) {
+                *slot = find(key)?;
+            }
+            Some((*row, found))
+        })
+    }
+
+    /// Reports what was left unread and what is missing. False if the map has none of the forms it
+    /// may have.
+    pub(super) fn close(self, context: &mut Context<'_>) -> bool {
+        let mut partial = 0_u32;
+        for at in self.from..context.entries.len() {
+            let entry = context.entries[at];
+            if !entry.claimed {
+                partial |= self.unread(entry, context);
+            }
+        }
+        context.entries.truncate(self.from);
+        let required = |field: &Field| matches!(field.need, Need::Required);
+        let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
+        let fields = self.record.fields.iter().enumerate();
+        let missing = fields.filter(|(at, field)| absent(at) && required(field));
+        let missing: Vec<_> = missing
+            .flat_map(|(_, field)| field.rows[0].iter().copied())
+            .collect();
+        if !missing.is_empty() {
+            missing_keys(self.record.word, self.head, &missing, context);
+        }
+        // Which form was meant is unclear while a group is incomplete, which was reported.
+        partial != 0
+            || form::check(
+                self.record,
+                self.head,
+                |at| self.rows[at].is_some(),
+                context,
+            )
+    }
+
+    /// Reports a key nobody used. The bit of the field it is a part of, if that field is
+    /// incomplete.
+    fn unread(&self, entry: Entry<'_>, context: &mut Context<'_>) -> u32 {
+        let Record { word, fields, .. } = self.record;
+        let span = context.tree.span(entry.key_node);
+        let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
+        // Another of the same key was used: a duplicate, which is reported already, or hidden by
+        // what merges it.
+        if self
+            .rows
+            .iter()
+            .flatten()
+            .any(|row| row.contains(&entry.key))
+        {
+            return 0;
+        }
+        let has = |at: usize| self.rows[at].is_some();
+        let used = fields
+            .iter()
+            .enumerate()
+            .find(|(at, field)| has(*at) && part_of(field));
+        if let Some((_, field)) = used {
+            let message = || {
+                format!(
+                    "`{}` says again what another key of the {word} says",
+                    entry.key
+                )
+            };
+            context.report(&codes::CONFLICTING_KEYS, span, message, |d| {
+                d.at(span, "one too many").hint(format!(
+                    "the {word} takes {} once",
+                    list(field.rows[0].iter().copied())
+                ))
+            });
+            return 0;
+        }
+        if let Some((at, field)) = fields.iter().enumerate().find(|(_, field)| part_of(field)) {
+            let row = field
+                .rows
+                .iter()
+                .find(|row| row.contains(&entry.key))
+                .copied()
+                .unwrap_or_default();
+            let others = list(row.iter().copied().filter(|key| *key != entry.key));
+            let message = || format!("the {word} has `{}` without {others}", entry.key);
+            context.report(&codes::MISSING_KEY, span, message, |d| {
+                d.at(span, "one of a group").hint("give all of them")
+            });
+            return 1 << at;
+        }
+        // Who made so many mistakes does not look for advice on each, and each costs a comparison
+        // with every key.
+        let advise = context.findings() < ADVISED;
+        let open = fields
+            .iter()
+            .enumerate()
+            .filter(|_| advise)
+            .filter(|(at, _)| !has(*at))
+            .map(|(_, field)| field);
+        let meant = nearest(
+            entry.key,
+            open.flat_map(|field| field.rows.iter().copied().flatten().copied()),
+        );
+        unknown_key(word, meant, entry, context);
+        0
+    }
+}
+
+/// Reports keys that have to be there.
+pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &mut Context<'_>) {
+    let message = || format!("the {word} has no {}", list(missing.iter().copied()));
+    context.report(&codes::MISSING_KEY, head, message, |d| {
+        d.at(head, format!("this {word}"))
+    });
+}
+
+fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut Context<'_>) {
+    let span = context.tree.span(entry.key_node);
+    let severity = context.unread();
+    context.report(
+        &codes::UNKNOWN_KEY,
+        span,
+        || format!("the {word} has no key `{}`", clip(entry.key)),
+        |d| {
+            let d = d.at(span, "ignored").severity(severity);
+            match meant {
+                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+                None => d,
+            }
+        },
+    );
+}
+
+/// Adds the entries of a map to those of the context, its own first, then those it merges.
+fn gather(map: NodeId, context: &mut Context<'_>) {
+    let tree = context.tree;
+    let mut open = vec![map];
+    // Merging a map again changes nothing; without this, merges of merges would grow without bound.
+    let mut seen = BTreeSet::new();
+    while let Some(map) = open.pop() {
+        if !context.step(map) {
+            return;
+        }
+        let mut merged = Vec::new();
+        for (key_node, value) in tree.pairs(map) {
+            if !context.step(key_node) {
+                break;
+            }
+            match tree.text(key_node) {
+                Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),
+                Some("<<") => merged.push(value),
+                Some(key) => context.entries.push(Entry {
+                    key,
+                    key_node,
+                    value,
+                    claimed: false,
+                }),
+                None => {
+                    let (span, found) = (tree.span(key_node), describe(tree.shape(key_node)));
+                    let message = || format!("a key must be a word, not {found}");
+                    context.report(&codes::WRONG_TYPE, span, message, |d| {
+                        d.at(span, found.clone())
+                    });
+                }
+            }
+        }
+        for map in merged.into_iter().rev() {
+            if tree.is_map(map) {
+                open.extend(seen.insert(tree.target(map)).then_some(map));
+            } else {
+                context.key = Key {
+                    text: "<<",
+                    span: Some(tree.span(map)),
+                };
+                context.expected::<()>(map, "a map or a list of maps");
+            }
+        }
+    }
+}
+
+/// The value of a key of a map, the map's own or a merged one.
+pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Option<NodeId> {
+    if let Some(value) = context.tree.get(map, key) {
+        return Some(value);
+    }
+    let from = context.entries.len();
+    gather(map, context);
+    let found = context.entries[from..]
+        .iter()
+        .find(|entry| entry.key == key)
+        .map(|entry| entry.value);
+    context.entries.truncate(from);
+    found
+}

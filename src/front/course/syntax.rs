@@ -1,0 +1,107 @@
+//! Mistakes in a YAML text as findings.
+
+use crate::diag::{Code, Diagnostic, clip, codes};
+use crate::source::Span;
+use crate::source::tree::yaml::{MAX_DEPTH, Mistake};
+
+/// The finding about a mistake.
+pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
+    match mistake {
+        Mistake::Utf16 { span } => utf16(span),
+        Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),
+        Mistake::Control { character, span } => {
+            let message = format!("control character U+{character:04X}");
+            say(
+                &codes::CONTROL_CHARACTER,
+                message,
+                span,
+                "not allowed in YAML",
+            )
+            .replace("remove it", span, "")
+        }
+        Mistake::TooLong { span } => {
+            let message = "a word of more than a MiB";
+            say(&codes::TOO_LONG, message, span, "it starts here").hint("is this a scene file?")
+        }
+        Mistake::Empty { span } => empty(span),
+        Mistake::TwoDocuments { span } => {
+            let message = "a second document starts in this file";
+            say(&codes::TWO_DOCUMENTS, message, span, "the second document")
+                .hint("keep one scene a file, or remove the `---`")
+        }
+        Mistake::Tag { span } => {
+            let message = "a tag has no meaning in a scene";
+            say(&codes::TAG, message, span, "read as if it had no tag")
+        }
+        Mistake::SelfAlias { span, anchor } => {
+            let message = "an alias refers to what it stands in";
+            say(&codes::SELF_ALIAS, message, span, "this would never end")
+                .also(anchor, "the anchor stands before this")
+        }
+        Mistake::TooDeep { span } => {
+            let message = format!("lists and maps lie more than {MAX_DEPTH} deep in each other");
+            say(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
+                .hint("a scene needs a depth of 6")
+        }
+        Mistake::Unclosed { bracket, runs_into } => unclosed(bracket, runs_into),
+        Mistake::DuplicateKey { key, first, second } => duplicate_key(key, first, second),
+        Mistake::Syntax {
+            message,
+            label,
+            hint,
+            span,
+            bracket,
+        } => say(&codes::SYNTAX, message, span, label)
+            .hint(hint)
+            .also(bracket, "inside what this bracket opens"),
+    }
+}
+
+/// A file with nothing in it.
+fn empty(span: Span) -> Diagnostic {
+    let message = "this file holds no scene";
+    say(&codes::EMPTY_FILE, message, span, "the end of the file")
+        .hint("a scene has at least a `Camera`, `Lights` and `Objects`")
+}
+
+fn say(code: &'static Code, message: impl Into<String>, span: Span, label: &str) -> Diagnostic {
+    Diagnostic::new(code, message).at(span, label)
+}
+
+fn utf16(span: Span) -> Diagnostic {
+    let message = "this file is UTF-16, not UTF-8";
+    say(
+        &codes::NOT_UTF8,
+        message,
+        span,
+        "two bytes a character from here on",
+    )
+    .hint("save it as UTF-8, or convert it with `iconv -f UTF-16 -t UTF-8`")
+}
+
+fn not_utf8(byte: u8, span: Span) -> Diagnostic {
+    let message = format!(
+        "this file is not UTF-8: byte 0x{byte:02x} at offset {}",
+        span.start
+    );
+    let hint = "save it as UTF-8; if it is Latin-1, convert it with `iconv -f LATIN1 -t UTF-8`";
+    say(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
+}
+
+fn duplicate_key(key: &str, first: Span, second: Span) -> Diagnostic {
+    let message = format!("the key `{}` stands here twice", clip(key));
+    say(&codes::DUPLICATE_KEY, message, second, "again")
+        .also(first, "first")
+        .hint("remove one of them")
+}
+
+fn unclosed(bracket: Span, runs_into: Option<Span>) -> Diagnostic {
+    say(
+        &codes::UNCLOSED,
+        "a bracket is never closed",
+        bracket,
+        "opened here",
+    )
+    .also(runs_into, "what follows was taken to be inside")
+    .hint("close it with `]` or `}` after its last item")
+}

@@ -1,0 +1,243 @@
+//! Channels of animations: the property of a node that moves, and the keyframes that fit it.
+
+use super::accessor;
+use super::animation::{Animation, Interpolation, Links};
+use super::demand::Demand;
+use super::document::Document;
+use super::field::Fields;
+use super::layout::{Component, Layout};
+use super::mesh::Mesh;
+use super::node::Transform;
+use super::report::Report;
+use crate::diag::codes;
+use crate::source::tree::NodeId;
+
+/// What moves, and how.
+#[derive(Debug)]
+pub(super) struct Channel {
+    pub(super) at: NodeId,
+    pub(super) sampler: Option<usize>,
+    pub(super) node: Option<usize>,
+    pub(super) path: Option<Path>,
+}
+
+/// The property that a channel moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Path {
+    Translation,
+    Rotation,
+    Scale,
+    Weights,
+}
+
+impl Channel {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let target = fields.object("target");
+        let path = target.and_then(|target| match target.text("path")?.as_str() {
+            "translation" => Some(Path::Translation),
+            "rotation" => Some(Path::Rotation),
+            "scale" => Some(Path::Scale),
+            "weights" => Some(Path::Weights),
+            _ => None,
+        });
+        let node = target.and_then(|target| target.index("node"));
+        Self {
+            at: fields.at,
+            sampler: fields.index("sampler"),
+            node,
+            path,
+        }
+    }
+}
+
+/// A channel that moves by a pointer has the path `pointer` and names no node.
+pub(super) fn check_pointers(
+    doc: &Document<'_>,
+    animation: &Animation,
+    report: &mut Report<'_, '_>,
+) {
+    const NAME: &str = "KHR_animation_pointer";
+    let is_used = doc.uses(NAME);
+    for channel in &animation.channels {
+        let Some(target) = Fields::new(report.json, channel.at).object("target") else {
+            continue;
+        };
+        let path = target.node("path");
+        if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
+            let message =
+                format!("the path `pointer` is one of `{NAME}`, which the asset does not use");
+            report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
+        }
+        let Some(pointer) = target.extension(NAME).filter(|_| is_used) else {
+            continue;
+        };
+        if let Some(at) = path.filter(|path| !report.json.is(*path, "pointer")) {
+            let message = format!(
+                "the channel has a pointer, and its path is {}, not `pointer`",
+                report.shown(at)
+            );
+            let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
+            report.say(&codes::GLTF_TOGETHER, alias, at, message);
+        }
+        let message = "what the pointer names does not move".to_owned();
+        report.say(
+            &codes::GLTF_IGNORES,
+            "INCOMPLETE_EXTENSION_SUPPORT",
+            pointer.at,
+            message,
+        );
+        if target.has("node") {
+            let message = "the channel has a pointer and a node".to_owned();
+            let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE";
+            report.say(&codes::GLTF_TOGETHER, alias, pointer.at, message);
+        }
+    }
+}
+
+/// Checks a channel with its sampler and its node.
+pub(super) fn check(
+    doc: &Document<'_>,
+    animation: &Animation,
+    channel: &Channel,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    check_target(doc, channel, report);
+    let Some(index) = channel.sampler else { return };
+    let at = report.json.at_or(channel.at, "sampler");
+    let Some(sampler) = animation.samplers.get(index) else {
+        if !animation.samplers.is_empty() {
+            let message = format!("the animation has no sampler {index}");
+            report.say(&codes::GLTF_REFERENCE, "UNRESOLVED_REFERENCE", at, message);
+        }
+        return;
+    };
+    let output = accessor::find(doc, sampler.output, report);
+    let (Some((output, accessor)), Some(path)) = (output, channel.path) else {
+        return;
+    };
+    if path == Path::Rotation {
+        let demand = match sampler.interpolation {
+            Interpolation::Cubic => Demand::CubicRotations,
+            Interpolation::Linear | Interpolation::Step => Demand::Rotations,
+        };
+        links.2.add(output, demand, at);
+    }
+    if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
+        let found = accessor
+            .layout
+            .map_or("of no known type".to_owned(), Layout::name);
+        let message = format!("the keyframes are {found}, which this path does not take");
+        report.say(
+            &codes::GLTF_FORMAT,
+            "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT",
+            at,
+            message,
+        );
+    }
+    let times = sampler.input.and_then(|input| doc.accessors.get(input));
+    let times = times.and_then(|times| times.count);
+    if let (Some(times), Some(count)) = (times, accessor.count) {
+        let keyframes = expected(doc, channel, (path, sampler.interpolation), times);
+        check_count((count, keyframes, times), at, report);
+    }
+}
+
+/// How many elements the keyframes of a channel have, for so many times.
+fn expected(
+    doc: &Document<'_>,
+    channel: &Channel,
+    (path, interpolation): (Path, Interpolation),
+    times: usize,
+) -> usize {
+    let targets = if path == Path::Weights {
+        mesh(doc, channel).map_or(0, Mesh::targets)
+    } else {
+        1
+    };
+    let parts = match interpolation {
+        Interpolation::Cubic => 3,
+        Interpolation::Linear | Interpolation::Step => 1,
+    };
+    times.saturating_mul(targets).saturating_mul(parts)
+}
+
+fn check_count(
+    (count, expected, times): (usize, usize, usize),
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    if expected != 0 && expected != count {
+        let message = format!("{count} keyframes, and {expected} are expected for {times} times");
+        report.say(
+            &codes::GLTF_COUNT,
+            "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT",
+            at,
+            message,
+        );
+    }
+}
+
+fn mesh<'d>(doc: &'d Document<'_>, channel: &Channel) -> Option<&'d Mesh> {
+    doc.meshes.get(doc.nodes.get(channel.node?)?.mesh?)
+}
+
+/// True if the keyframes of a path may have this format (glTF 2.0, section 3.11).
+fn allows(path: Path, layout: Layout) -> bool {
+    let Layout {
+        component,
+        columns,
+        rows,
+        normalized,
+    } = layout;
+    let is_float = component == Component::F32 && !normalized;
+    let is_fraction = normalized && component.size() < 4;
+    let is = |wanted| columns == 1 && rows == wanted;
+    match path {
+        Path::Translation | Path::Scale => is(3) && is_float,
+        Path::Rotation => is(4) && (is_float || is_fraction),
+        Path::Weights => is(1) && (is_float || is_fraction),
+    }
+}
+
+fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut Report<'_, '_>) {
+    let node = channel
+        .node
+        .and_then(|node| doc.nodes.get(node))
+        .filter(|node| report.is_part(node.at));
+    let Some(node) = node else { return };
+    let at = report.json.at_or(channel.at, "target");
+    match channel.path {
+        Some(Path::Translation | Path::Rotation | Path::Scale) => {
+            if matches!(node.transform, Transform::Matrix(_)) {
+                let message = "the node has a matrix, which can't be moved".to_owned();
+                report.say(
+                    &codes::GLTF_ANIMATION,
+                    "ANIMATION_CHANNEL_TARGET_NODE_MATRIX",
+                    at,
+                    message,
+                );
+            }
+            if node.skin.is_some() {
+                let message =
+                    "the node has a skin, and moving it does not move the mesh".to_owned();
+                report.say(
+                    &codes::GLTF_SKIN_ODD,
+                    "ANIMATION_CHANNEL_TARGET_NODE_SKIN",
+                    at,
+                    message,
+                );
+            }
+        }
+        Some(Path::Weights) if mesh(doc, channel).map_or(0, Mesh::targets) == 0 => {
+            let message = "the node has no morph targets that weights could move".to_owned();
+            report.say(
+                &codes::GLTF_ANIMATION,
+                "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS",
+                at,
+                message,
+            );
+        }
+        Some(Path::Weights) | None => {}
+    }
+}

@@ -1,0 +1,252 @@
+//! Demands: what each use of an accessor asks of its elements.
+
+use super::elements::Elements;
+use super::report::Report;
+use crate::diag::codes;
+use crate::source::tree::NodeId;
+
+/// How far a vector of three or four components may be from length 1: what 8 bits a component
+/// allow.
+const UNIT_3: f64 = 0.006_74;
+const UNIT_4: f64 = 0.007_69;
+
+/// What a use asks of the elements of an accessor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Demand {
+    /// The first three components have length 1.
+    Unit,
+    /// The fourth component is 1 or -1.
+    Sign,
+    /// Colours lie between 0 and 1.
+    Clamped,
+    /// Times rise from 0.
+    Times,
+    /// Rotations have length 1.
+    Rotations,
+    /// Of three elements the second is a rotation of length 1.
+    CubicRotations,
+    /// Indices below so many, of a primitive of this mode.
+    Below(usize, u64),
+    /// Matrices that keep points points.
+    Affine,
+}
+
+/// The demands on accessors, with the place that makes each.
+#[derive(Default)]
+pub(super) struct Demands(Vec<(usize, Demand, NodeId)>);
+
+impl Demands {
+    pub(super) fn add(&mut self, accessor: usize, demand: Demand, at: NodeId) {
+        self.0.push((accessor, demand, at));
+    }
+
+    /// Each demand on each accessor once, in the order of the accessors.
+    pub(super) fn sorted(self) -> Vec<(usize, Demand, NodeId)> {
+        let mut demands = self.0;
+        demands.sort_unstable();
+        demands.dedup_by_key(|(accessor, demand, _)| (*accessor, *demand));
+        demands
+    }
+}
+
+/// Checks what one use demands.
+pub(super) fn meet(
+    elements: &Elements<'_>,
+    demand: Demand,
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    let components = elements.layout.components();
+    match demand {
+        Demand::Unit if components >= 3 => {
+            let off =
+                |_: usize, element: &[f64]| (length(elements, &element[..3]) - 1.0).abs() > UNIT_3;
+            tell(
+                elements,
+                off,
+                "ACCESSOR_VECTOR3_NON_UNIT",
+                "are not of length 1",
+                at,
+                report,
+            );
+        }
+        Demand::Sign if components == 4 => {
+            let off =
+                |_: usize, element: &[f64]| (elements.fraction(element[3]).abs() - 1.0).abs() > 0.0;
+            tell(
+                elements,
+                off,
+                "ACCESSOR_INVALID_SIGN",
+                "have a handedness that is neither 1 nor -1",
+                at,
+                report,
+            );
+        }
+        Demand::Clamped if elements.layout.component.range().is_none() => {
+            let off = |_: usize, element: &[f64]| {
+                element.iter().any(|number| !(0.0..=1.0).contains(number))
+            };
+            tell(
+                elements,
+                off,
+                "ACCESSOR_NON_CLAMPED",
+                "are not between 0 and 1",
+                at,
+                report,
+            );
+        }
+        Demand::Rotations | Demand::CubicRotations if components == 4 => {
+            let counts = |at: usize| demand == Demand::Rotations || at % 3 == 1;
+            let off = |at: usize, element: &[f64]| {
+                counts(at) && (length(elements, element) - 1.0).abs() > UNIT_4
+            };
+            let alias = "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION";
+            tell(elements, off, alias, "are not of length 1", at, report);
+        }
+        Demand::Times => times(elements, at, report),
+        Demand::Below(count, mode) => indices(elements, (count, mode), at, report),
+        Demand::Affine if components == 16 => affine(elements, at, report),
+        Demand::Unit
+        | Demand::Sign
+        | Demand::Clamped
+        | Demand::Rotations
+        | Demand::CubicRotations
+        | Demand::Affine => {}
+    }
+}
+
+fn length(elements: &Elements<'_>, vector: &[f64]) -> f64 {
+    vector
+        .iter()
+        .map(|number| elements.fraction(*number))
+        .map(|number| number * number)
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Counts the elements that are off, and tells of them if there are any.
+fn tell(
+    elements: &Elements<'_>,
+    off: impl Fn(usize, &[f64]) -> bool,
+    alias: &'static str,
+    what: &str,
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    let (mut count, mut first) = (0_usize, 0);
+    elements.each(|at, element| {
+        if off(at, element) {
+            first = if count == 0 { at } else { first };
+            count += 1;
+        }
+    });
+    if count > 0 {
+        let message = format!(
+            "{count} of {} elements {what}, the first at {first}",
+            elements.count
+        );
+        report.say(&codes::GLTF_VECTOR, alias, at, message);
+    }
+}
+
+fn times(elements: &Elements<'_>, at: NodeId, report: &mut Report<'_, '_>) {
+    let (mut negative, mut falling, mut before) = (None, None, f64::NEG_INFINITY);
+    elements.each(|at, element| {
+        let time = element[0];
+        if time < 0.0 {
+            negative.get_or_insert(at);
+        } else {
+            if time <= before {
+                falling.get_or_insert(at);
+            }
+            before = time;
+        }
+    });
+    if let Some(index) = negative {
+        let message = format!("the time at {index} is negative");
+        report.say(
+            &codes::GLTF_ANIMATION,
+            "ACCESSOR_ANIMATION_INPUT_NEGATIVE",
+            at,
+            message,
+        );
+    }
+    if let Some(index) = falling {
+        let message = format!("the time at {index} is no later than the one before");
+        report.say(
+            &codes::GLTF_ANIMATION,
+            "ACCESSOR_ANIMATION_INPUT_NON_INCREASING",
+            at,
+            message,
+        );
+    }
+}
+
+/// Checks that indices are below `count`, and counts the triangles that have no area.
+fn indices(
+    elements: &Elements<'_>,
+    (count, mode): (usize, u64),
+    at: NodeId,
+    report: &mut Report<'_, '_>,
+) {
+    const TRIANGLES: u64 = 4;
+    let (mut beyond, mut restart, mut degenerate) = (None, None, 0_usize);
+    let greatest = elements
+        .layout
+        .component
+        .range()
+        .map_or(f64::INFINITY, |[_, most]| most);
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let limit = count as f64;
+    let mut corners = [-1.0; 3];
+    elements.each(|at, element| {
+        let index = element[0];
+        if index - greatest == 0.0 {
+            restart.get_or_insert(at);
+        } else if index >= limit {
+            beyond.get_or_insert((at, index));
+        }
+        corners[at % 3] = index;
+        let [a, b, c] = corners;
+        degenerate += usize::from(at % 3 == 2 && ((a - b) * (b - c) * (c - a) == 0.0));
+    });
+    if let Some((place, index)) = beyond {
+        let message = format!("the index at {place} is {index}, and there are {count} vertices");
+        report.say(&codes::GLTF_INDEX, "ACCESSOR_INDEX_OOB", at, message);
+    }
+    if let Some(place) = restart {
+        let message = format!("the index at {place} is {greatest}, which restarts a primitive");
+        report.say(
+            &codes::GLTF_INDEX,
+            "ACCESSOR_INDEX_PRIMITIVE_RESTART",
+            at,
+            message,
+        );
+    }
+    if degenerate > 0 && mode == TRIANGLES {
+        let message = format!(
+            "{degenerate} of {} triangles have two corners in one vertex",
+            elements.count / 3
+        );
+        report.say(
+            &codes::GLTF_REMARK,
+            "ACCESSOR_INDEX_TRIANGLE_DEGENERATE",
+            at,
+            message,
+        );
+    }
+}
+
+fn affine(elements: &Elements<'_>, at: NodeId, report: &mut Report<'_, '_>) {
+    let mut off = None;
+    elements.each(|at, matrix| {
+        let row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
+        if row.iter().any(|number| *number != 0.0) {
+            off.get_or_insert(at);
+        }
+    });
+    if let Some(index) = off {
+        let message = format!("the last row of the matrix at {index} is not 0, 0, 0, 1");
+        report.say(&codes::GLTF_MATRIX, "ACCESSOR_INVALID_IBM", at, message);
+    }
+}

@@ -1,0 +1,148 @@
+//! Influences: which joints each vertex of a skinned mesh follows, and by how much.
+
+use super::document::Document;
+use super::elements::Elements;
+use super::report::Report;
+use crate::diag::codes;
+use crate::source::Resource;
+use crate::source::tree::NodeId;
+use std::collections::BTreeSet;
+
+/// What is wrong with the joints of some vertex, and where it was seen first.
+#[derive(Default)]
+struct Influences {
+    out: Option<usize>,
+    twice: Option<usize>,
+    negative: Option<usize>,
+    sum: Option<usize>,
+    idle: Option<usize>,
+}
+
+/// Checks which joints each vertex follows, and by how much.
+///
+/// `accessors` are those of the joints and the weights, set after set, of the primitive at `at`.
+pub(super) fn check(
+    doc: &Document<'_>,
+    (at, accessors): (NodeId, Vec<[usize; 2]>),
+    joints: usize,
+    report: &mut Report<'_, '_>,
+) {
+    let part = |accessor: usize| {
+        let accessor = doc.accessors.get(accessor)?;
+        Elements::of(doc, accessor).filter(|_| accessor.view.is_some() || accessor.sparse.is_some())
+    };
+    let sets = accessors
+        .into_iter()
+        .map_while(|[own, weights]| Some([part(own)?, part(weights)?]));
+    let sets: Vec<[Elements<'_>; 2]> = sets.collect();
+    let count = sets.first().map_or(0, |[own, _]| own.count);
+    if sets
+        .iter()
+        .flatten()
+        .any(|elements| elements.count != count)
+    {
+        return;
+    }
+    let work = (count as u64).saturating_mul(sets.len() as u64);
+    if !report.charge(Resource::Vertices, work, at, "the skin") {
+        return;
+    }
+    let mut found = Influences::default();
+    #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
+    let joints = joints as f64;
+    let mut vertex = Vec::new();
+    for index in 0..count {
+        vertex.clear();
+        for [own, weights] in &sets {
+            vertex.extend(own.at::<4>(index).into_iter().zip(weights.at::<4>(index)));
+        }
+        found.look(index, &vertex, joints);
+    }
+    found.tell(at, report);
+}
+
+impl Influences {
+    fn look(&mut self, at: usize, vertex: &[(f64, f64)], joints: f64) {
+        /// What each weight may add to what the sum misses.
+        const ROUNDING: f64 = 2e-7;
+        let put = |slot: &mut Option<usize>| {
+            slot.get_or_insert(at);
+        };
+        let (mut sum, mut slack, mut moving) = (0.0_f64, 0.0, BTreeSet::new());
+        for (joint, weight) in vertex {
+            if *joint >= joints {
+                put(&mut self.out);
+            } else if *weight == 0.0 {
+                if *joint != 0.0 {
+                    put(&mut self.idle);
+                }
+            } else if !moving.insert(joint.to_bits()) {
+                put(&mut self.twice);
+            } else if *weight < 0.0 {
+                put(&mut self.negative);
+            } else {
+                #[expect(clippy::cast_possible_truncation, reason = "readers sum in 32 bits")]
+                let added = (sum + weight) as f32;
+                sum = f64::from(added);
+                slack += ROUNDING;
+            }
+        }
+        if (sum - 1.0).abs() > slack {
+            put(&mut self.sum);
+        }
+    }
+
+    /// Reports what was found of the primitive at a node.
+    fn tell(self, at: NodeId, report: &mut Report<'_, '_>) {
+        let Influences {
+            out,
+            twice,
+            negative,
+            sum,
+            idle,
+        } = self;
+        let skin = &codes::GLTF_SKIN;
+        for (code, place, alias, set, what) in [
+            (
+                skin,
+                out,
+                "ACCESSOR_JOINTS_INDEX_OOB",
+                "JOINTS_0",
+                "follows a joint that the skin has not",
+            ),
+            (
+                skin,
+                twice,
+                "ACCESSOR_JOINTS_INDEX_DUPLICATE",
+                "JOINTS_0",
+                "follows a joint twice",
+            ),
+            (
+                skin,
+                negative,
+                "ACCESSOR_WEIGHTS_NEGATIVE",
+                "WEIGHTS_0",
+                "has a negative weight",
+            ),
+            (
+                skin,
+                sum,
+                "ACCESSOR_WEIGHTS_NON_NORMALIZED",
+                "WEIGHTS_0",
+                "has weights that don't sum to 1",
+            ),
+            (
+                &codes::GLTF_SKIN_ODD,
+                idle,
+                "ACCESSOR_JOINTS_USED_ZERO_WEIGHT",
+                "JOINTS_0",
+                "names a joint of weight 0",
+            ),
+        ] {
+            let Some(vertex) = place else { continue };
+            let place = report.json.at(at, &["attributes", set]);
+            let at = place.unwrap_or(at);
+            report.say(code, alias, at, format!("vertex {vertex} {what}"));
+        }
+    }
+}

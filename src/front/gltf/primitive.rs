@@ -1,0 +1,332 @@
+//! Primitives: geometry of one material, and whether its attributes, indices, morph targets and
+//! material go together.
+
+use super::accessor;
+use super::attribute::{self, Attribute};
+use super::buffer::Purpose;
+use super::demand::Demand;
+use super::document::Document;
+use super::field::Fields;
+use super::layout::Layout;
+use super::material;
+use super::mesh::Links;
+use super::report::Report;
+use super::usage::Usage;
+use crate::diag::codes;
+use crate::source::tree::NodeId;
+
+/// The mode of triangles.
+pub(super) const TRIANGLES: u64 = 4;
+
+/// Geometry of one material.
+#[derive(Debug)]
+pub(super) struct Primitive {
+    pub(super) at: NodeId,
+    pub(super) attributes: Vec<Attribute>,
+    /// The places of the attributes in the order of their names.
+    sorted: Vec<usize>,
+    pub(super) indices: Option<usize>,
+    pub(super) material: Option<usize>,
+    /// 4 are triangles, 5 a strip, 6 a fan; the others have no surface.
+    pub(super) mode: u64,
+    /// What each morph target moves.
+    pub(super) targets: Vec<Vec<Attribute>>,
+    /// Compressed by Draco.
+    pub(super) draco: Option<NodeId>,
+}
+
+impl Primitive {
+    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
+        let attributes = fields
+            .object("attributes")
+            .map(attribute::read)
+            .unwrap_or_default();
+        let mut sorted: Vec<usize> = (0..attributes.len()).collect();
+        sorted.sort_by_key(|place| &attributes[*place].name);
+        Self {
+            at: fields.at,
+            attributes,
+            sorted,
+            indices: fields.index("indices"),
+            material: fields.index("material"),
+            mode: fields.whole("mode").unwrap_or(TRIANGLES),
+            targets: fields.objects("targets").map(attribute::read).collect(),
+            draco: fields
+                .extension("KHR_draco_mesh_compression")
+                .map(|fields| fields.at),
+        }
+    }
+
+    /// The accessor of an attribute.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        let own = |place: usize| &self.attributes[place];
+        let first = self
+            .sorted
+            .partition_point(|place| own(*place).name.as_str() < name);
+        self.sorted
+            .get(first)
+            .map(|place| own(*place))
+            .filter(|own| own.name == name)
+            .map(|own| own.accessor)
+    }
+
+    /// The accessors of the joints that vertices follow, and of their weights, set after set.
+    pub(super) fn influences(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let find = |kind: &str, set: usize| self.find(&format!("{kind}_{set}"));
+        (0..).map_while(move |set| Some([find("JOINTS", set)?, find("WEIGHTS", set)?]))
+    }
+}
+
+/// Checks one primitive: its attributes, its indices, its morph targets, and its material.
+pub(super) fn check(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    attribute::check_names(primitive, report);
+    if primitive.mode < TRIANGLES {
+        let message = "the primitive has points or lines, which are not drawn".to_owned();
+        report.say(&codes::GLTF_PRIMITIVE_ODD, "", primitive.at, message);
+    }
+    let mut vertices = None;
+    for attribute in &primitive.attributes {
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
+            continue;
+        };
+        links
+            .usages
+            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
+        links
+            .purposes
+            .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        attribute::check_format(doc, attribute, accessor, false, report);
+        attribute::check_place(doc, attribute, accessor, links.streams, report);
+        attribute::demand(attribute, accessor, links.demands);
+        match vertices {
+            None => vertices = accessor.count,
+            Some(first) if accessor.count != Some(first) => {
+                let count = accessor.count.unwrap_or(0);
+                let message = format!(
+                    "`{}` has {count} elements, and the first attribute {first}",
+                    attribute.name
+                );
+                report.say(
+                    &codes::GLTF_COUNT,
+                    "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
+                    attribute.at,
+                    message,
+                );
+            }
+            Some(_) => {}
+        }
+    }
+    check_indices(doc, (primitive, vertices), links, report);
+    check_targets(doc, primitive, links, report);
+    check_material(doc, primitive, links, report);
+    check_tangents(doc, primitive, report);
+}
+
+fn check_indices(
+    doc: &Document<'_>,
+    (primitive, vertices): (&Primitive, Option<usize>),
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    let indices = accessor::find(doc, primitive.indices, report);
+    if let Some((index, accessor)) = indices {
+        let at = report.json.at_or(primitive.at, "indices");
+        links.usages.set(index, Usage::Indices, at, report);
+        links
+            .purposes
+            .set(accessor.view, Purpose::Indices, at, report);
+        if accessor
+            .view
+            .and_then(|view| doc.views.get(view))
+            .is_some_and(|view| view.stride.is_some())
+        {
+            let message = "the view of the indices has a stride".to_owned();
+            report.say(
+                &codes::GLTF_VIEW,
+                "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE",
+                at,
+                message,
+            );
+        }
+        let is_index = |layout: Layout| {
+            layout.component.is_index() && layout.components() == 1 && !layout.normalized
+        };
+        if accessor.layout.is_some_and(is_index) {
+            links.demands.add(
+                index,
+                Demand::Below(vertices.unwrap_or(0), primitive.mode),
+                at,
+            );
+        } else {
+            let found = accessor
+                .layout
+                .map_or("of no known type".to_owned(), Layout::name);
+            let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
+            report.say(
+                &codes::GLTF_FORMAT,
+                "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT",
+                at,
+                message,
+            );
+        }
+    }
+    let count = if primitive.indices.is_some() {
+        indices.and_then(|(_, indices)| indices.count)
+    } else {
+        vertices
+    };
+    if let Some(count) = count.filter(|count| !fills(primitive.mode, *count)) {
+        let at = report.json.at_or(primitive.at, "mode");
+        let message = format!(
+            "{count} vertices or indices leave some over in mode {}",
+            primitive.mode
+        );
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
+            at,
+            message,
+        );
+    }
+}
+
+/// True if so many vertices make whole points, lines or triangles.
+fn fills(mode: u64, count: usize) -> bool {
+    match mode {
+        1 => count >= 2 && count.is_multiple_of(2),
+        2 | 3 => count >= 2,
+        4 => count >= 3 && count.is_multiple_of(3),
+        5 | 6 => count >= 3,
+        _ => true,
+    }
+}
+
+fn check_targets(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    for attribute in primitive.targets.iter().flatten() {
+        let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
+            continue;
+        };
+        links
+            .usages
+            .set(attribute.accessor, Usage::Vertices, attribute.at, report);
+        links
+            .purposes
+            .set(accessor.view, Purpose::Vertices, attribute.at, report);
+        attribute::check_format(doc, attribute, accessor, true, report);
+        attribute::check_place(doc, attribute, accessor, links.streams, report);
+        let Some(base) = primitive.find(&attribute.name) else {
+            let message = format!(
+                "the target moves `{}`, which the primitive has not",
+                attribute.name
+            );
+            report.say(
+                &codes::GLTF_ATTRIBUTE,
+                "MESH_PRIMITIVE_MORPH_TARGET_NO_BASE_ACCESSOR",
+                attribute.at,
+                message,
+            );
+            continue;
+        };
+        let base = doc.accessors.get(base).and_then(|base| base.count);
+        if let Some(base) = base.filter(|base| accessor.count != Some(*base)) {
+            let message = format!(
+                "{} elements, and the primitive has {base} vertices",
+                accessor.count.unwrap_or(0)
+            );
+            let alias = "MESH_PRIMITIVE_MORPH_TARGET_INVALID_ATTRIBUTE_COUNT";
+            report.say(&codes::GLTF_COUNT, alias, attribute.at, message);
+        }
+    }
+}
+
+fn check_material(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    links: &mut Links<'_>,
+    report: &mut Report<'_, '_>,
+) {
+    let Some(material) = primitive
+        .material
+        .and_then(|material| doc.materials.get(material))
+    else {
+        return;
+    };
+    let textures = || material::texture_coordinates(doc, report.json, *material);
+    for (binding, set) in &*links.textures.entry(*material).or_insert_with(textures) {
+        if primitive.find(&format!("TEXCOORD_{set}")).is_none() {
+            let at = report.json.at_or(primitive.at, "material");
+            let message = format!(
+                "the material needs `TEXCOORD_{set}` for `{}`",
+                report.json.pointer(*binding)
+            );
+            report.say(
+                &codes::GLTF_ATTRIBUTE,
+                "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
+                at,
+                message,
+            );
+        }
+    }
+}
+
+/// Checks that there are tangents where the material looks at them, and none where not.
+fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut Report<'_, '_>) {
+    let material = primitive
+        .material
+        .and_then(|material| doc.materials.get(material));
+    let material = material.map(|material| Fields::new(report.json, *material));
+    let is_needed = material.is_some_and(|material| material::needs_tangents(doc, material));
+    let find = |name| {
+        primitive
+            .attributes
+            .iter()
+            .find(|attribute| attribute.name == name)
+    };
+    if let Some(tangent) = find("TANGENT").filter(|_| !is_needed) {
+        let message =
+            "no texture of the material follows tangents, so they have no effect".to_owned();
+        report.say(
+            &codes::GLTF_REMARK,
+            "UNUSED_MESH_TANGENT",
+            tangent.at,
+            message,
+        );
+    }
+    let (Some(material), true) = (material, is_needed) else {
+        return;
+    };
+    if find("TANGENT").is_some() && find("NORMAL").is_some() {
+        return;
+    }
+    let at = report.json.at_or(primitive.at, "material");
+    if material.object("normalTexture").is_some() {
+        let message =
+            "the material has a normal map, and the tangents it follows are made up".to_owned();
+        report.say(
+            &codes::GLTF_PRIMITIVE_ODD,
+            "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE",
+            at,
+            message,
+        );
+    } else {
+        let message =
+            "the material needs tangents, and there are none, nor a normal map to make them by"
+                .to_owned();
+        report.say(
+            &codes::GLTF_ATTRIBUTE,
+            "MESH_PRIMITIVE_NO_TANGENT_SPACE",
+            at,
+            message,
+        );
+    }
+}

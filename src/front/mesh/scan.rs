@@ -1,0 +1,183 @@
+//! Lines of words with their places, for mesh files: bytes in any encoding, comments gone, lines
+//! joined by `\`.
+
+use crate::source::{FileId, Span};
+
+/// A word of a file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Word<'a> {
+    pub(super) bytes: &'a [u8],
+    /// Where it starts in the file.
+    start: usize,
+}
+
+/// What is wrong with a mesh file, and where.
+#[derive(Debug)]
+pub struct Fault {
+    start: usize,
+    end: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What is here.
+    pub label: String,
+}
+
+impl Fault {
+    /// Where it is.
+    #[must_use]
+    pub fn span(&self, file: FileId) -> Span {
+        let offset =
+            |at: usize| u32::try_from(at).expect("the loader refuses files of 4 GiB and more");
+        Span::new(file, offset(self.start), offset(self.end))
+    }
+}
+
+impl<'a> Word<'a> {
+    /// The empty word at the start of a file.
+    pub(super) const START: Self = Self {
+        bytes: &[],
+        start: 0,
+    };
+
+    /// The parts between `separator`, empty ones too.
+    pub(super) fn split(self, separator: u8) -> impl Iterator<Item = Word<'a>> {
+        let mut start = self.start;
+        self.bytes
+            .split(move |byte| *byte == separator)
+            .map(move |bytes| {
+                let part = Word { bytes, start };
+                start += bytes.len() + 1;
+                part
+            })
+    }
+
+    /// A fault at this word.
+    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> Fault {
+        Fault {
+            start: self.start,
+            end: self.start + self.bytes.len(),
+            message: message.into(),
+            label: label.into(),
+        }
+    }
+
+    /// The word, short enough for a message.
+    pub(super) fn text(&self) -> String {
+        const SHOWN: usize = 24;
+        let text =
+            String::from_utf8_lossy(&self.bytes[..self.bytes.len().min(4 * SHOWN)]).into_owned();
+        let mut shown: String = text.chars().take(SHOWN).collect();
+        if shown.len() < self.bytes.len() {
+            shown.push('…');
+        }
+        shown.escape_debug().to_string()
+    }
+
+    /// The word as a finite number.
+    pub(super) fn number(&self) -> Result<f64, Fault> {
+        let number: Option<f64> = std::str::from_utf8(self.bytes)
+            .ok()
+            .and_then(|text| text.parse().ok());
+        let fault =
+            |what: &str| self.fault(format!("`{}` is {what}", self.text()), "expected a number");
+        match number {
+            Some(number) if number.is_finite() => Ok(number),
+            Some(_) => Err(fault("not a finite number")),
+            None => Err(fault("not a number")),
+        }
+    }
+
+    /// The word as an integer.
+    pub(super) fn integer(&self) -> Result<i64, Fault> {
+        let integer = std::str::from_utf8(self.bytes)
+            .ok()
+            .and_then(|text| text.parse().ok());
+        integer.ok_or_else(|| {
+            self.fault(
+                format!("`{}` is not a whole number", self.text()),
+                "expected a whole number",
+            )
+        })
+    }
+}
+
+/// The first `N` of `words` as numbers; `line` is where to say that there are fewer.
+pub(super) fn numbers<const N: usize>(
+    line: &Word<'_>,
+    words: &[Word<'_>],
+) -> Result<[f64; N], Fault> {
+    let mut values = [0.0; N];
+    for (at, value) in values.iter_mut().enumerate() {
+        let missing = || {
+            line.fault(
+                format!("{at} numbers where there should be {N}"),
+                "on this line",
+            )
+        };
+        *value = words.get(at).ok_or_else(missing)?.number()?;
+    }
+    Ok(values)
+}
+
+/// The lines of a file that have words.
+pub(super) struct Lines<'a> {
+    file: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Lines<'a> {
+    pub(super) fn new(file: &'a [u8]) -> Self {
+        let at = if file.starts_with(b"\xef\xbb\xbf") {
+            3
+        } else {
+            0
+        };
+        Self { file, at }
+    }
+
+    /// Puts the words of the next line that has any into `words`; false at the end of the file.
+    pub(super) fn next(&mut self, words: &mut Vec<Word<'a>>) -> bool {
+        words.clear();
+        while self.at < self.file.len() {
+            match self.file[self.at] {
+                b'\n' | b'\r' if !words.is_empty() => return true,
+                b'\\' if self.joins() => {
+                    self.at += self.file[self.at..]
+                        .iter()
+                        .position(|byte| *byte == b'\n')
+                        .map_or(1, |skip| skip + 1);
+                }
+                b'#' => self.skip_while(|byte| !matches!(byte, b'\n' | b'\r')),
+                byte if byte.is_ascii_whitespace() || byte == 0x0b => self.at += 1,
+                _ => words.push(self.word()),
+            }
+        }
+        !words.is_empty()
+    }
+
+    /// True if nothing but white space stands between the backslash here and the end of the line.
+    fn joins(&self) -> bool {
+        let mut rest = self.file[self.at + 1..]
+            .iter()
+            .skip_while(|byte| matches!(byte, b' ' | b'\t' | b'\r'));
+        rest.next().is_none_or(|byte| *byte == b'\n')
+    }
+
+    fn skip_while(&mut self, goes_on: impl Fn(u8) -> bool) {
+        let rest = &self.file[self.at..];
+        self.at += rest
+            .iter()
+            .position(|byte| !goes_on(*byte))
+            .unwrap_or(rest.len());
+    }
+
+    fn word(&mut self) -> Word<'a> {
+        let start = self.at;
+        self.at += 1;
+        self.skip_while(|byte| !byte.is_ascii_whitespace() && byte != 0x0b && byte != b'\\');
+        Word {
+            bytes: &self.file[start..self.at],
+            start,
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Whether a scene brings light: a light, an environment, or surfaces that glow enough.
+
+use crate::color::srgb_decoded;
+use crate::ir::{Image, Light, Material, Pixels, Scene, Shape, Surface, Texture};
+use crate::math::Vec3;
+use glam::DAffine3;
+use std::f64::consts::TAU;
+
+/// Surfaces that glow less than this light nothing: a white surface would look black, a twentieth
+/// of what it reflects.
+const FAINT: f64 = 0.05;
+
+/// Whether the scene brings light: a light, an environment (a dark one is meant so), or surfaces
+/// that glow enough.
+///
+/// Surfaces of radiance L and area A inside a ball of radius R send about π·L·A over it, so a white
+/// surface in it would show about L·A/(4·π·R²). If that is less than [`FAINT`], they are labels,
+/// lamps on a dashboard or eyes: they light nothing, and the studio is wanted. Unlit materials
+/// light nothing at all.
+pub(super) fn is_lit(scene: &Scene) -> bool {
+    let shines = |light: &Light| match light {
+        Light::Point(light) => light.color.iter().any(|channel| *channel > 0.0),
+        Light::Punctual(light) => light.intensity.iter().any(|channel| *channel > 0.0),
+    };
+    scene.environment.is_some() || scene.lights.iter().any(shines) || glow(scene) >= FAINT
+}
+
+/// What the surfaces that glow would make a white surface show, by the strongest channel.
+fn glow(scene: &Scene) -> f64 {
+    let emissions: Vec<f64> = scene
+        .materials
+        .iter()
+        .map(|material| emission(scene, material))
+        .collect();
+    let emission = |surface: &Surface| {
+        emissions
+            .get(surface.material.0 as usize)
+            .copied()
+            .unwrap_or(0.0)
+    };
+    let glowing = scene
+        .surfaces
+        .iter()
+        .map(|surface| (surface, emission(surface)));
+    let glowing: Vec<_> = glowing.filter(|(_, emission)| *emission > 0.0).collect();
+    let Some(ball) = scene.ball().filter(|_| !glowing.is_empty()) else {
+        return 0.0;
+    };
+    let power: f64 = glowing
+        .iter()
+        .map(|(surface, emission)| emission * area(scene, &surface.shape))
+        .sum();
+    power / (2.0 * TAU * ball.radius * ball.radius)
+}
+
+/// The mean radiance of a material that glows, by the strongest channel.
+fn emission(scene: &Scene, material: &Material) -> f64 {
+    let Material::Standard(standard) = material else {
+        return 0.0;
+    };
+    let factor = standard
+        .emissive
+        .iter()
+        .fold(0.0, |most: f64, channel| most.max(*channel));
+    if standard.unlit || factor <= 0.0 {
+        return 0.0;
+    }
+    let map = standard
+        .emissive_map
+        .as_ref()
+        .and_then(|map| scene.textures.get(map.texture.0 as usize));
+    let image = match map {
+        Some(Texture::Sampled(sampled)) => scene.images.get(sampled.image.0 as usize),
+        Some(Texture::Image(image)) => scene.images.get(image.0 as usize),
+        Some(Texture::Uv) | None => None,
+    };
+    factor * image.map_or(1.0, brightness)
+}
+
+/// The area of a surface that can glow; others than triangles are not asked.
+fn area(scene: &Scene, shape: &Shape) -> f64 {
+    let triangle = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).length() / 2.0;
+    match shape {
+        Shape::Triangle(shape) => triangle(shape.vertices.map(Vec3::from_array)),
+        Shape::Quad(shape) => {
+            let [a, b, c, d] = shape.vertices.map(Vec3::from_array);
+            triangle([a, b, c]) + triangle([a, c, d])
+        }
+        Shape::Instance(instance) => {
+            let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
+            let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
+                return 0.0;
+            };
+            let known = |index: &u32| (*index as usize) < mesh.positions.len();
+            let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
+            let sound = mesh
+                .triangles
+                .iter()
+                .filter(|indices| indices.iter().all(known));
+            let placed =
+                sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
+            placed.map(triangle).sum()
+        }
+        Shape::Sphere(_)
+        | Shape::Plane(_)
+        | Shape::Disc(_)
+        | Shape::Cylinder(_)
+        | Shape::Cone(_)
+        | Shape::Torus(_) => 0.0,
+    }
+}
+
+/// The mean of an image that codes light in sRGB, by the strongest channel of each pixel.
+fn brightness(image: &Image) -> f64 {
+    let size = image.kind.bytes();
+    let bytes: &[u8] = &image.pixels;
+    if image.kind == Pixels::Rgb32f || bytes.len() < size {
+        return 1.0;
+    }
+    let decoded: Vec<f64> = (0..=u8::MAX)
+        .map(|code| srgb_decoded(f64::from(code) / 255.0))
+        .collect();
+    let strongest = |pixel: &[u8]| pixel[0].max(pixel[1]).max(pixel[2]);
+    let sum: f64 = bytes
+        .chunks_exact(size)
+        .map(|pixel| decoded[usize::from(strongest(pixel))])
+        .sum();
+    sum / (bytes.len() / size) as f64
+}

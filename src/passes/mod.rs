@@ -1,0 +1,12 @@
+//! Passes: a scene in, the same scene changed out, before it is proven. What one run asks for that
+//! the scene does not say itself: other settings, another view, other light, the studio.
+
+mod lit;
+mod overrides;
+mod settings;
+mod stage;
+mod studio;
+
+pub use overrides::Overrides;
+pub use settings::set;
+pub use stage::{Integrator, Stage, Sun, Surroundings, View};

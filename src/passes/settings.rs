@@ -1,0 +1,131 @@
+//! One setting replaced, by the name that the text form of the IR gives it.
+
+use crate::diag::{clip, clip_words};
+use crate::ir::Settings;
+
+/// The names of the settings in the text form.
+const NAMES: [&str; 6] = [
+    "mode",
+    "shadows",
+    "maxDepth",
+    "supersampling",
+    "pattern",
+    "lightSamples",
+];
+
+/// Replaces one value, by the name that the text form gives it: a field of the settings, or of the
+/// parameters of their mode. What is no JSON is a word.
+///
+/// # Errors
+/// If there is no field of this name, or the value is none for it; in words.
+pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), String> {
+    let wrong = |fault: serde_json::Error| {
+        format!(
+            "`{name}` can't be `{}`: {}",
+            clip(value),
+            clip_words(&fault.to_string())
+        )
+    };
+    let mut text = serde_json::to_value(&*settings).map_err(wrong)?;
+    let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
+    let parameters = text["mode"]
+        .as_object()
+        .and_then(|mode| mode.values().next()?.as_object());
+    let parameters: Vec<_> = parameters
+        .into_iter()
+        .flat_map(|fields| fields.keys().cloned())
+        .collect();
+    if NAMES.contains(&name) {
+        text[name] = value;
+    } else if parameters.iter().any(|own| own == name) {
+        let mode = text["mode"]
+            .as_object_mut()
+            .and_then(|mode| mode.values_mut().next());
+        mode.into_iter()
+            .for_each(|fields| fields[name] = value.clone());
+    } else {
+        let names = NAMES
+            .map(str::to_owned)
+            .into_iter()
+            .chain(parameters)
+            .collect::<Vec<_>>()
+            .join(", ");
+        return Err(format!(
+            "there is no setting `{}`; there are {names}",
+            clip(name)
+        ));
+    }
+    *settings = serde_json::from_value(text).map_err(wrong)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Mode, Path, Pattern};
+
+    fn paths() -> Settings {
+        Settings {
+            mode: Mode::Path(Path {
+                samples: 64,
+                multiple_scattering: true,
+            }),
+            shadows: true,
+            max_depth: 16,
+            supersampling: 1,
+            pattern: Pattern::Jitter,
+            light_samples: 2,
+        }
+    }
+
+    #[test]
+    fn every_field_can_be_set_by_its_name() {
+        let text = serde_json::to_value(paths()).unwrap();
+        let names: Vec<_> = text.as_object().unwrap().keys().collect();
+        assert_eq!(names, NAMES);
+        let mut settings = paths();
+        let values = [
+            ("multipleScattering", "false"),
+            ("samples", "9"),
+            ("maxDepth", "3"),
+            ("pattern", "random"),
+            ("shadows", "false"),
+        ];
+        for (name, value) in values {
+            set(&mut settings, name, value).unwrap();
+        }
+        let mode = Mode::Path(Path {
+            samples: 9,
+            multiple_scattering: false,
+        });
+        let expected = Settings {
+            mode,
+            max_depth: 3,
+            pattern: Pattern::Random,
+            shadows: false,
+            ..paths()
+        };
+        assert_eq!(settings, expected);
+        set(&mut settings, "mode", "normal").unwrap();
+        assert_eq!(settings.mode, Mode::Normal);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_and_changes_nothing() {
+        let mut settings = paths();
+        let unknown = set(&mut settings, "sample", "3").unwrap_err();
+        assert!(
+            unknown.starts_with("there is no setting `sample`; there are mode, ")
+                && unknown.contains("samples")
+        );
+        for (name, value) in [
+            ("samples", "-1"),
+            ("shadows", "maybe"),
+            ("mode", "{\"path\": {}}"),
+            ("b", "1"),
+        ] {
+            assert!(set(&mut settings, name, value).is_err(), "{name} {value}");
+        }
+        assert_eq!(settings, paths());
+    }
+}

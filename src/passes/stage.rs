@@ -1,0 +1,247 @@
+//! What is said about view and light on one occasion: it replaces the camera, the lights and the
+//! surroundings of a scene before it is proven. Nothing else of the scene changes.
+
+use super::{lit, studio};
+use crate::ir::{
+    Ball, Emitter, Environment, Image, Light, Lowered, Mode, Noun, Path, PointLight, Projection,
+    Punctual, Scene,
+};
+use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
+use std::f64::consts::PI;
+
+/// The view and the light; what is not given stays as it is in the scene.
+#[derive(Clone, Debug, Default)]
+pub struct Stage {
+    /// From where the scene is seen.
+    pub view: View,
+    /// By which integrator.
+    pub integrator: Option<Integrator>,
+    /// What surrounds it.
+    pub surroundings: Option<Surroundings>,
+    /// The suns that are added.
+    pub suns: Vec<Sun>,
+    /// The lights of the scene are left out.
+    pub without_lights: bool,
+}
+
+/// A view; what is not given is that of the camera of the scene, whose picture keeps its size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct View {
+    /// Where the camera stands.
+    pub eye: Option<[f64; 3]>,
+    /// What is in the middle of the picture; beside a given eye, the middle of the scene.
+    pub center: Option<[f64; 3]>,
+    /// The upward direction; the axis of the world that is nearest to that of the camera.
+    pub up: Option<[f64; 3]>,
+    /// The angle that the picture spans from bottom to top, in radians, above 0 and below π.
+    pub yfov: Option<f64>,
+}
+
+/// By which rules light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Whitted's: direct light of lights without extent, mirrors and refraction.
+    Whitted,
+    /// All paths.
+    Path,
+}
+
+/// What surrounds the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surroundings {
+    /// The same radiance from every direction.
+    Color([f64; 3]),
+    /// A picture of all directions, of linear floats.
+    Picture(Image),
+}
+
+/// A light from infinitely far away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sun {
+    /// The direction from the scene to it, of any length but 0.
+    pub direction: [f64; 3],
+    /// The irradiance on a surface that faces it.
+    pub irradiance: [f64; 3],
+}
+
+/// So many times as far as the scene is large stands a sun for those to whom it must stand
+/// somewhere.
+const FAR: f64 = 1e4;
+
+impl Stage {
+    /// Puts view and light into a scene. True if it had no light, and was put into the studio.
+    ///
+    /// # Errors
+    /// If the view has no direction, or no upward one.
+    pub fn apply(&self, lowered: &mut Lowered) -> Result<bool, BasisFault> {
+        let Lowered { scene, origins } = lowered;
+        if self.view != View::default() {
+            self.view.apply(scene)?;
+            origins.forget(Noun::Camera);
+        }
+        if self.without_lights {
+            scene.lights.clear();
+            origins.forget(Noun::Light);
+        }
+        scene.lights.extend(self.suns.iter().map(Sun::light));
+        if let Some(surroundings) = &self.surroundings {
+            scene.environment = Some(surroundings.environment(scene));
+            origins.forget(Noun::Environment);
+        }
+        let adds_light = !self.suns.is_empty() || self.surroundings.is_some();
+        match self.integrator {
+            Some(Integrator::Path) => trace_paths(scene),
+            Some(Integrator::Whitted) => leave_paths(scene),
+            // As of a scene text: what has a sun or a sky is shown by its paths.
+            None if adds_light && scene.settings.mode == Mode::Phong => trace_paths(scene),
+            None => {}
+        }
+        if !matches!(scene.settings.mode, Mode::Path(_)) {
+            stand_lights(scene);
+        }
+        let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !lit::is_lit(scene);
+        if is_dark {
+            studio::enter(scene);
+        }
+        Ok(is_dark)
+    }
+}
+
+impl View {
+    fn apply(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+        if self.eye.is_some() || self.center.is_some() || self.up.is_some() {
+            self.aim(scene)?;
+        }
+        if let Some(yfov) = self.yfov {
+            scene.camera.open(yfov);
+        }
+        Ok(())
+    }
+
+    fn aim(&self, scene: &mut Scene) -> Result<(), BasisFault> {
+        let middle = self
+            .eye
+            .and_then(|_| scene.ball())
+            .map_or(scene.camera.center, |ball| ball.center.to_array());
+        let camera = &mut scene.camera;
+        let eye = Vec3::from_array(self.eye.unwrap_or(camera.eye));
+        let center = Vec3::from_array(self.center.unwrap_or(middle));
+        // A picture of the same angle is larger the farther it is; side by side, rays make it as
+        // large everywhere.
+        let scale = match camera.projection {
+            Projection::Perspective => eye.distance(center) / camera.distance(),
+            Projection::Orthographic => 1.0,
+        };
+        // A lens that is asked for makes the picture of its own size.
+        let pixel = if self.yfov.is_some() {
+            1.0
+        } else {
+            length(Vec3::from_array(camera.up)) * scale
+        };
+        let up = self.up.map_or_else(
+            || camera.upright(),
+            |up| unit(Vec3::from_array(up)).unwrap_or(Vec3::ZERO),
+        );
+        let basis = match (camera_basis(eye, center, up * pixel), self.up) {
+            (Err(BasisFault::Parallel), None) => {
+                camera_basis(eye, center, fallback_up(center - eye, up * pixel))
+            }
+            (basis, _) => basis,
+        };
+        let (right, up) = basis?;
+        (camera.eye, camera.center) = (eye.to_array(), center.to_array());
+        (camera.right, camera.up) = (right.to_array(), up.to_array());
+        Ok(())
+    }
+}
+
+impl Sun {
+    fn light(&self) -> Light {
+        let Self {
+            direction,
+            irradiance,
+        } = *self;
+        Light::Punctual(Punctual {
+            emitter: Emitter::Sun { direction },
+            intensity: irradiance,
+        })
+    }
+}
+
+impl Surroundings {
+    fn environment(&self, scene: &mut Scene) -> Environment {
+        let (radiance, image) = match self {
+            Self::Color(radiance) => (*radiance, None),
+            Self::Picture(image) => ([1.0; 3], Some(scene.add_image(image.clone()))),
+        };
+        Environment {
+            radiance,
+            image,
+            image_from_world: None,
+        }
+    }
+}
+
+/// Has all paths traced, if they are not.
+fn trace_paths(scene: &mut Scene) {
+    if !matches!(scene.settings.mode, Mode::Path(_)) {
+        scene.settings.mode = Mode::Path(Path::default());
+        scene.settings.max_depth = Path::DEPTH;
+        scene.settings.supersampling = 1;
+    }
+}
+
+/// Has Whitted's integrator draw what was made for paths; with a light from the left and above if
+/// there is none.
+fn leave_paths(scene: &mut Scene) {
+    if !matches!(scene.settings.mode, Mode::Path(_)) {
+        return;
+    }
+    scene.settings.mode = Mode::Phong;
+    if scene.lights.is_empty() {
+        let key = Sun {
+            direction: studio::key().to_array(),
+            irradiance: [PI; 3],
+        };
+        scene.lights.push(key.light());
+    }
+}
+
+/// Puts lights of the course in place of physical ones, which Whitted's integrator does not see.
+fn stand_lights(scene: &mut Scene) {
+    if scene.lights.iter().all(|light| light.point().is_some()) {
+        return;
+    }
+    let ball = scene.ball().unwrap_or(Ball {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    });
+    for light in &mut scene.lights {
+        if let Light::Punctual(punctual) = light {
+            *light = Light::Point(as_point(punctual, ball));
+        }
+    }
+}
+
+/// The light without falloff that gives the middle of the scene as much as a physical one.
+fn as_point(light: &Punctual, ball: Ball) -> PointLight {
+    let (position, irradiance) = match &light.emitter {
+        Emitter::Sun { direction } => {
+            let direction = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Y);
+            (
+                (ball.center + direction * (FAR * ball.radius)).to_array(),
+                1.0,
+            )
+        }
+        Emitter::Point { position, range: _ } | Emitter::Spot { position, .. } => {
+            let square = Vec3::from_array(*position).distance_squared(ball.center);
+            (*position, 1.0 / square.max(ball.radius * ball.radius))
+        }
+    };
+    // A white surface that faces the light shows its colour here, its irradiance over π there.
+    PointLight {
+        position,
+        color: light.intensity.map(|channel| channel * irradiance / PI),
+        radius: 0.0,
+    }
+}

@@ -1,0 +1,161 @@
+//! The studio: light for what brings none. Three soft boxes in a dim room, as a picture of all
+//! directions.
+//!
+//! In units in which a white diffuse surface shows its irradiance over π: 0.12 from below, 0.75
+//! from the front (+z), 1.2 at most, from above; so a white of 0.8 is nowhere blown. The mean
+//! radiance is 0.57.
+
+use crate::ir::{Environment, Image, Pixels, Scene};
+use crate::math::{Vec3, acos, atan2, cos, sin};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a
+/// soft box.
+const SIZE: [u32; 2] = [64, 32];
+/// The radiance of the room, above and below.
+const ROOM: [f64; 2] = [0.3, 0.12];
+/// Over so many degrees light becomes dark, at the horizon and at the edge of a soft box.
+const HORIZON: f64 = 30.0;
+const EDGE: f64 = 10.0;
+
+/// A soft box: the azimuth (from +z towards +x) and elevation of its middle, half its width and
+/// height, in degrees; its radiance.
+struct SoftBox {
+    middle: [f64; 2],
+    half: [f64; 2],
+    radiance: f64,
+}
+
+/// The key light from the left and above, a fill light from the right, and a rim light from behind.
+const BOXES: [SoftBox; 3] = [
+    SoftBox {
+        middle: [-35.0, 45.0],
+        half: [30.0, 20.0],
+        radiance: 5.0,
+    },
+    SoftBox {
+        middle: [70.0, 20.0],
+        half: [20.0, 30.0],
+        radiance: 1.5,
+    },
+    SoftBox {
+        middle: [170.0, 50.0],
+        half: [35.0, 15.0],
+        radiance: 2.5,
+    },
+];
+
+impl SoftBox {
+    fn at(&self, [azimuth, elevation]: [f64; 2]) -> f64 {
+        let across = (azimuth - self.middle[0] + 540.0).rem_euclid(360.0) - 180.0;
+        let offsets = [across, elevation - self.middle[1]];
+        let share =
+            |axis: usize| 1.0 - smooth((offsets[axis].abs() - self.half[axis]) / EDGE + 0.5);
+        self.radiance * share(0) * share(1)
+    }
+}
+
+/// The smoothstep from 0 to 1.
+fn smooth(x: f64) -> f64 {
+    let x = x.clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// The radiance of the studio from a direction, a unit vector.
+fn radiance(direction: Vec3) -> f64 {
+    let azimuth = atan2(direction.x, direction.z).to_degrees();
+    let elevation = (FRAC_PI_2 - acos(direction.y.clamp(-1.0, 1.0))).to_degrees();
+    let room = ROOM[1] + (ROOM[0] - ROOM[1]) * smooth(elevation / HORIZON + 0.5);
+    room + BOXES
+        .iter()
+        .map(|one| one.at([azimuth, elevation]))
+        .sum::<f64>()
+}
+
+/// The direction to the middle of the key light, a unit vector.
+pub(super) fn key() -> Vec3 {
+    let [azimuth, elevation] = BOXES[0].middle.map(f64::to_radians);
+    Vec3::new(
+        sin(azimuth) * cos(elevation),
+        sin(elevation),
+        cos(azimuth) * cos(elevation),
+    )
+}
+
+/// The direction of a pixel of the picture: its middle towards −z, +y up.
+fn direction(x: u32, y: u32) -> Vec3 {
+    let longitude = ((f64::from(x) + 0.5) / f64::from(SIZE[0]) - 0.5) * TAU;
+    let colatitude = (f64::from(y) + 0.5) / f64::from(SIZE[1]) * PI;
+    Vec3::new(
+        sin(colatitude) * sin(longitude),
+        cos(colatitude),
+        -sin(colatitude) * cos(longitude),
+    )
+}
+
+/// The picture of the studio.
+fn picture() -> Image {
+    let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounds to the nearest float"
+    )]
+    let bytes: Vec<u8> = pixels
+        .flat_map(|direction| [(radiance(direction) as f32).to_le_bytes(); 3].concat())
+        .collect();
+    Image {
+        name: String::new(),
+        width: SIZE[0],
+        height: SIZE[1],
+        kind: Pixels::Rgb32f,
+        pixels: bytes.into(),
+    }
+}
+
+/// Puts a scene into the studio.
+pub(super) fn enter(scene: &mut Scene) {
+    let image = scene.add_image(picture());
+    scene.environment = Some(Environment {
+        radiance: [1.0; 3],
+        image: Some(image),
+        image_from_world: None,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a white diffuse surface of this normal shows in the studio.
+    fn shown(normal: Vec3) -> f64 {
+        let [width, height] = SIZE.map(f64::from);
+        let pixels = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (y, direction(x, y))));
+        let sum: f64 = pixels
+            .map(|(y, from)| {
+                radiance(from) * normal.dot(from).max(0.0) * sin((f64::from(y) + 0.5) / height * PI)
+            })
+            .sum();
+        sum * (PI / height) * (TAU / width) / PI
+    }
+
+    #[test]
+    fn the_studio_shows_white_as_it_promises() {
+        let (front, below) = (shown(Vec3::Z), shown(Vec3::NEG_Y));
+        assert!(
+            (front - 0.75).abs() < 0.02 && (below - 0.12).abs() < 0.02,
+            "{front} {below}"
+        );
+        let normals = (0..8).flat_map(|y| (0..16).map(move |x| direction(4 * x, 4 * y)));
+        let most = normals.map(shown).fold(0.0, f64::max);
+        assert!((1.1..1.25).contains(&most), "{most}");
+    }
+
+    #[test]
+    fn the_key_light_is_where_it_is_brightest() {
+        let brightest = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| direction(x, y)));
+        let brightest = brightest
+            .max_by(|a, b| radiance(*a).total_cmp(&radiance(*b)))
+            .unwrap();
+        assert!(brightest.dot(key()) > 0.9 && radiance(key()) > 5.0);
+    }
+}

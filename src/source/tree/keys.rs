@@ -1,0 +1,70 @@
+//! The keys of maps: those that stand twice, and those of large maps in an order to search.
+
+use super::{NodeId, Tree};
+use std::collections::BTreeMap;
+
+/// Maps up to this size are searched pair by pair; the keys of larger ones are sorted.
+const FEW: usize = 12;
+
+/// What is known of the keys of a tree, map after map as each closes.
+#[derive(Debug, Default)]
+pub(super) struct Keys {
+    /// The first of each key that stands again, and another.
+    duplicates: Vec<(NodeId, NodeId)>,
+    /// The keys of each large map, sorted by what they say, then by place.
+    sorted: BTreeMap<NodeId, Vec<NodeId>>,
+}
+
+impl Keys {
+    /// The sorted keys of a map, if it is large.
+    pub(super) fn sorted(&self, map: NodeId) -> Option<&[NodeId]> {
+        self.sorted.get(&map).map(Vec::as_slice)
+    }
+
+    /// The keys that stand again, so far.
+    pub(super) fn duplicates(&self) -> &[(NodeId, NodeId)] {
+        &self.duplicates
+    }
+}
+
+/// The first of the sorted keys that is this text.
+pub(super) fn search(tree: &Tree<'_>, sorted: &[NodeId], text: &str) -> Option<NodeId> {
+    let is_before = |key: &NodeId| tree.text(*key).is_some_and(|own| own < text);
+    let first = *sorted.get(sorted.partition_point(is_before))?;
+    tree.is(first, text).then_some(first)
+}
+
+/// Looks at the keys of a map that has just closed.
+pub(super) fn close(tree: &mut Tree<'_>, map: NodeId) {
+    let texts = || {
+        let keys = tree.pairs(map).map(|(key, _)| key);
+        keys.filter_map(|key| Some((tree.text(key)?, key)))
+    };
+    let mut few = [("", map); FEW];
+    let mut count = 0;
+    for entry in texts() {
+        if let Some(slot) = few.get_mut(count) {
+            *slot = entry;
+        }
+        count += 1;
+    }
+    if count <= FEW {
+        // Almost all maps end here: nothing is allocated but for a duplicate.
+        let mut found = Vec::new();
+        for (at, (text, key)) in few[..count].iter().enumerate() {
+            let first = few[..at].iter().find(|(earlier, _)| earlier == text);
+            found.extend(first.map(|(_, first)| (*first, *key)));
+        }
+        tree.keys.duplicates.append(&mut found);
+        return;
+    }
+    let mut keys: Vec<_> = texts().collect();
+    keys.sort_unstable();
+    let mut found = Vec::new();
+    for same in keys.chunk_by(|(a, _), (b, _)| a == b) {
+        found.extend(same[1..].iter().map(|(_, key)| (same[0].1, *key)));
+    }
+    let sorted = keys.into_iter().map(|(_, key)| key).collect();
+    tree.keys.sorted.insert(map, sorted);
+    tree.keys.duplicates.append(&mut found);
+}

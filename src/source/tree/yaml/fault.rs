@@ -1,0 +1,150 @@
+//! What the YAML parser refuses, in words a person who wrote the text understands.
+
+use super::super::{NodeId, Tree, to_u32};
+use super::Mistake;
+use crate::source::Span;
+use granit_parser::{ErrorKind, ScanError};
+
+/// The mistake in a text that is not YAML; `bracket` is the innermost one still open.
+pub(super) fn syntax(
+    tree: &Tree<'_>,
+    bracket: Option<NodeId>,
+    error: &ScanError,
+) -> Mistake<'static> {
+    let at = tree
+        .source
+        .floor_char_boundary(error.marker().byte_offset().unwrap_or(0));
+    let here = character_at(tree, at);
+    let bracket = bracket.map(|id| Span {
+        end: tree.span(id).start + 1,
+        ..tree.span(id)
+    });
+    let kind = error.kind();
+    let ran_on = |span: &Span| {
+        tree.slice(span.start - tree.base..to_u32(at))
+            .is_some_and(|text| text.contains('\n'))
+    };
+    let unclosed = |bracket, runs_into| Mistake::Unclosed { bracket, runs_into };
+    match bracket {
+        _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
+        _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
+        Some(bracket) if ends_early(kind) => unclosed(bracket, None),
+        Some(bracket) if runs_on(kind) && ran_on(&bracket) => unclosed(bracket, Some(here)),
+        bracket => {
+            let (message, label, hint) = words(kind);
+            Mistake::Syntax {
+                message,
+                label,
+                hint,
+                span: here,
+                bracket,
+            }
+        }
+    }
+}
+
+fn character_at(tree: &Tree<'_>, at: usize) -> Span {
+    let next = tree
+        .source
+        .get(at..)
+        .and_then(|rest| rest.chars().next())
+        .filter(|next| *next != '\n');
+    let end = at + next.map_or(0, char::len_utf8);
+    Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
+}
+
+fn ends_early(kind: &ErrorKind) -> bool {
+    matches!(
+        kind,
+        ErrorKind::UnexpectedEof
+            | ErrorKind::UnexpectedEofFlowSequence
+            | ErrorKind::UnexpectedEofFlowMapping
+            | ErrorKind::UnexpectedEofImplicitFlowMapping
+    )
+}
+
+fn runs_on(kind: &ErrorKind) -> bool {
+    matches!(
+        kind,
+        ErrorKind::InvalidColonPlacement
+            | ErrorKind::BlockEntryInFlowCollection
+            | ErrorKind::ExpectedFlowMappingSeparator
+            | ErrorKind::ExpectedFlowSequenceSeparator
+            | ErrorKind::MappingValueNotAllowed
+    )
+}
+
+/// Message, label and hint.
+fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
+    let say = |message: &str, label, hint| (message.to_owned(), label, hint);
+    if is_tab(kind) {
+        say(
+            "a tab can't indent",
+            "a tab near here",
+            "indent with spaces",
+        )
+    } else if matches!(kind, ErrorKind::UnknownAnchor) {
+        say(
+            "an alias without an anchor",
+            "no `&` with this name before",
+            "put `&name` before the value it stands for",
+        )
+    } else if matches!(kind, ErrorKind::MappingValueNotAllowed) {
+        say(
+            "a colon where no key can stand",
+            "this colon",
+            "write `key: value` on a line of its own, with a space after each colon, or put text with `: ` in quotes",
+        )
+    } else if matches!(kind, ErrorKind::SimpleKeyExpected) {
+        say(
+            "a line that is no `key: value`",
+            "no colon follows this",
+            "write a colon and a space after the key",
+        )
+    } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
+        say(
+            "a bracket closes what was never opened",
+            "closed here",
+            "remove it, or open it before",
+        )
+    } else if matches!(
+        kind,
+        ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent
+    ) {
+        say(
+            "a quote is never closed",
+            "still inside quotes here",
+            "close it with the same kind of quote",
+        )
+    } else if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
+        (
+            format!("`{open}` is closed by `{close}`"),
+            "opened here",
+            "close it with its own kind of bracket",
+        )
+    } else if let ErrorKind::UnexpectedCharacter { character } = kind {
+        let message = format!("`{}` can't start a value", character.escape_debug());
+        (
+            message,
+            "this character",
+            "put the value in quotes if it is text",
+        )
+    } else {
+        (
+            error_text(kind),
+            "not YAML from here on",
+            "compare with the lines before: indentation, colons, brackets, quotes",
+        )
+    }
+}
+
+fn is_tab(kind: &ErrorKind) -> bool {
+    matches!(
+        kind,
+        ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
+    )
+}
+
+fn error_text(kind: &ErrorKind) -> String {
+    kind.to_string().replace('`', "'")
+}

@@ -1,0 +1,88 @@
+//! What is wrong with a YAML text, as those who report it need it.
+
+use crate::source::Span;
+
+/// A mistake in a YAML text. All but tags and duplicate keys leave no tree.
+#[derive(Debug)]
+pub enum Mistake<'t> {
+    /// The file is UTF-16.
+    Utf16 {
+        /// Its first two bytes.
+        span: Span,
+    },
+    /// The file is not UTF-8.
+    NotUtf8 {
+        /// The first byte that is not.
+        byte: u8,
+        /// Where it is.
+        span: Span,
+    },
+    /// A control character that no YAML text may hold.
+    Control {
+        /// Its code point.
+        character: u32,
+        /// Where it is.
+        span: Span,
+    },
+    /// A word of more than a MiB.
+    TooLong {
+        /// Its first byte.
+        span: Span,
+    },
+    /// There is nothing in the file.
+    Empty {
+        /// Its end.
+        span: Span,
+    },
+    /// A second document starts in the file.
+    TwoDocuments {
+        /// Where it starts.
+        span: Span,
+    },
+    /// A tag, which is ignored.
+    Tag {
+        /// What has the tag.
+        span: Span,
+    },
+    /// An alias refers to what it stands in.
+    SelfAlias {
+        /// The alias.
+        span: Span,
+        /// From what it refers to up to the alias.
+        anchor: Span,
+    },
+    /// Lists and maps lie deeper in each other than [`super::MAX_DEPTH`].
+    TooDeep {
+        /// Where they do.
+        span: Span,
+    },
+    /// A bracket is never closed.
+    Unclosed {
+        /// The bracket.
+        bracket: Span,
+        /// What was taken to be inside.
+        runs_into: Option<Span>,
+    },
+    /// A key stands twice in its map.
+    DuplicateKey {
+        /// The key.
+        key: &'t str,
+        /// Where it stands first.
+        first: Span,
+        /// Where it stands again.
+        second: Span,
+    },
+    /// Anything else that is not YAML.
+    Syntax {
+        /// What is wrong.
+        message: String,
+        /// What is at the place.
+        label: &'static str,
+        /// What to do.
+        hint: &'static str,
+        /// The place.
+        span: Span,
+        /// The innermost bracket that is still open there.
+        bracket: Option<Span>,
+    },
+}

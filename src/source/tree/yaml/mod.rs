@@ -1,0 +1,274 @@
+//! YAML text to nodes, from the events of the parser, bounded in depth. Only this folder names that
+//! parser.
+
+mod fault;
+mod mistake;
+mod text;
+
+pub use mistake::Mistake;
+
+use super::{Form, Node, NodeId, Tree, inside_quotes, keys, to_u32};
+use crate::source::{FileId, Span};
+use granit_parser::{Event, Parser, ScalarStyle, StructureStyle};
+use std::borrow::Cow;
+use std::ops::Range;
+use text::{MAX_WORD, text, too_long};
+
+/// How deep lists and maps may lie in each other.
+pub const MAX_DEPTH: usize = 128;
+
+/// Parses a file into a tree; mistakes go to `tell`, the last of them says why there is no tree.
+pub fn parse<'s>(
+    file: FileId,
+    bytes: &'s [u8],
+    tell: &mut dyn FnMut(Mistake<'_>),
+) -> Option<Tree<'s>> {
+    let (source, base) = match text(file, bytes) {
+        Ok(text) => text,
+        Err(mistake) => {
+            tell(mistake);
+            return None;
+        }
+    };
+    let mut build = Build {
+        tree: Tree::new(file, base, source),
+        open: Vec::new(),
+        anchors: Vec::new(),
+        ended: false,
+        last_end: 0,
+        tell,
+    };
+    let options = granit_parser::options! {
+        flow_nesting_limit: MAX_DEPTH,
+        block_nesting_limit: MAX_DEPTH,
+    };
+    for event in Parser::new_from_str_with_options(source, options) {
+        let step = match event {
+            Ok((event, span)) => {
+                let range = span.byte_range().unwrap_or_default();
+                build.event(event, to_u32(range.start), to_u32(range.end))
+            }
+            Err(error) => Err(fault::syntax(&build.tree, build.open_bracket(), &error)),
+        };
+        if let Err(fault) = step {
+            (build.tell)(fault);
+            return None;
+        }
+    }
+    build.finish()
+}
+
+/// A list or map whose end is still to come.
+struct Open {
+    node: NodeId,
+    flow: bool,
+}
+
+struct Build<'s, 'k> {
+    tree: Tree<'s>,
+    open: Vec<Open>,
+    /// Anchor numbers, rising, and their nodes.
+    anchors: Vec<(usize, NodeId)>,
+    ended: bool,
+    /// Where the last word or bracket ended: block lists and maps end there too.
+    last_end: u32,
+    tell: &'k mut dyn FnMut(Mistake<'_>),
+}
+
+type Step = Result<(), Mistake<'static>>;
+
+impl<'s> Build<'s, '_> {
+    fn event(&mut self, event: Event<'s>, start: u32, end: u32) -> Step {
+        if let Event::Scalar(value, style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            let form = self.scalar(value, style, start, end)?;
+            self.word(form, anchor, start, end);
+            Ok(())
+        } else if let Event::Alias(anchor) = event {
+            self.alias(anchor, start, end)
+        } else if let Event::SequenceStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Form::List, style, anchor, start, end)
+        } else if let Event::MappingStart(style, anchor, tag) = event {
+            self.tag(tag.is_some(), start, end);
+            self.start(Form::Map, style, anchor, start, end)
+        } else if matches!(event, Event::SequenceEnd | Event::MappingEnd) {
+            self.end(end);
+            Ok(())
+        } else if matches!(event, Event::DocumentStart(..)) && self.ended {
+            let span = self.span(start, end);
+            Err(Mistake::TwoDocuments { span })
+        } else {
+            self.ended |= matches!(event, Event::DocumentEnd);
+            Ok(())
+        }
+    }
+
+    fn span(&self, start: u32, end: u32) -> Span {
+        Span::new(self.tree.file, start + self.tree.base, end + self.tree.base)
+    }
+
+    fn tag(&mut self, tagged: bool, start: u32, end: u32) {
+        if tagged {
+            let span = self.span(start, end.max(start + 1));
+            (self.tell)(Mistake::Tag { span });
+        }
+    }
+
+    /// What form of word this is, and its link. The style says so: a block may begin with a quote.
+    fn scalar(
+        &mut self,
+        value: Cow<'s, str>,
+        style: ScalarStyle,
+        start: u32,
+        end: u32,
+    ) -> Result<(Form, u32), Mistake<'static>> {
+        if value.len() > MAX_WORD {
+            let at = start + self.tree.base;
+            return Err(too_long(self.tree.file, at as usize));
+        }
+        let is_written = |range: Range<u32>| self.tree.slice(range) == Some(value.as_ref());
+        let form = match style {
+            ScalarStyle::Plain if start == end || is_written(start..end) => Form::Word,
+            ScalarStyle::SingleQuoted | ScalarStyle::DoubleQuoted
+                if is_written(inside_quotes(start, end)) =>
+            {
+                Form::Quoted
+            }
+            ScalarStyle::Plain
+            | ScalarStyle::SingleQuoted
+            | ScalarStyle::DoubleQuoted
+            | ScalarStyle::Literal
+            | ScalarStyle::Folded => {
+                return Ok((Form::Cooked, self.tree.cook(|text| text.push_str(&value))));
+            }
+        };
+        Ok((form, 0))
+    }
+
+    fn word(&mut self, (form, link): (Form, u32), anchor: usize, start: u32, end: u32) {
+        self.last_end = end;
+        self.push(
+            Node {
+                start,
+                end,
+                link,
+                form,
+            },
+            anchor,
+        );
+    }
+
+    fn alias(&mut self, anchor: usize, start: u32, end: u32) -> Step {
+        let at = self
+            .anchors
+            .binary_search_by_key(&anchor, |(anchor, _)| *anchor);
+        let target = self.anchors[at.expect("the parser refuses aliases without an anchor")].1;
+        if self.open.iter().any(|open| open.node == target) {
+            return Err(Mistake::SelfAlias {
+                span: self.span(start, end),
+                anchor: self.span(self.tree.node(target).start, start),
+            });
+        }
+        self.last_end = end;
+        self.push(
+            Node {
+                start,
+                end,
+                link: target.0,
+                form: Form::Alias,
+            },
+            0,
+        );
+        Ok(())
+    }
+
+    fn start(
+        &mut self,
+        form: Form,
+        style: StructureStyle,
+        anchor: usize,
+        start: u32,
+        end: u32,
+    ) -> Step {
+        if self.open.len() >= MAX_DEPTH {
+            let span = self.span(start, end.max(start + 1));
+            return Err(Mistake::TooDeep { span });
+        }
+        self.last_end = end;
+        let node = self.push(
+            Node {
+                start,
+                end,
+                link: 0,
+                form,
+            },
+            anchor,
+        );
+        self.open.push(Open {
+            node,
+            flow: style == StructureStyle::Flow,
+        });
+        Ok(())
+    }
+
+    fn end(&mut self, end: u32) {
+        let Open { node: id, flow } = self
+            .open
+            .pop()
+            .expect("the parser closes only what it opened");
+        self.last_end = if flow { end } else { self.last_end };
+        let link = to_u32(self.tree.nodes.len());
+        let node = &mut self.tree.nodes[id.0 as usize];
+        (node.end, node.link) = (self.last_end, link);
+        if node.form == Form::Map {
+            self.keys(id);
+        }
+    }
+
+    fn push(&mut self, node: Node, anchor: usize) -> NodeId {
+        let nodes = &mut self.tree.nodes;
+        if nodes.len() == nodes.capacity() {
+            // Doubling would hold as much again as the tree of a large scene.
+            nodes.reserve_exact(nodes.len() / 4 + 64);
+        }
+        let id = NodeId(to_u32(nodes.len()));
+        nodes.push(node);
+        if anchor != 0 {
+            self.anchors.push((anchor, id));
+        }
+        id
+    }
+
+    /// Looks at the keys of a map that has just closed.
+    fn keys(&mut self, map: NodeId) {
+        let known = self.tree.duplicate_keys().len();
+        keys::close(&mut self.tree, map);
+        for (first, second) in &self.tree.duplicate_keys()[known..] {
+            (self.tell)(Mistake::DuplicateKey {
+                key: self.tree.text(*second).unwrap_or_default(),
+                first: self.tree.span(*first),
+                second: self.tree.span(*second),
+            });
+        }
+    }
+
+    /// The innermost bracket that is still open.
+    fn open_bracket(&self) -> Option<NodeId> {
+        self.open
+            .iter()
+            .rev()
+            .find(|open| open.flow)
+            .map(|open| open.node)
+    }
+
+    fn finish(self) -> Option<Tree<'s>> {
+        if self.tree.nodes.is_empty() {
+            let end = to_u32(self.tree.source.len()) + self.tree.base;
+            let span = Span::new(self.tree.file, end, end);
+            (self.tell)(Mistake::Empty { span });
+            return None;
+        }
+        Some(self.tree)
+    }
+}

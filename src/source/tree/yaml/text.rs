@@ -1,0 +1,111 @@
+//! From bytes to text that is fit to parse: UTF-8, no control characters, no absurd word.
+
+use super::super::to_u32;
+use super::Mistake;
+use crate::source::{FileId, Span};
+
+/// The longest run of bytes without a separator, and the longest word at all.
+pub(super) const MAX_WORD: usize = 1 << 20;
+
+/// The text of a file and the offset its first byte has there; the byte order mark is skipped.
+pub(super) fn text(file: FileId, bytes: &[u8]) -> Result<(&str, u32), Mistake<'static>> {
+    let text = decode(file, bytes)?;
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let base = text.len() - body.len();
+    match unfit(file, body, base) {
+        None => Ok((body, to_u32(base))),
+        Some(mistake) => Err(mistake),
+    }
+}
+
+fn decode(file: FileId, bytes: &[u8]) -> Result<&str, Mistake<'static>> {
+    if looks_like_utf16(bytes) {
+        let span = Span::new(file, 0, to_u32(bytes.len().min(2)));
+        return Err(Mistake::Utf16 { span });
+    }
+    std::str::from_utf8(bytes).map_err(|error| {
+        let at = error.valid_up_to();
+        Mistake::NotUtf8 {
+            byte: bytes.get(at).copied().unwrap_or_default(),
+            span: Span::new(file, to_u32(at), to_u32(at + 1)),
+        }
+    })
+}
+
+/// A byte order mark of UTF-16, or a zero byte in exactly one of the first two places.
+fn looks_like_utf16(bytes: &[u8]) -> bool {
+    match *bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => true,
+        [first, second, ..] => (first == 0) != (second == 0),
+        [_] | [] => false,
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Class {
+    Ordinary,
+    Separator,
+    Control,
+    /// The first byte of U+0080 to U+00BF.
+    MaybeControl,
+}
+
+const CLASSES: [Class; 256] = classes();
+
+const fn classes() -> [Class; 256] {
+    let mut classes = [Class::Ordinary; 256];
+    let mut control = 0;
+    while control < 0x20 {
+        classes[control] = Class::Control;
+        control += 1;
+    }
+    classes[0x7f] = Class::Control;
+    classes[0xc2] = Class::MaybeControl;
+    let separators = b"\t\n\r,:[]{}";
+    let mut at = 0;
+    while at < separators.len() {
+        classes[separators[at] as usize] = Class::Separator;
+        at += 1;
+    }
+    classes
+}
+
+/// The first character that no YAML text may hold, or the start of a word too long to be one.
+fn unfit(file: FileId, text: &str, base: usize) -> Option<Mistake<'static>> {
+    let bytes = text.as_bytes();
+    let mut word_start = 0;
+    // In pieces, so that a word of many pieces is seen after two of them.
+    for (piece, start) in bytes.chunks(MAX_WORD).zip((0..).step_by(MAX_WORD)) {
+        for (at, byte) in (start..).zip(piece) {
+            match CLASSES[usize::from(*byte)] {
+                Class::Ordinary => {}
+                Class::Separator => word_start = at + 1,
+                Class::Control => return Some(control(file, base + at, 1, u32::from(*byte))),
+                Class::MaybeControl => match bytes.get(at + 1).copied() {
+                    Some(0x85) | None => {}
+                    Some(second) if second >= 0xa0 => {}
+                    Some(second) => return Some(control(file, base + at, 2, u32::from(second))),
+                },
+            }
+        }
+        if word_start + MAX_WORD < start + piece.len() {
+            return Some(too_long(file, base + word_start));
+        }
+    }
+    None
+}
+
+fn control(file: FileId, at: usize, length: usize, character: u32) -> Mistake<'static> {
+    Mistake::Control {
+        character,
+        span: Span::new(file, to_u32(at), to_u32(at + length)),
+    }
+}
+
+/// A word of more than a MiB starts at `at`.
+pub(super) fn too_long(file: FileId, at: usize) -> Mistake<'static> {
+    let at = to_u32(at);
+    Mistake::TooLong {
+        span: Span::new(file, at, at + 1),
+    }
+}
