@@ -49,8 +49,8 @@ def reached(todo):
 
 features = {1 << int(bit or 0): text.lower() for text, bit in
             re.findall(r"pub const (\w+): Self = Self\(1(?: << (\d+))?\);", open(sys.argv[2]).read())}
-EFFECTS = {"pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "texture::look_up"), "torus": (None, "Torus")}
-WORLDS = {"basic": "World<rtc::render::basic::Basic>>", "all": "World>"}
+EFFECTS = {"pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus")}
+WORLDS = {"basic": "World<rtc::render::shape::basic::Basic>>", "all": "World>"}
 print("| integrator | shapes | bytes | share |", " | ".join(EFFECTS), "|\n| --- | --- | --: | --: | :-: | :-: | :-: |")
 rows, wrong = [], []
 for shapes, world in WORLDS.items():

@@ -1,5 +1,5 @@
-//! `kernels planned|everything|unpruned SCENE` renders 160 × 160 pixels and says nothing, for a
-//! profiler to count the instructions of `picture`: as planned, as planned but by the integrator
+//! `kernels planned|everything|unpruned SCENE` renders 160 × 160 pixels, 16 paths each where paths
+//! are traced, and says nothing, for a profiler to count the instructions of `picture`: as planned, as planned but by the integrator
 //! that can do everything for all shapes, or with no rule of the plan.
 
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
@@ -7,7 +7,7 @@
 use rtc::diag::Sink;
 use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Features, Plan, Rules, Shapes};
+use rtc::plan::{Features, PathFeatures, Plan, Rules, Shapes};
 use rtc::render::{self, Film, Job};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::Proof;
@@ -32,6 +32,9 @@ fn main() {
     );
     if which == "everything" {
         (plan.features, plan.shapes) = (Features::EVERYTHING, Shapes::All);
+        if let Some(paths) = &mut plan.paths {
+            paths.features = PathFeatures::EVERYTHING;
+        }
     }
     assert!(picture(&scene, &plan).counts.rays() > 0);
 }
@@ -47,6 +50,7 @@ fn scene(file: &str) -> Proof {
     let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
     Overrides {
         size: Some([160; 2]),
+        spp: Some(16),
         ..Overrides::default()
     }
     .apply(&mut lowered.scene);
