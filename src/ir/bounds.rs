@@ -101,22 +101,24 @@ fn corners(shape: &Shape, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
             cube(*base, *radius);
             visit(Vec3::from_array(*base) + Vec3::from_array(*up));
         }
-        Shape::Instance(Instance {
-            mesh,
-            world_from_object,
-        }) => {
-            let Some(around) = boxes
-                .get(mesh.0 as usize)
-                .filter(|[low, _]| low.is_finite())
-            else {
-                return;
-            };
-            let world = DAffine3::from_cols_array_2d(world_from_object);
-            box_corners(*around)
-                .into_iter()
-                .for_each(|corner| visit(world.transform_point3(corner)));
-        }
+        Shape::Instance(instance) => placed_corners(instance, boxes)
+            .into_iter()
+            .flatten()
+            .for_each(visit),
     }
+}
+
+/// The corners of the box around the mesh of an instance, in the world; none if it is empty.
+fn placed_corners(instance: &Instance, boxes: &[[Vec3; 2]]) -> Option<[Vec3; 8]> {
+    let Instance {
+        mesh,
+        world_from_object,
+    } = instance;
+    let around = boxes
+        .get(mesh.0 as usize)
+        .filter(|[low, _]| low.is_finite())?;
+    let world = DAffine3::from_cols_array_2d(world_from_object);
+    Some(box_corners(*around).map(|corner| world.transform_point3(corner)))
 }
 
 fn box_corners([low, high]: [Vec3; 2]) -> [Vec3; 8] {
