@@ -13,6 +13,7 @@ fn length(x: f64) -> Positive {
 }
 
 /// One shape of each kind within about 2 of the origin, with its name.
+#[expect(clippy::too_many_lines, reason = "a table, one row a shape")]
 fn shapes() -> Vec<(&'static str, valid::Shape)> {
     let (center, axis, radius) = (
         Vec3::new(0.2, -0.3, 0.1),

@@ -207,39 +207,45 @@ pub(super) fn crop(text: &str) -> Result<Crop, String> {
 mod tests {
     use super::*;
 
+    fn are_refused<T>(read: fn(&str) -> Result<T, String>, texts: &[&str]) -> bool {
+        texts.iter().all(|text| read(text).is_err())
+    }
+
     #[test]
-    fn values_are_those_that_mean_something() {
+    fn sizes_and_crops_have_pixels() {
         assert_eq!((size("640x480"), size("3×2")), (Ok([640, 480]), Ok([3, 2])));
-        assert!(
-            ["640", "0x4", "4x", "-1x2", "1x2x3"]
-                .into_iter()
-                .all(|text| size(text).is_err())
-        );
-        assert!(
-            ["0", "-1", "nan", "inf", "256", "x"]
-                .into_iter()
-                .all(|text| levels(text).is_err())
-        );
-        assert!(
-            ["0", "-1", "nan", "inf", "1e300", "x"]
-                .into_iter()
-                .all(|text| seconds(text).is_err())
-        );
+        assert!(are_refused(size, &["640", "0x4", "4x", "-1x2", "1x2x3"]));
+        let [x, y, width, height] = [1, 2, 3, 4];
+        let wanted = Crop {
+            x,
+            y,
+            width,
+            height,
+        };
+        assert_eq!(crop("1, 2,3,4"), Ok(wanted));
+        assert!(are_refused(
+            crop,
+            &["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"]
+        ));
+    }
+
+    #[test]
+    fn numbers_are_those_that_mean_something() {
         assert_eq!(
             (levels("0.5"), seconds("2.5")),
             (Ok(0.5), Ok(Duration::from_millis(2500)))
         );
-        assert!(
-            ["65", "-65", "nan", "x"]
-                .into_iter()
-                .all(|text| stops(text).is_err())
-        );
-        assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
-        assert!(
-            ["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
-                .into_iter()
-                .all(|text| backdrop(text).is_err())
-        );
+        assert!(are_refused(levels, &["0", "-1", "nan", "inf", "256", "x"]));
+        assert!(are_refused(
+            seconds,
+            &["0", "-1", "nan", "inf", "1e300", "x"]
+        ));
+        assert!(are_refused(stops, &["65", "-65", "nan", "x"]));
+        assert!(are_refused(degrees, &["0", "180", "-5", "nan", "x"]));
+    }
+
+    #[test]
+    fn vectors_and_colors_have_numbers_of_a_scene() {
         assert_eq!(
             (vector("1,-2, 3"), color("0.5")),
             (Ok([1.0, -2.0, 3.0]), Ok([0.5; 3]))
@@ -248,50 +254,32 @@ mod tests {
             vector("0,1e300,0"),
             Err("numbers of a scene are at most 1e60 in size".to_owned())
         );
-        assert!(
-            ["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""]
-                .into_iter()
-                .all(|text| vector(text).is_err())
-        );
-        assert!(
-            ["-1", "1,2", "1,2,nan"]
-                .into_iter()
-                .all(|text| color(text).is_err())
-        );
-        assert_eq!(
-            sun("0,-1,0,2"),
-            Ok(Sun {
-                direction: [0.0, -1.0, 0.0],
-                irradiance: [2.0; 3]
-            })
-        );
+        assert!(are_refused(
+            vector,
+            &["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""]
+        ));
+        assert!(are_refused(color, &["-1", "1,2", "1,2,nan"]));
+        assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
+        assert!(are_refused(
+            backdrop,
+            &["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
+        ));
+    }
+
+    #[test]
+    fn suns_have_a_direction_and_light() {
+        let wanted = Sun {
+            direction: [0.0, -1.0, 0.0],
+            irradiance: [2.0; 3],
+        };
+        assert_eq!(sun("0,-1,0,2"), Ok(wanted));
         assert_eq!(
             sun("0,1,0,3,2,1").map(|sun| sun.irradiance),
             Ok([3.0, 2.0, 1.0])
         );
-        assert!(
-            ["0,0,0,1", "0,1,0", "0,1,0,-1", "0,1,0,1,2", "x"]
-                .into_iter()
-                .all(|text| sun(text).is_err())
-        );
-        assert!(
-            ["0", "180", "-5", "nan", "x"]
-                .into_iter()
-                .all(|text| degrees(text).is_err())
-        );
-        assert_eq!(
-            crop("1, 2,3,4"),
-            Ok(Crop {
-                x: 1,
-                y: 2,
-                width: 3,
-                height: 4
-            })
-        );
-        assert!(
-            ["1,2,3", "1,2,0,4", "a,b,c,d", "1,2,3,4,5"]
-                .into_iter()
-                .all(|text| crop(text).is_err())
-        );
+        assert!(are_refused(
+            sun,
+            &["0,0,0,1", "0,1,0", "0,1,0,-1", "0,1,0,1,2", "x"]
+        ));
     }
 }

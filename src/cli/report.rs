@@ -97,6 +97,39 @@ struct Row {
     saves: u64,
 }
 
+impl Row {
+    /// The lines of the table, with `about` before counts.
+    fn lines(&self, about: &str) -> String {
+        let rays = |count: u64| match count {
+            0 => String::new(),
+            _ => format!("{about}{}", grouped(count)),
+        };
+        let verdict = &self.verdict;
+        let words = match &self.of {
+            Some(of) => format!("{of}: {}", verdict.because),
+            None => verdict.because.clone(),
+        };
+        let places = if self.places.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", self.places.join(", "))
+        };
+        let reason = folded(&(words + &places));
+        if self.of.is_some() {
+            return reason;
+        }
+        let line = format!(
+            "{:<15} {:<7} {:<15} {:>12} {:>12}",
+            verdict.effect.name(),
+            verdict.state.name(),
+            verdict.rule.map_or("", Rule::name),
+            rays(self.costs),
+            rays(self.saves)
+        );
+        format!("{}\n{reason}", line.trim_end())
+    }
+}
+
 impl Report {
     /// Plans the picture and counts rays.
     pub(super) fn new(proven: &Proven, input: &Input) -> Result<Self, Failure> {
@@ -152,65 +185,32 @@ impl Report {
     }
 
     fn table(&self) -> String {
+        let about = if self.counter.is_whole() { "" } else { "≈" };
         let mut text = format!(
             "{:<15} {:<7} {:<15} {:>12} {:>12}\n",
             "effect", "verdict", "rule", "count", "saved"
         );
-        let about = if self.counter.is_whole() { "" } else { "≈" };
-        let rays = |count: u64| {
-            if count == 0 {
-                String::new()
-            } else {
-                format!("{about}{}", grouped(count))
-            }
-        };
-        for Row {
-            verdict,
-            places,
-            of,
-            costs,
-            saves,
-        } in &self.rows
-        {
-            let rule = verdict.rule.map_or("", Rule::name);
-            let (name, state) = (verdict.effect.name(), verdict.state.name());
-            if of.is_none() {
-                let line = format!(
-                    "{name:<15} {state:<7} {rule:<15} {:>12} {:>12}",
-                    rays(*costs),
-                    rays(*saves)
-                );
-                text += line.trim_end();
-                text.push('\n');
-            }
-            let whose = of.as_ref().map(|of| format!("{of}: ")).unwrap_or_default();
-            let places = if places.is_empty() {
-                String::new()
-            } else {
-                format!(" ({})", places.join(", "))
-            };
-            text += &folded(&format!("{whose}{}{places}", verdict.because));
-        }
-        let Sampled {
-            stride,
-            samples,
-            paths,
-            all,
-        } = self.counter;
-        let per_sample = |rays: u64| rays as f64 / all.max(1) as f64;
-        text += &format!(
-            "kernel: {} (of {})\nrays a sample: {about}{:.2}, without the rules {about}{:.2}\n",
-            self.kernel.0,
-            self.kernel.1,
-            per_sample(self.planned),
-            per_sample(self.unpruned)
+        self.rows.iter().for_each(|row| text += &row.lines(about));
+        text + &self.totals(about)
+    }
+
+    /// The kernel, and the rays of all effects together, with `about` before what is estimated.
+    fn totals(&self, about: &str) -> String {
+        let (kernel, kernels) = self.kernel;
+        let all = self.counter.all;
+        let [planned, unpruned] =
+            [self.planned, self.unpruned].map(|rays| rays as f64 / all.max(1) as f64);
+        let mut text = format!(
+            "kernel: {kernel} (of {kernels})\n\
+             rays a sample: {about}{planned:.2}, without the rules {about}{unpruned:.2}\n"
         );
         if !self.counter.is_whole() {
             text += &format!(
-                "counted on {} of {} samples: {samples} of each pixel in each {} of a row and column\n",
-                grouped(paths),
+                "counted on {} of {} samples: {} of each pixel in each {} of a row and column\n",
+                grouped(self.counter.paths),
                 grouped(all),
-                ordinal(stride.get())
+                self.counter.samples,
+                ordinal(self.counter.stride.get())
             );
         }
         text

@@ -123,10 +123,22 @@ fn off_files_become_triangles() {
     );
 }
 
+/// Asserts that the first error of each text begins as expected.
+fn are_told<T: AsRef<str>>(cases: &[(T, &str)]) {
+    for (text, expected) in cases {
+        let text = text.as_ref();
+        let findings = mesh(text).findings;
+        assert!(
+            findings.starts_with(&format!("RE006 error {expected}")),
+            "{text}: {findings}"
+        );
+    }
+}
+
 #[test]
-fn faults_of_mesh_files_have_their_place_there() {
+fn faults_of_obj_files_have_their_place_there() {
     let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let cases = [
+    are_told(&[
         (
             "v 0 0\n".to_owned(),
             "m.obj:1:1 2 numbers where there should be 3",
@@ -173,46 +185,36 @@ fn faults_of_mesh_files_have_their_place_there() {
             "m.obj:4:3 `a` is not a whole number",
         ),
         (corners.to_owned(), "m.obj:1:1 the mesh has no faces"),
+    ]);
+}
+
+#[test]
+fn faults_of_off_files_have_their_place_there() {
+    are_told(&[
         (
-            "OFF\n3 1 0\n0 0 0\n".to_owned(),
+            "OFF\n3 1 0\n0 0 0\n",
             "m.obj:2:1 the file ends before the last of 3 vertices",
         ),
         (
-            "OFF\n99999999999999 1 0\n0 0 0\n".to_owned(),
+            "OFF\n99999999999999 1 0\n0 0 0\n",
             "m.obj:2:1 the file ends before the last of 99999999999999",
         ),
+        ("OFF\n-1 1 0\n", "m.obj:2:1 there can't be -1 vertices"),
+        ("OFF\n3\n", "m.obj:1:1 the number of faces is missing"),
+        ("OFF BINARY\n", "m.obj:1:5 binary OFF is not supported"),
         (
-            "OFF\n-1 1 0\n".to_owned(),
-            "m.obj:2:1 there can't be -1 vertices",
-        ),
-        (
-            "OFF\n3\n".to_owned(),
-            "m.obj:1:1 the number of faces is missing",
-        ),
-        (
-            "OFF BINARY\n".to_owned(),
-            "m.obj:1:5 binary OFF is not supported",
-        ),
-        (
-            "4OFF\n".to_owned(),
+            "4OFF\n",
             "m.obj:1:1 `4OFF` is a kind of OFF that is not supported",
         ),
         (
-            "OFF\n1 1 0\n0 0 0\n3 0 0 1\n".to_owned(),
+            "OFF\n1 1 0\n0 0 0\n3 0 0 1\n",
             "m.obj:4:7 a face refers to vertex 1, and there are 1, from 0",
         ),
         (
-            "OFF\n1 1 0\n0 0 0\n4 0 0 0\n".to_owned(),
+            "OFF\n1 1 0\n0 0 0\n4 0 0 0\n",
             "m.obj:4:1 a face of 4 corners names 3",
         ),
-    ];
-    for (text, expected) in cases {
-        let findings = mesh(&text).findings;
-        assert!(
-            findings.starts_with(&format!("RE006 error {expected}")),
-            "{text}: {findings}"
-        );
-    }
+    ]);
 }
 
 #[test]

@@ -2,27 +2,26 @@
 
 use super::{folder, png, write};
 use rtc::diag::Sink;
-use rtc::ir::{ImageId, MeshId, Shape, Texture};
+use rtc::ir::{ImageId, MeshId, Scene, Shape, Texture};
+use rtc::pipeline::{self, Options};
 use rtc::source::{Loader, SourceMap};
 use std::fs;
+use tempfile::TempDir;
 
-#[test]
-fn a_file_of_many_names_is_read_once() {
-    let folder = folder();
-    write(&folder, "inner/a.png", png([1, 2, 3]));
-    write(
-        &folder,
-        "inner/a.obj",
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-    );
+/// A picture and a mesh, each a file of two names.
+fn write_assets(folder: &TempDir) {
+    write(folder, "inner/a.png", png([1, 2, 3]));
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    write(folder, "inner/a.obj", triangle);
+    let inner = folder.path().join("inner");
     for (from, to) in [("a.png", "b.png"), ("a.obj", "b.obj")] {
-        fs::hard_link(
-            folder.path().join("inner").join(from),
-            folder.path().join("inner").join(to),
-        )
-        .unwrap();
+        fs::hard_link(inner.join(from), inner.join(to)).unwrap();
     }
-    let mut scene =
+}
+
+/// A scene that calls both files by all their names.
+fn text() -> String {
+    let mut text =
         "Camera: {eye: [0, 0, 9], center: [0, 0, 0], up: [0, 1, 0], viewSize: [4, 4]}\nObjects:\n"
             .to_owned();
     for (picture, mesh) in [
@@ -31,24 +30,28 @@ fn a_file_of_many_names_is_read_once() {
         ("../inner/a.png", "a.obj"),
         ("b.png", "b.obj"),
     ] {
-        scene += &format!(
+        text += &format!(
             "- {{type: mesh, file: {mesh}, material: {{color: [1, 1, 1], texture: {picture}, ka: 1, kd: 1, ks: 0, n: \
              1}}}}\n"
         );
     }
-    write(&folder, "inner/scene.yaml", scene);
+    text
+}
+
+fn read(folder: &TempDir) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-    let file = Loader
-        .file(&folder.path().join("inner/scene.yaml"), &mut map)
-        .unwrap();
-    let scene = rtc::pipeline::load(
-        file,
-        &mut map,
-        &rtc::pipeline::Options::default(),
-        &mut sink,
-    )
-    .unwrap()
-    .scene;
+    let path = folder.path().join("inner/scene.yaml");
+    let file = Loader.file(&path, &mut map).unwrap();
+    let lowered = pipeline::load(file, &mut map, &Options::default(), &mut sink);
+    lowered.unwrap().scene
+}
+
+#[test]
+fn a_file_of_many_names_is_read_once() {
+    let folder = folder();
+    write_assets(&folder);
+    write(&folder, "inner/scene.yaml", text());
+    let scene = read(&folder);
     let textures: Vec<_> = scene
         .textures
         .iter()

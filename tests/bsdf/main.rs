@@ -53,6 +53,7 @@ fn albedo(standard: &Standard, wo: Vec3, samples: u32) -> Vec3 {
 }
 
 /// Materials that between them use every lobe.
+#[expect(clippy::too_many_lines, reason = "a table, one row a material")]
 fn variety() -> Vec<(&'static str, Standard)> {
     let plain = Standard {
         roughness: 0.5,

@@ -29,17 +29,21 @@ pub(crate) fn scene(number: u64, [width, height]: [u32; 2]) -> Scene {
     lowered.scene
 }
 
+/// Whether a scene has the feature of a bit of its number.
+fn has(number: u64, bit: u64) -> bool {
+    number >> bit & 1 == 1
+}
+
 fn text(number: u64, [width, height]: [u32; 2]) -> String {
     let mut chance = Chance::new(number);
     let mut within =
         |from: f64, to: f64| from + (to - from) * chance.below(1 << 20) as f64 / f64::from(1 << 20);
-    let has = |bit: u64| number >> bit & 1 == 1;
     let mut text = format!(
         "Camera: {{eye: [{:.3}, 4, 12], center: [0, 1, 0], up: [0, {}, 0], viewSize: [{width}, {height}]",
         within(-4.0, 4.0),
         5.0 / f64::from(height)
     );
-    text += &if has(0) {
+    text += &if has(number, 0) {
         format!(
             ", apertureRadius: {:.3}, apertureSamples: 4}}\n",
             within(0.1, 0.5)
@@ -49,7 +53,11 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
     };
     text += "Shadows: true\nMaxRecursionDepth: 2\nLightSamples: 8\nLights:\n";
     for x in [-6.0, 5.0] {
-        let radius = if has(1) { within(0.3, 1.5) } else { 0.0 };
+        let radius = if has(number, 1) {
+            within(0.3, 1.5)
+        } else {
+            0.0
+        };
         let shade = within(0.3, 0.7);
         let _ = writeln!(
             text,
@@ -57,41 +65,45 @@ fn text(number: u64, [width, height]: [u32; 2]) -> String {
         );
     }
     text += "Objects:\n- {type: plane, position: [0, 0, 0], normal: [0, 1, 0], material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.7, ks: 0.1, n: 8}}\n";
-    let small = if has(4) { 120 } else { 0 };
-    for ball in 0..8 + small {
-        let radius = if ball < 8 {
-            within(0.4, 1.2)
-        } else {
-            within(0.01, 0.06)
-        };
-        let place = [
-            within(-5.0, 5.0),
-            radius + if ball < 8 { 0.0 } else { within(0.0, 2.0) },
-            within(-4.0, 3.0),
-        ];
-        let color = match has(3) && ball % 3 == 0 {
-            true => "texture: tiles.png".to_owned(),
-            false => format!(
-                "color: [{:.3}, {:.3}, {:.3}]",
-                within(0.0, 1.0),
-                within(0.0, 1.0),
-                within(0.0, 1.0)
-            ),
-        };
-        let glossy = if has(2) && ball % 2 == 0 {
-            ", glossySamples: 4"
-        } else {
-            ""
-        };
-        let (ks, n) = (within(0.0, 0.8), within(4.0, 200.0));
-        let _ = writeln!(
-            text,
-            "- {{type: sphere, position: [{:.4}, {:.4}, {:.4}], radius: {radius:.4}, angle: 30, \
-             material: {{{color}, ka: 0.2, kd: 0.5, ks: {ks:.3}, n: {n:.0}{glossy}}}}}",
-            place[0], place[1], place[2]
-        );
+    let small = if has(number, 4) { 120 } else { 0 };
+    for index in 0..8 + small {
+        text += &ball(number, index, &mut within);
     }
     text
+}
+
+/// A ball of a scene, as a line of its text: the first 8 are large.
+fn ball(number: u64, index: u64, within: &mut impl FnMut(f64, f64) -> f64) -> String {
+    let radius = if index < 8 {
+        within(0.4, 1.2)
+    } else {
+        within(0.01, 0.06)
+    };
+    let place = [
+        within(-5.0, 5.0),
+        radius + if index < 8 { 0.0 } else { within(0.0, 2.0) },
+        within(-4.0, 3.0),
+    ];
+    let color = match has(number, 3) && index.is_multiple_of(3) {
+        true => "texture: tiles.png".to_owned(),
+        false => format!(
+            "color: [{:.3}, {:.3}, {:.3}]",
+            within(0.0, 1.0),
+            within(0.0, 1.0),
+            within(0.0, 1.0)
+        ),
+    };
+    let glossy = if has(number, 2) && index.is_multiple_of(2) {
+        ", glossySamples: 4"
+    } else {
+        ""
+    };
+    let (ks, n) = (within(0.0, 0.8), within(4.0, 200.0));
+    format!(
+        "- {{type: sphere, position: [{:.4}, {:.4}, {:.4}], radius: {radius:.4}, angle: 30, \
+         material: {{{color}, ka: 0.2, kd: 0.5, ks: {ks:.3}, n: {n:.0}{glossy}}}}}\n",
+        place[0], place[1], place[2]
+    )
 }
 
 /// Renders to an error with a seed, without a clock.

@@ -207,19 +207,19 @@ fn a_ray_behind_a_veil_is_still_one_of_the_camera() {
     assert_eq!(mean(&render(&scene)), GREEN);
 }
 
-/// The inside of an octahedron with the normals of a ball, or others, under lights and a sky
-/// outside: no path takes light from the side of a face where it does not go on.
-#[test]
-fn no_light_enters_a_closed_smooth_mesh() {
-    let corners = [
-        [1.0, 0.0, 0.0],
-        [-1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, -1.0, 0.0],
-        [0.0, 0.0, 1.0],
-        [0.0, 0.0, -1.0],
-    ];
-    let triangles: Vec<[u32; 3]> = vec![
+/// The corners of an octahedron, which are the normals of a ball there.
+const CORNERS: [[f64; 3]; 6] = [
+    [1.0, 0.0, 0.0],
+    [-1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+];
+
+/// The octahedron with normals of its own.
+fn octahedron(normals: [[f64; 3]; 6]) -> Mesh {
+    let triangles = vec![
         [0, 2, 4],
         [2, 1, 4],
         [1, 3, 4],
@@ -229,6 +229,48 @@ fn no_light_enters_a_closed_smooth_mesh() {
         [3, 1, 5],
         [0, 3, 5],
     ];
+    Mesh {
+        positions: CORNERS.to_vec().into(),
+        normals: normals.to_vec().into(),
+        triangles: triangles.into(),
+        ..Mesh::default()
+    }
+}
+
+/// The inside of a mesh, under a sky.
+fn inside(mesh: Mesh, standard: Standard) -> Scene {
+    let mut scene = scene(16);
+    (scene.settings.max_depth, scene.environment) = (50, sky(1.0));
+    (scene.camera.eye, scene.camera.center) = ([0.1, 0.05, -0.02], [0.3, 0.2, -0.4]);
+    scene.meshes.push(mesh);
+    let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
+    let material = material(&mut scene, standard);
+    let shape = Shape::Instance(Instance {
+        mesh: MeshId(0),
+        world_from_object,
+    });
+    scene.surfaces.push(Surface { shape, material });
+    scene
+}
+
+/// Lights outside of the octahedron.
+fn add_lights(scene: &mut Scene) {
+    let suns = [[3.0, 4.0, 5.0], [-1.0, 0.2, 0.1], [0.3, -1.0, -0.4]]
+        .map(|direction| Emitter::Sun { direction });
+    let point = Emitter::Point {
+        position: [0.5, 0.6, 0.2],
+        range: None,
+    };
+    for emitter in suns.into_iter().chain([point]) {
+        let intensity = [5.0; 3];
+        add_light(scene, Punctual { emitter, intensity });
+    }
+}
+
+/// The inside of an octahedron with the normals of a ball, or others, under lights and a sky
+/// outside: no path takes light from the side of a face where it does not go on.
+#[test]
+fn no_light_enters_a_closed_smooth_mesh() {
     let tilted = [
         [1.0, 0.8, 0.0],
         [-1.0, 0.5, 0.9],
@@ -239,68 +281,24 @@ fn no_light_enters_a_closed_smooth_mesh() {
     ];
     let mirror = Standard {
         roughness: 0.0,
-        double_sided: true,
         ..Standard::default()
     };
-    for normals in [corners, tilted] {
-        for standard in [
-            Standard {
+    for normals in [CORNERS, tilted] {
+        for standard in [lambert([0.9; 3]), mirror.clone()] {
+            let standard = Standard {
                 double_sided: true,
-                ..lambert([0.9; 3])
-            },
-            mirror.clone(),
-        ] {
-            let mut scene = scene(16);
-            (scene.settings.max_depth, scene.environment) = (50, sky(1.0));
-            (scene.camera.eye, scene.camera.center) = ([0.1, 0.05, -0.02], [0.3, 0.2, -0.4]);
-            scene.meshes.push(Mesh {
-                positions: corners.to_vec().into(),
-                normals: normals.to_vec().into(),
-                triangles: triangles.clone().into(),
-                ..Mesh::default()
-            });
-            let world_from_object = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]];
-            let material = material(&mut scene, standard);
-            let shape = Shape::Instance(Instance {
-                mesh: MeshId(0),
-                world_from_object,
-            });
-            scene.surfaces.push(Surface { shape, material });
-            for direction in [[3.0, 4.0, 5.0], [-1.0, 0.2, 0.1], [0.3, -1.0, -0.4]] {
-                add_light(
-                    &mut scene,
-                    Punctual {
-                        emitter: Emitter::Sun { direction },
-                        intensity: [5.0; 3],
-                    },
-                );
-            }
-            let emitter = Emitter::Point {
-                position: [0.5, 0.6, 0.2],
-                range: None,
+                ..standard
             };
-            add_light(
-                &mut scene,
-                Punctual {
-                    emitter,
-                    intensity: [5.0; 3],
-                },
-            );
+            let mut scene = inside(octahedron(normals), standard);
+            add_lights(&mut scene);
             let film = render(&scene);
+            let counts = film.counts;
             assert!(
-                film.counts.hits == 16 * 256 && film.counts.mirror > 16 * 256,
-                "{:?}",
-                film.counts
+                counts.hits == 16 * 256 && counts.mirror > 16 * 256,
+                "{counts:?}"
             );
-            assert_eq!(
-                film.image
-                    .pixels
-                    .iter()
-                    .flatten()
-                    .filter(|value| **value != 0.0)
-                    .count(),
-                0
-            );
+            let values = film.image.pixels.iter().flatten();
+            assert_eq!(values.filter(|value| **value != 0.0).count(), 0);
         }
     }
 }

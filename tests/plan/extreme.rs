@@ -6,13 +6,13 @@ use super::dice::Dice;
 use super::{bits, film, proven};
 use rtc::codec::{self, Form};
 use rtc::diag::Sink;
-use rtc::ir::{Lowered, Material, Origins, Phong, Scene};
+use rtc::ir::{Light, Lowered, Material, Origins, Phong, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rule, Rules};
 use rtc::render::{Job, Values};
 use rtc::source::SourceMap;
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
+use std::fmt::{Debug, Write as _};
 
 fn is_sound(scene: &Scene) -> bool {
     let lowered = Lowered {
@@ -173,77 +173,70 @@ fn laws_hold_for_scenes_of_all_kinds() {
     );
 }
 
+/// Kinds of everything that scenes are made of.
+const KINDS: [&str; 25] = [
+    "Phong",
+    "Zbuffer",
+    "Normal",
+    "Gooch",
+    "Path",
+    "Perspective",
+    "Orthographic",
+    "Sphere",
+    "Plane",
+    "Triangle",
+    "Quad",
+    "Disc",
+    "Cylinder",
+    "Cone",
+    "Torus",
+    "Instance",
+    "soft or hard",
+    "Sun",
+    "Point",
+    "Spot",
+    "Standard",
+    "image",
+    "color",
+    "tiny",
+    "huge",
+];
+
+/// The name of a variant.
+fn word(value: &dyn Debug) -> String {
+    let text = format!("{value:?}");
+    text.split([' ', '(']).next().unwrap().to_owned()
+}
+
+/// The kinds of what a scene is made of.
+fn kinds(scene: &Scene) -> Vec<String> {
+    let mut kinds = vec![word(&scene.settings.mode), word(&scene.camera.projection)];
+    kinds.extend(scene.surfaces.iter().map(|surface| word(&surface.shape)));
+    kinds.extend(scene.lights.iter().map(|light| match light {
+        Light::Point(_) => "soft or hard".to_owned(),
+        Light::Punctual(light) => word(&light.emitter),
+    }));
+    kinds.extend(scene.materials.iter().map(|material| word(&material)));
+    if let Some(environment) = &scene.environment {
+        let has_image = environment.image.is_some();
+        kinds.push(if has_image { "image" } else { "color" }.to_owned());
+    }
+    let steps = scene.camera.right.iter();
+    let size = steps.fold(0.0, |size: f64, step| size.max(step.abs()));
+    let sizes = [("tiny", size < 1e-30), ("huge", size > 1e30)];
+    let sizes = sizes.iter().filter(|kind| kind.1);
+    kinds.extend(sizes.map(|kind| kind.0.to_owned()));
+    kinds
+}
+
 /// What is never made is never tested.
 #[test]
 fn scenes_of_all_kinds_are_made() {
-    let mut seen = BTreeSet::new();
-    let word = |value: &dyn std::fmt::Debug| {
-        format!("{value:?}")
-            .split([' ', '('])
-            .next()
-            .unwrap()
-            .to_owned()
-    };
-    for scene in (0..64)
+    let seen: BTreeSet<_> = (0..64)
         .map(|seed| Dice::new(seed).extreme())
         .filter(is_sound)
-    {
-        seen.insert(word(&scene.settings.mode));
-        seen.insert(word(&scene.camera.projection));
-        seen.extend(scene.surfaces.iter().map(|surface| word(&surface.shape)));
-        seen.extend(scene.lights.iter().map(|light| match light {
-            rtc::ir::Light::Point(_) => "soft or hard".to_owned(),
-            rtc::ir::Light::Punctual(light) => word(&light.emitter),
-        }));
-        seen.extend(scene.materials.iter().map(|material| word(&material)));
-        seen.extend(scene.environment.map(|environment| {
-            if environment.image.is_some() {
-                "image"
-            } else {
-                "color"
-            }
-            .to_owned()
-        }));
-        let size = scene
-            .camera
-            .right
-            .iter()
-            .fold(0.0, |size: f64, step| size.max(step.abs()));
-        seen.extend(
-            [("tiny", size < 1e-30), ("huge", size > 1e30)]
-                .iter()
-                .filter(|kind| kind.1)
-                .map(|kind| kind.0.to_owned()),
-        );
-    }
-    let modes = [
-        "Phong",
-        "Zbuffer",
-        "Normal",
-        "Gooch",
-        "Path",
-        "Perspective",
-        "Orthographic",
-    ];
-    let shapes = [
-        "Sphere", "Plane", "Triangle", "Quad", "Disc", "Cylinder", "Cone", "Torus", "Instance",
-    ];
-    let others = [
-        "soft or hard",
-        "Sun",
-        "Point",
-        "Spot",
-        "Standard",
-        "image",
-        "color",
-        "tiny",
-        "huge",
-    ];
-    let missing: Vec<_> = modes
-        .iter()
-        .chain(&shapes)
-        .chain(&others)
-        .filter(|kind| !seen.contains(**kind))
+        .flat_map(|scene| kinds(&scene))
         .collect();
+    let missing: Vec<_> = KINDS.iter().filter(|kind| !seen.contains(**kind)).collect();
     assert!(missing.is_empty(), "{missing:?} of {seen:?}");
 }

@@ -14,7 +14,7 @@ const GLTF: [&str; 2] = ["glb", "gltf"];
 pub(crate) fn trials() -> Vec<Trial> {
     let mut trials = each("paths: law", ASSETS, &GLTF, obeys_the_law);
     let name = format!("paths: told and counted/{ASSETS}");
-    trials.push(needs(name, ASSETS, |folder| is_told_rightly(&folder)));
+    trials.push(needs(name, ASSETS, is_told_rightly));
     trials
 }
 

@@ -56,10 +56,9 @@ impl Uses {
 
     fn add(&mut self, surface: usize, shape: &Shape, scene: &Proof) {
         let is_first = self.surfaces.is_empty();
-        let areas = areas(shape, scene);
-        for set in 0..2 {
-            self.sets[set] = self.sets[set].and(areas[set].is_some(), is_first);
-            self.areas[set] = self.areas[set].around(areas[set].unwrap_or(Area::NONE));
+        for (set, area) in areas(shape, scene).into_iter().enumerate() {
+            self.sets[set] = self.sets[set].and(area.is_some(), is_first);
+            self.areas[set] = self.areas[set].around(area.unwrap_or(Area::NONE));
         }
         if let Shape::Instance(instance) = shape {
             let colors = scene.meshes()[instance.mesh].colors.iter();

@@ -21,7 +21,6 @@ fn no_bounce(
     effect: Effect,
     asks: impl Fn(&Phong) -> bool,
 ) -> Option<Verdict> {
-    let settings_of_scene = findings.facts.scene.settings();
     let asked = findings.facts.materials.iter().any(&asks);
     if let Some(verdict) = findings.by_mode(effect, asked) {
         return Some(verdict);
@@ -30,7 +29,7 @@ fn no_bounce(
         return None;
     }
     let facts = vec![settings(Field::MaxDepth)];
-    if settings_of_scene.max_depth == 0 {
+    if findings.facts.scene.settings().max_depth == 0 {
         let words = "the scene allows no bounce";
         return Some(if asked {
             Verdict::pruned(effect, Rule::MirrorDepth, words, facts)
@@ -46,6 +45,11 @@ fn no_bounce(
             facts,
         ));
     }
+    Some(no_sight(findings, effect, asked))
+}
+
+/// Why there is nothing to see in mirrors, where bounces are allowed.
+fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
     if let Some(mirror) = findings.first(Look::mirrors) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
@@ -63,26 +67,21 @@ fn no_bounce(
                 "the mirrors that can be seen show nothing",
             )
         };
-        return Some(Verdict::pruned(effect, rule, words, facts));
+        return Verdict::pruned(effect, rule, words, facts);
     }
     if let Some(mirror) = findings.first_unseen(Look::mirrors).filter(|_| asked) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
-        return Some(Verdict::pruned(
-            effect,
-            Rule::Cull,
-            "no mirror can be seen",
-            facts,
-        ));
+        return Verdict::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
     }
     let facts = few(findings
         .reached()
         .map(|surface| findings.material(surface, Field::Ks)));
-    Some(Verdict::pruned(
+    Verdict::pruned(
         effect,
         Rule::MirrorKs,
         "ks is 0 on all that can be seen",
         facts,
-    ))
+    )
 }
 
 /// How many bounces follow the first hit.

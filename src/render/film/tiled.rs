@@ -32,7 +32,6 @@ impl<K> Tiled<K> {
 
     /// How many pixels there are.
     #[must_use]
-    #[expect(clippy::len_without_is_empty, reason = "a picture has pixels")]
     pub(in crate::render) fn len(&self) -> usize {
         self.pixels.len()
     }
