@@ -18,6 +18,8 @@ pub(super) struct WebP<'a> {
     pixel: u64,
     /// Bytes that it takes for the prefix codes.
     codes: u64,
+    /// What is wrong before the pixels: told once the memory for them is granted.
+    fault: Option<DecodeError>,
 }
 
 /// Reads all that stands before the pixels.
@@ -38,12 +40,16 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, WebP<'_>), D
         _ if decoder.has_animation() => 16,
         _ => 8,
     };
-    let codes = codes(Parts::of(bytes, size, decoder.has_animation())?)?;
+    let (codes, fault) = match Parts::of(bytes, size, decoder.has_animation()).and_then(codes) {
+        Ok(codes) => (codes, None),
+        Err(fault) => (0, Some(fault)),
+    };
     let webp = WebP {
         decoder,
         layout,
         pixel,
         codes,
+        fault,
     };
     Ok((size, webp))
 }
@@ -81,7 +87,10 @@ impl WebP<'_> {
     }
 
     pub(super) fn decode(self, into: &mut [u8]) -> Result<(), DecodeError> {
-        self.decoder.read_image(into).map_err(DecodeError::damaged)
+        match self.fault {
+            Some(fault) => Err(fault),
+            None => self.decoder.read_image(into).map_err(DecodeError::damaged),
+        }
     }
 }
 
