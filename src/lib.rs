@@ -1,14 +1,16 @@
 //! `rtc`, a compiler for 3-D scenes.
 //!
-//! A scene passes through these rooms, each of which names only rooms above it in this list:
+//! A scene passes through these rooms. A room may name only rooms of earlier lines; rooms of one line
+//! do not know each other (`tests/tidy.rs` checks it).
 //!
-//! 1. [`math`], [`color`], [`image`]: numbers, rays, bases, robust arithmetic; colour; pixel files.
-//! 2. [`source`]: files, their bytes, and spans into them.
+//! 1. [`math`], [`color`]: vectors, exact and robust arithmetic; colour spaces and tone curves.
+//! 2. [`image`]: pixel files. [`source`]: files, spans into them, limits, and
+//!    [`source::tree`], the spanned tree that YAML and JSON become.
 //! 3. [`diag`]: one diagnostic type, the table of codes, the printers.
-//! 4. [`ir`]: the intermediate representation, [`ir::Scene`], with a version.
-//! 5. [`front`] lowers what people write to the IR, and [`emit`] writes it back; [`codec`] turns the
-//!    IR into bytes and back;
-//!    [`passes`] change a scene as one run asks; [`valid`] proves a scene sound.
+//! 4. [`ir`]: the intermediate representation, [`ir::Scene`] and its nouns, with a version.
+//! 5. [`front`]: text to IR: the course's YAML, glTF, mesh files. [`emit`]: IR to text that people
+//!    read. [`codec`]: IR to bytes and back. [`passes`]: IR to IR, as one run asks: other settings,
+//!    another view, other light. [`valid`]: IR to proof.
 //! 6. [`plan`]: what the picture really needs, each omission with its reason.
 //! 7. [`render`]: a proven scene becomes a world, the world a film. It cannot fail.
 //! 8. [`study`]: accuracy against time: renders, measures, reports.

@@ -12,6 +12,7 @@ use crate::ir::{
 use crate::source::tree::{Tree, json};
 use crate::source::{Budget, FileId, Resource};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
 use serde_json::Value;
 use serde_json::error::Category;
 
@@ -157,6 +158,9 @@ struct Source<'a> {
     text: &'a str,
 }
 
+/// What is said of a text that is not JSON.
+const NOT_JSON: &str = "the text is not JSON";
+
 /// Bytes that each node of a tree may take while the tree grows.
 const NODE: u64 = 48;
 
@@ -186,7 +190,7 @@ impl<'a> Source<'a> {
             Category::Syntax | Category::Io => {
                 let start = self.text.floor_char_boundary(read.saturating_sub(1));
                 not_json(
-                    "the text is not JSON",
+                    NOT_JSON,
                     what,
                     place(start, self.text.ceil_char_boundary(read)),
                 )
@@ -194,8 +198,9 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The tree of the text; none if it is no JSON, or if there is no memory for a tree.
-    fn tree(&self, budget: &Budget) -> Option<Tree<'a>> {
+    /// The tree of the text, and whether it is JSON to its end: after a fault nothing is in the tree.
+    /// None if there is no memory for one.
+    fn tree(&self, budget: &Budget) -> Option<(Tree<'a>, bool)> {
         let begins_node = |byte: &u8| matches!(*byte, b',' | b':' | b'[' | b'{');
         let nodes = 1 + self.text.bytes().filter(begins_node).count() as u64;
         let cost = nodes
@@ -203,15 +208,23 @@ impl<'a> Source<'a> {
             .saturating_add(self.text.len() as u64);
         budget.has(Resource::Memory, cost).ok()?;
         let base = u32::try_from(self.base).ok()?;
-        json::parse(self.file, base, self.text).ok()
+        let (tree, fault) = json::begin(self.file, base, self.text);
+        Some((tree, fault.is_none()))
     }
 
     /// The fault that `serde_json` stopped at, and all others.
     fn faults(&self, first: &serde_json::Error, budget: &Budget) -> Vec<Diagnostic> {
-        let Some(tree) = self.tree(budget) else {
+        let Some((tree, is_json)) = self.tree(budget) else {
             return vec![self.fault(first, None)];
         };
         let first_fault = self.fault(first, Some(&tree));
+        if !is_json {
+            // The version is looked at before the text is read to its end.
+            let error = serde_json::from_str::<IgnoredAny>(self.text).err();
+            let error = error.filter(|_| first.is_data());
+            let second = error.map(|error| self.fault(&error, None));
+            return std::iter::once(first_fault).chain(second).collect();
+        }
         let mut faults = Vec::new();
         for faults::Fault {
             span,
@@ -219,7 +232,10 @@ impl<'a> Source<'a> {
             what,
         } in faults::all::<Document>(&tree)
         {
-            faults.push(wrong_shape(&what, span).pointer(pointer));
+            faults.push(match pointer {
+                Some(pointer) => wrong_shape(&what, span).pointer(pointer),
+                None => not_json(NOT_JSON, &what, span),
+            });
         }
         if !faults
             .iter()

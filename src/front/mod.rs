@@ -1,5 +1,5 @@
-//! Front ends: what people and tools write, lowered to the IR. One folder a language, and
-//! what decodes pictures within the budget for all of them.
+//! Front ends: what people and tools write, lowered to the IR. One folder a language: the course's
+//! YAML, glTF, mesh files; and pixel files, decoded within the budget for all of them.
 
 pub mod course;
 pub mod gltf;

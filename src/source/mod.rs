@@ -1,4 +1,5 @@
-//! Files, their bytes, and spans into them: every byte a person wrote has a place.
+//! Files, their bytes, spans into them, and trees of their texts: every byte a person wrote has a
+//! place.
 
 pub mod budget;
 mod loader;

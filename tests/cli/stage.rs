@@ -66,7 +66,7 @@ fn a_time_where_nothing_moves_is_a_warning() {
         "ball.json --time 1",
         "square.gltf --time 1",
     ] {
-        let output = rtc(folder.path(), &format!("render {words} -o -"));
+        let output = rtc(folder.path(), &format!("render {words} --size 16x16 -o -"));
         assert_eq!(code(&output), 0, "{words}: {}", stderr(&output));
         assert!(
             stderr(&output).contains("warning[GL049]"),

@@ -111,3 +111,33 @@ fn two_faults_of_one_entity_are_two_findings() {
         ]
     );
 }
+
+#[test]
+fn faults_of_the_version_and_of_json_are_two_findings() {
+    let found = all_faults(r#"{"irVersion": "3", "camera": [}"#);
+    let found: Vec<_> = found
+        .iter()
+        .map(|(code, pointer, what)| (*code, pointer.as_str(), what.as_str()))
+        .collect();
+    let version = "invalid type: string \"3\", expected u32";
+    let expected = [
+        ("IR003", "/irVersion", version),
+        ("IR002", "", "expected value"),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn numbers_out_of_range_are_told_each() {
+    let file = String::from_utf8(codec::encode(Form::Text, &small()).unwrap()).unwrap();
+    let text =
+        file.replacen("59.9", "1e400", 1)
+            .replacen("\"maxDepth\": 2", "\"maxDepth\": 1e999", 1);
+    let found = all_faults(&text);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(
+        found
+            .iter()
+            .all(|(code, _, what)| *code == "IR002" && what == "number out of range")
+    );
+}

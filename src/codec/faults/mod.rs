@@ -27,8 +27,8 @@ const MAX_RUNS: usize = 64;
 pub(super) struct Fault {
     /// The bytes that are wrong.
     pub(super) span: Span,
-    /// The way to them, a JSON pointer.
-    pub(super) pointer: String,
+    /// The way to them, a JSON pointer; none for what `serde_json` takes for a fault of JSON.
+    pub(super) pointer: Option<String>,
     /// What is wrong.
     pub(super) what: String,
 }
@@ -50,28 +50,28 @@ pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<Fault> {
 }
 
 fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: Part) -> Fault {
-    let whole = tree.span(at);
-    let span = match part {
-        Part::Whole => whole,
-        Part::Bracket => Span {
-            end: whole.start + 1,
-            ..whole
-        },
+    let Span { file, start, end } = tree.span(at);
+    let (start, end) = match part {
+        Part::Whole => (start, end),
+        Part::Bracket => (start, start + 1),
+        Part::LastDigit => (end - 1, end),
     };
     Fault {
-        span,
-        pointer: tree.pointer(at),
+        span: Span::new(file, start, end),
+        pointer: (part != Part::LastDigit).then(|| tree.pointer(at)),
         what,
     }
 }
 
 /// What is wrong of a node.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Part {
     /// All of it.
     Whole,
     /// The bracket that opens it: something else than a list or map should be here.
     Bracket,
+    /// The last digit of a number that a 64-bit float can't hold.
+    LastDigit,
 }
 
 /// The fields of a struct: they name it.

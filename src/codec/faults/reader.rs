@@ -48,6 +48,10 @@ impl Number {
         }
     }
 
+    fn is_out_of_range(self) -> bool {
+        matches!(self, Self::Float(number) if number.is_infinite())
+    }
+
     fn unexpected(self) -> Unexpected<'static> {
         match self {
             Self::Unsigned(number) => Unexpected::Unsigned(number),
@@ -81,9 +85,16 @@ impl<'n, 't> Reader<'n, 't> {
         self.at.map(|at| self.notes.tree.kind(at))
     }
 
+    /// The number of the node; 0 for one that is out of range, which is noted.
     fn number(self) -> Option<Number> {
         let at = self.at.filter(|_| self.kind() == Some(Kind::Number))?;
-        Some(Number::of(self.notes.tree.written(at)))
+        let number = Number::of(self.notes.tree.written(at));
+        if !number.is_out_of_range() {
+            return Some(number);
+        }
+        let what = "number out of range".to_owned();
+        self.notes.note(at, Part::LastDigit, what);
+        Some(Number::Unsigned(0))
     }
 
     fn text(self) -> Option<&'n str> {
@@ -103,6 +114,11 @@ impl<'n, 't> Reader<'n, 't> {
             }
             Kind::Number => {
                 let number = Number::of(self.notes.tree.written(at));
+                if number.is_out_of_range() {
+                    // That is said instead.
+                    self.number();
+                    return;
+                }
                 (number.unexpected(), Part::Whole)
             }
             Kind::Word | Kind::Text => (
@@ -210,7 +226,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         let value: Result<V::Value, Error> = match kind {
             Kind::Null => visitor.visit_unit(),
             Kind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
-            Kind::Number => Number::of(tree.written(at)).visit(visitor),
+            Kind::Number => self.number().unwrap_or(Number::Unsigned(0)).visit(visitor),
             Kind::Word | Kind::Text => visitor.visit_str(self.text().unwrap_or_default()),
             Kind::List => visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None)),
             Kind::Map => visitor.visit_map(Members::any(self.notes, at)),

@@ -193,16 +193,28 @@ impl<'s> Tree<'s> {
     /// As written; for an alias, the alias.
     #[must_use]
     pub fn written(&self, id: NodeId) -> &'s str {
-        let node = self.node(id);
+        self.word(self.node(id))
+    }
+
+    fn word(&self, node: Node) -> &'s str {
         self.slice(node.start..node.end)
             .expect("a node starts and ends between characters")
+    }
+
+    /// The node that is meant, aliases followed.
+    fn meant(&self, id: NodeId) -> Node {
+        let node = self.node(id);
+        if node.form == Form::Alias {
+            self.node(NodeId(node.link))
+        } else {
+            node
+        }
     }
 
     /// What the node is, aliases followed.
     #[must_use]
     pub fn kind(&self, id: NodeId) -> Kind {
-        let node = self.node(id);
-        match node.form {
+        match self.meant(id).form {
             Form::Null => Kind::Null,
             Form::Bool => Kind::Bool,
             Form::Number => Kind::Number,
@@ -210,32 +222,33 @@ impl<'s> Tree<'s> {
             Form::Quoted | Form::Cooked => Kind::Text,
             Form::List => Kind::List,
             Form::Map => Kind::Map,
-            Form::Alias => self.kind(NodeId(node.link)),
+            Form::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
     /// What the node is, with its text, aliases followed.
     #[must_use]
     pub fn shape(&self, id: NodeId) -> Shape<'_> {
-        let id = self.target(id);
-        match self.kind(id) {
-            Kind::Null | Kind::Bool | Kind::Number | Kind::Word => Shape::Word(self.written(id)),
-            Kind::Text => Shape::Text(self.quoted(self.node(id))),
-            Kind::List => Shape::List,
-            Kind::Map => Shape::Map,
+        let node = self.meant(id);
+        match node.form {
+            Form::Null | Form::Bool | Form::Number | Form::Word => Shape::Word(self.word(node)),
+            Form::Quoted | Form::Cooked => Shape::Text(self.quoted(node)),
+            Form::List => Shape::List,
+            Form::Map => Shape::Map,
+            Form::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
     /// Whether the node is a map, aliases followed.
     #[must_use]
     pub fn is_map(&self, id: NodeId) -> bool {
-        self.kind(id) == Kind::Map
+        self.meant(id).form == Form::Map
     }
 
     /// Whether the node is a list, aliases followed.
     #[must_use]
     pub fn is_list(&self, id: NodeId) -> bool {
-        self.kind(id) == Kind::List
+        self.meant(id).form == Form::List
     }
 
     /// What is said by a text in quotes or a block.
@@ -252,11 +265,12 @@ impl<'s> Tree<'s> {
     /// The text of a word, quoted or not; of JSON, of texts alone.
     #[must_use]
     pub fn text(&self, id: NodeId) -> Option<&str> {
-        let id = self.target(id);
-        match self.kind(id) {
-            Kind::Text => Some(self.quoted(self.node(id))),
-            Kind::Word => Some(self.written(id)),
-            Kind::Null | Kind::Bool | Kind::Number | Kind::List | Kind::Map => None,
+        let node = self.meant(id);
+        match node.form {
+            Form::Quoted | Form::Cooked => Some(self.quoted(node)),
+            Form::Word => Some(self.word(node)),
+            Form::Null | Form::Bool | Form::Number | Form::List | Form::Map => None,
+            Form::Alias => unreachable!("an alias never stands for another"),
         }
     }
 

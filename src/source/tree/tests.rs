@@ -178,3 +178,17 @@ fn depth_is_bounded() {
         512
     );
 }
+
+#[test]
+fn a_text_up_to_its_fault_is_a_tree() {
+    let (tree, fault) = json::begin(file(), 0, r#"{"a": [1, {"b": 2, "c" x"#);
+    assert_eq!(fault.map(|fault| fault.at), Some(23));
+    let list = tree.get(tree.root(), "a").unwrap();
+    let inner = tree.items(list).nth(1).unwrap();
+    let two = tree.get(inner, "b").unwrap();
+    assert_eq!(
+        (tree.whole(two), tree.pointer(two).as_str()),
+        (Some(2), "/a/1/b")
+    );
+    assert_eq!(tree.place(inner), (10, 23));
+}

@@ -29,14 +29,29 @@ impl From<(usize, &'static str)> for Fault {
 /// # Errors
 /// The first fault.
 pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
+    match begin(file, base, text) {
+        (tree, None) => Ok(tree),
+        (_, Some(fault)) => Err(fault),
+    }
+}
+
+/// Parses `text` up to the first fault; what is open there ends there.
+#[must_use]
+pub fn begin(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<Fault>) {
     let mut scan = Scan {
         bytes: text.as_bytes(),
         at: 0,
         tree: Tree::new(file, base, text),
         open: Vec::new(),
     };
-    scan.document()?;
-    Ok(scan.tree)
+    let fault = scan.document().err();
+    let end = to_u32(scan.at);
+    let after = to_u32(scan.tree.nodes.len());
+    for (index, _) in scan.open {
+        let node = &mut scan.tree.nodes[index as usize];
+        (node.end, node.link) = (end, after);
+    }
+    (scan.tree, fault)
 }
 
 struct Scan<'s> {
