@@ -12,7 +12,7 @@ use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
 use crate::plan::Plan;
-use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, Proceed};
+use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, OnPixel};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof};
@@ -157,12 +157,12 @@ impl Renderer {
         Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
-    /// Renders a picture. `None` if `proceed` said stop.
+    /// Renders a picture. `None` if `on_pixel` said stop.
     ///
-    /// `proceed` is called from all threads, after each pixel and within long ones.
+    /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
-        self.pool.install(|| self.world.render(job, proceed))
+    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+        self.pool.install(|| self.world.render(job, on_pixel))
     }
 
     /// Renders the scene that it was made of until a goal is reached.
@@ -179,16 +179,16 @@ impl Renderer {
         pool.install(|| study::approach(world, scene, order, watch))
     }
 
-    /// Renders layers of a part of the picture. `None` if `proceed` said stop.
+    /// Renders layers of a part of the picture. `None` if `on_pixel` said stop.
     #[must_use]
     pub fn layers(
         &self,
         wanted: &[Aov],
         crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
+        on_pixel: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         self.pool
-            .install(|| self.world.layers(wanted, crop, &|_| proceed()))
+            .install(|| self.world.layers(wanted, crop, &|_| on_pixel()))
     }
 }
 
@@ -201,9 +201,9 @@ pub fn render(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Result<Option<Film>, ThreadPoolBuildError> {
-    Ok(Renderer::new(scene, plan, threads)?.render(job, proceed))
+    Ok(Renderer::new(scene, plan, threads)?.render(job, on_pixel))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and
@@ -216,9 +216,9 @@ pub fn verify(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Result<Option<Result<Film, Fault>>, ThreadPoolBuildError> {
-    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, proceed)))
+    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
 /// So many threads, 0 for one per core.

@@ -3,8 +3,8 @@
 use super::Failure;
 use super::args::{self, Bits};
 use crate::color::Tone;
-use crate::image::{self, Association, Backdrop, Image, Lost, Origin, Picture};
-use crate::render::{Aov, Behind, Values};
+use crate::image::{self, Association, BackgroundFill, Image, Lost, Origin, Picture};
+use crate::render::{Aov, Background, Values};
 use crate::valid::Mode;
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub(super) struct Look {
     kind: Kind,
     tone: Option<Tone>,
     stops: f64,
-    backdrop: Backdrop,
+    background: BackgroundFill,
     /// The layers wanted, each once.
     pub(super) aovs: Vec<Aov>,
 }
@@ -50,7 +50,7 @@ impl Look {
             kind,
             tone,
             stops: args.exposure,
-            backdrop: args.background,
+            background: args.background,
             aovs,
         })
     }
@@ -70,11 +70,11 @@ impl Look {
     }
 
     /// What the film must show behind all surfaces.
-    pub(super) fn behind(&self) -> Behind {
-        if self.backdrop == Backdrop::Film {
-            Behind::Surroundings
+    pub(super) fn background(&self) -> Background {
+        if self.background == BackgroundFill::Film {
+            Background::Environment
         } else {
-            Behind::Nothing
+            Background::Nothing
         }
     }
 
@@ -83,10 +83,10 @@ impl Look {
         if self.stops != 0.0 {
             settings["exposure"] = self.stops.into();
         }
-        match self.backdrop {
-            Backdrop::Film => {}
-            Backdrop::Transparent => settings["background"] = "transparent".into(),
-            Backdrop::Color(color) => settings["background"] = color.to_vec().into(),
+        match self.background {
+            BackgroundFill::Film => {}
+            BackgroundFill::Transparent => settings["background"] = "transparent".into(),
+            BackgroundFill::Color(color) => settings["background"] = color.to_vec().into(),
         }
     }
 
@@ -111,7 +111,7 @@ impl Look {
         image::Look {
             stops: self.stops,
             tone,
-            backdrop: self.backdrop,
+            background: self.background,
         }
         .develop(film, coverage, association)
     }

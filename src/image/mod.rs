@@ -11,7 +11,7 @@ mod range;
 mod texels;
 
 pub use decode::{Cost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
-pub use look::{Association, Backdrop, Look};
+pub use look::{Association, BackgroundFill, Look};
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 pub use texels::{Texel, Texels};

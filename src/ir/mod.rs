@@ -35,7 +35,7 @@ pub use settings::{Gooch, Mode, Path, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };
-pub use stage::{Integrator, Stage, Sun, Surroundings, View};
+pub use stage::{EnvironmentOverride, Integrator, Stage, Sun, View};
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
 

@@ -19,7 +19,7 @@ pub struct Stage {
     /// By which integrator.
     pub integrator: Option<Integrator>,
     /// What surrounds it.
-    pub surroundings: Option<Surroundings>,
+    pub environment: Option<EnvironmentOverride>,
     /// The suns that are added.
     pub suns: Vec<Sun>,
     /// The lights of the scene are left out.
@@ -50,7 +50,7 @@ pub enum Integrator {
 
 /// What surrounds the scene.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Surroundings {
+pub enum EnvironmentOverride {
     /// The same radiance from every direction.
     Color([f64; 3]),
     /// A picture of all directions, of linear floats.
@@ -86,11 +86,11 @@ impl Stage {
             origins.forget(Noun::Light);
         }
         scene.lights.extend(self.suns.iter().map(Sun::light));
-        if let Some(surroundings) = &self.surroundings {
-            scene.environment = Some(surroundings.environment(scene));
+        if let Some(environment) = &self.environment {
+            scene.environment = Some(environment.environment(scene));
             origins.forget(Noun::Environment);
         }
-        let adds_light = !self.suns.is_empty() || self.surroundings.is_some();
+        let adds_light = !self.suns.is_empty() || self.environment.is_some();
         match self.integrator {
             Some(Integrator::Path) => trace_paths(scene),
             Some(Integrator::Whitted) => leave_paths(scene),
@@ -243,7 +243,7 @@ impl Sun {
     }
 }
 
-impl Surroundings {
+impl EnvironmentOverride {
     fn environment(&self, scene: &mut Scene) -> Environment {
         let (radiance, image) = match self {
             Self::Color(radiance) => (*radiance, None),

@@ -1,7 +1,7 @@
 //! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is
 //! a convex solid.
 
-use super::space::{Flat, ROOM, Sides, Space};
+use super::space::{Flat, MARGIN, Sides, Space};
 use crate::math::{Vec3, cross, unit};
 use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Proof, Quad, Shape, Sphere, Torus};
 use std::sync::Arc;
@@ -123,14 +123,14 @@ impl Body {
         Self::within(Space::of(quad.vertices), form)
     }
 
-    /// Makes room for points that are off by `blur`. Where that is no small part of the thickness,
+    /// Grows the body by the error of its points. Where that is no small part of the thickness,
     /// they may be anywhere on the surface, and its form says nothing of them.
-    fn blur(&mut self, blur: f64, thickness: f64) {
+    fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(space) = &mut self.extent {
-            *space = space.grown(blur);
+            *space = space.grown(error_bound);
         }
-        if blur > SMALL * thickness {
+        if error_bound > SMALL * thickness {
             self.form = Form::Other;
         }
     }
@@ -160,7 +160,7 @@ impl Body {
         };
         match self.form {
             Form::Ball(center, radius) => {
-                other.distance(center) > radius + 4.0 * ROOM * (space.size() + other.size())
+                other.distance(center) > radius + 4.0 * MARGIN * (space.size() + other.size())
             }
             Form::Flat(_) | Form::Convex | Form::Other => space.is_apart_from(other),
         }
@@ -183,7 +183,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
         .map(Space::size)
         .fold(eye, f64::max);
     for (body, shape) in bodies.iter_mut().zip(surfaces()) {
-        body.blur(ROOM * farthest, thickness(shape));
+        body.grow(MARGIN * farthest, thickness(shape));
     }
     bodies
 }
@@ -224,7 +224,7 @@ fn face([a, b, c]: [Vec3; 3]) -> Form {
 /// The box of a circle around an axis, with a tube around it.
 fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
-    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + ROOM * (radius + tube);
+    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
     Space::around(
         center,
         Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)),
@@ -241,7 +241,7 @@ fn placed(instance: &Instance, mesh: &Space) -> Space {
     let space = Space::of(mesh.corners().map(to_world));
     let terms = x.abs() + y.abs() + z.abs();
     let size = terms.max_element() * mesh.size() + origin.abs().max_element();
-    space.grown(ROOM * size / volume)
+    space.grown(MARGIN * size / volume)
 }
 
 #[cfg(test)]
@@ -269,7 +269,11 @@ mod tests {
             2.0,
             0.5,
         );
-        is_grown(found, span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]), 2.5 * ROOM);
+        is_grown(
+            found,
+            span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]),
+            2.5 * MARGIN,
+        );
     }
 
     #[test]
@@ -288,7 +292,7 @@ mod tests {
         is_grown(
             found,
             span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]),
-            (9.0 * 6.0 + 20.0) / 0.6 * ROOM,
+            (9.0 * 6.0 + 20.0) / 0.6 * MARGIN,
         );
     }
 
@@ -297,16 +301,16 @@ mod tests {
         let center = Vec3::X * 3.0;
         let ball = Body::within(Space::around(center, Vec3::ONE), Form::Ball(center, 1.0));
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
-        has_margin(4.0 * 13.0 * ROOM, |gap| ball.is_clear_of(&before(gap)));
+        has_margin(4.0 * 13.0 * MARGIN, |gap| ball.is_clear_of(&before(gap)));
         assert!(
-            !ball.is_clear_of(&before(4.0 * 13.0 * ROOM)),
+            !ball.is_clear_of(&before(4.0 * 13.0 * MARGIN)),
             "in doubt it is not"
         );
         let solid = Body {
             form: Form::Convex,
             ..ball
         };
-        has_margin(13.0 * ROOM, |gap| solid.is_clear_of(&before(gap)));
+        has_margin(13.0 * MARGIN, |gap| solid.is_clear_of(&before(gap)));
         let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
         assert!(
             ball.is_clear_of(&corner) && !solid.is_clear_of(&corner),
@@ -324,7 +328,7 @@ mod tests {
         let slim = [
             Vec3::ZERO,
             Vec3::X * 3.0,
-            Vec3::new((1.0 - ROOM).sqrt(), 1.0 / 65536.0, 0.0),
+            Vec3::new((1.0 - MARGIN).sqrt(), 1.0 / 65536.0, 0.0),
         ];
         assert!(matches!(face(slim), Form::Other), "in doubt it is");
         let Form::Flat(flat) = face(corners(1.0)) else {

@@ -22,9 +22,9 @@ pub use bsdf::{
     Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Lobes, Sample, Sheen, Standard, dispersed,
 };
 pub use camera::{camera_ray, image_point, vogel};
-pub use film::heartbeat::{Proceed, Step};
-pub use film::progressive::{ProgressiveFilm, Strands};
-pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use film::heartbeat::{OnPixel, Step};
+pub use film::progressive::{ProgressiveFilm, Replicates};
+pub use film::{Background, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
 pub use frame::verify::{Fault, verify};
 pub use integrator::aov::Aov;
 pub use integrator::path::Strategy;

@@ -23,7 +23,7 @@ impl Ray {
     /// of two, which rounds nothing.
     #[must_use]
     #[inline]
-    pub fn tamed(self) -> (Self, f64) {
+    pub fn rescaled(self) -> (Self, f64) {
         const MOST: f64 = 18_446_744_073_709_551_616.0;
         let size = self.direction.abs().max_element();
         if (1.0 / MOST..=MOST).contains(&size) {

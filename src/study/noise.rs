@@ -2,7 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use crate::render::{ProgressiveFilm, Strands};
+use crate::render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ impl Noise {
     pub(super) fn of(film: &ProgressiveFilm) -> Self {
         // The variance of the mean of two independent halves.
         let variance =
-            |pixel: &Strands| 0.25 * (pixel.variance_of_half(0) + pixel.variance_of_half(1));
+            |pixel: &Replicates| 0.25 * (pixel.variance_of_half(0) + pixel.variance_of_half(1));
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(variance) {
             sum += variance;
@@ -87,7 +87,7 @@ impl Allotment {
             .collect();
         let pixels = deviations.len().max(1) as f64;
         let mean = deviations.iter().flatten().sum::<f64>() / (2.0 * pixels);
-        let independent = |(pixel, [a, b]): (&Strands, &[f64; 2])| {
+        let independent = |(pixel, [a, b]): (&Replicates, &[f64; 2])| {
             0.125 * (a * a / f64::from(pixel.count(0)) + b * b / f64::from(pixel.count(1)))
         };
         let square = film.pixels().zip(&deviations).map(independent).sum::<f64>() / pixels;

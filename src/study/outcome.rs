@@ -2,7 +2,7 @@
 
 use super::knob::Knob;
 use super::metrics::Errors;
-use super::reference::{DepthEnd, Rung};
+use super::reference::{DepthEnd, Level};
 use super::setting::Setting;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
@@ -36,8 +36,9 @@ pub struct Part {
     pub tiles: usize,
     /// Pixels looked at.
     pub pixels: u64,
-    /// Their share of the picture.
-    pub share: f64,
+    /// Their fraction of the picture.
+    #[serde(rename = "share")]
+    pub fraction: f64,
 }
 
 /// The reference of a study.
@@ -61,7 +62,8 @@ pub struct KnobReport {
     /// Why it is not turned in this scene, if so.
     pub idle: Option<String>,
     /// Its values, all others as good as the reference.
-    pub rungs: Vec<Rung>,
+    #[serde(rename = "rungs")]
+    pub levels: Vec<Level>,
     /// The law of its error in samples, if there is one.
     pub law: Option<PowerLaw>,
 }

@@ -19,7 +19,7 @@ use rtc::ir::{
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Basic, Behind, Film, Job, Seeds, Strategy, Stride, Values, World};
+use rtc::render::{Background, Basic, Film, Job, Seeds, Strategy, Stride, Values, World};
 use rtc::valid::{self, Proof};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
@@ -144,7 +144,7 @@ const JOB: Job = Job {
     tiles: None,
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
-    behind: Behind::Surroundings,
+    background: Background::Environment,
     samples: None,
 };
 

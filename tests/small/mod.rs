@@ -6,7 +6,7 @@ use rtc::diag::Sink;
 use rtc::ir::{Lowered, Origins, Overrides, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Behind, Film, Job, Seeds, Stride, Values};
+use rtc::render::{Background, Film, Job, Seeds, Stride, Values};
 use rtc::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -64,7 +64,7 @@ pub(crate) const WHOLE: Job = Job {
     tiles: None,
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
-    behind: Behind::Surroundings,
+    background: Background::Environment,
     samples: None,
 };
 

@@ -76,7 +76,7 @@ impl Uses {
         let mut range = show(map, self.areas[set], scene);
         if self.sets[set] != Presence::Everywhere {
             // Without coordinates a map shows ones.
-            range = range.map(|[least, greatest]| [least.min(1.0), greatest.max(1.0)]);
+            range = range.map(|[min, max]| [min.min(1.0), max.max(1.0)]);
         }
         range
     }

@@ -93,9 +93,9 @@ impl Tables {
 }
 
 fn table(entry: impl Fn(f64, f64) -> [f64; 2]) -> Vec<[f64; 2]> {
-    let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
-    let cosine = |k: usize| (share(k, COSINES) * share(k, COSINES)).max(1e-6);
-    let row = |r: usize| (0..COSINES).map(move |k| (share(r, ROUGHNESSES), cosine(k)));
+    let fraction = |k: usize, count: usize| k as f64 / (count - 1) as f64;
+    let cosine = |k: usize| (fraction(k, COSINES) * fraction(k, COSINES)).max(1e-6);
+    let row = |r: usize| (0..COSINES).map(move |k| (fraction(r, ROUGHNESSES), cosine(k)));
     (0..ROUGHNESSES)
         .flat_map(row)
         .map(|(roughness, cosine)| entry(roughness, cosine))
@@ -148,8 +148,8 @@ fn between(row: &[[f64; 2]], cosine: f64) -> [f64; 2] {
     clippy::cast_sign_loss,
     reason = "clamped to the table"
 )]
-fn place(share: f64, count: usize) -> (usize, f64) {
-    let scaled = share.clamp(0.0, 1.0) * (count - 1) as f64;
+fn place(fraction: f64, count: usize) -> (usize, f64) {
+    let scaled = fraction.clamp(0.0, 1.0) * (count - 1) as f64;
     let entry = (scaled as usize).min(count - 2);
     (entry, scaled - entry as f64)
 }

@@ -13,7 +13,7 @@ pub(super) struct Coat {
     wo: Vec3,
     /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
     /// viewer.
-    pub(super) share: f64,
+    pub(super) weight: f64,
 }
 
 impl Coat {
@@ -21,12 +21,12 @@ impl Coat {
     pub(super) fn new(clearcoat: &Clearcoat, normal: Vec3, wo: Vec3) -> Option<Self> {
         let basis = Basis::around(normal);
         let wo = basis.to_local(wo);
-        let share = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
-        (wo.z > 0.0 && share > 0.0).then(|| Self {
+        let weight = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
+        (wo.z > 0.0 && weight > 0.0).then(|| Self {
             basis,
             ggx: Ggx::isotropic(clearcoat.roughness),
             wo,
-            share,
+            weight,
         })
     }
 

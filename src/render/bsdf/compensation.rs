@@ -104,19 +104,19 @@ impl Compensation {
     #[must_use]
     pub(super) fn f(&self, base: Vec3, cosine: f64) -> Vec3 {
         let e = tables().specular(self.roughness, cosine);
-        let share = |here: f64, there: f64, mean: f64| {
+        let fraction = |here: f64, there: f64, mean: f64| {
             if mean > 0.0 {
                 here * there / (mean * PI)
             } else {
                 0.0
             }
         };
-        let below = share(
+        let below = fraction(
             self.base.left,
             1.0 - self.base.covered(e),
             self.base.left_mean,
         );
-        let again = share(self.missing, 1.0 - e.whole(), self.missing_mean);
+        let again = fraction(self.missing, 1.0 - e.whole(), self.missing_mean);
         base * below.max(0.0) + self.returned * again.max(0.0)
     }
 }

@@ -49,7 +49,7 @@ impl Fresnel {
         let bare = self.f0 + (self.f90 - self.f0) * schlick(cosine);
         match &self.film {
             None => bare,
-            Some((film, share)) => bare.lerp(film.reflectance(self.f0, cosine), *share),
+            Some((film, fraction)) => bare.lerp(film.reflectance(self.f0, cosine), *fraction),
         }
     }
 

@@ -38,12 +38,12 @@ enum Crossing {
     /// Into a medium of the same index.
     Straight,
     /// Into a medium of another index.
-    Bent,
+    Refracted,
 }
 
 /// What a microfacet does with light at one angle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shares {
+pub(super) struct LobeWeights {
     /// Reflected.
     pub(super) reflected: Vec3,
     /// Let in by the dielectric part.
@@ -52,9 +52,9 @@ pub(super) struct Shares {
     pub(super) through: Vec3,
 }
 
-impl Shares {
+impl LobeWeights {
     /// The probability of sampling the reflection.
-    fn chance(&self) -> f64 {
+    fn lobe_pdf(&self) -> f64 {
         let (reflected, through) = (self.reflected.max_element(), self.through.max_element());
         if through > 0.0 {
             reflected / (reflected + through)
@@ -65,7 +65,7 @@ impl Shares {
 }
 
 /// A direction that microfacets scatter to.
-pub(super) enum Way {
+pub(super) enum ScatteredDirection {
     /// One of a lobe.
     Lobe(Vec3),
     /// A single one, with the share of the light and the probability of taking it.
@@ -102,7 +102,7 @@ impl<const F: u32> Microfacet<F> {
         let crossing = match standard.thin_walled {
             true => Crossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
-            false => Crossing::Bent,
+            false => Crossing::Refracted,
         };
         Self {
             ggx,
@@ -165,9 +165,9 @@ impl<const F: u32> Microfacet<F> {
     }
 
     /// What a microfacet that meets light at the cosine given does with it.
-    pub(super) fn shares(&self, cosine: f64) -> Shares {
+    pub(super) fn weights(&self, cosine: f64) -> LobeWeights {
         if self.is_dark() {
-            return Shares {
+            return LobeWeights {
                 reflected: Vec3::ZERO,
                 entering: 1.0,
                 through: self.tint,
@@ -179,7 +179,7 @@ impl<const F: u32> Microfacet<F> {
             0.0 => dielectric,
             metallic => dielectric.lerp(self.metal().at(cosine), metallic),
         };
-        Shares {
+        LobeWeights {
             reflected,
             entering,
             through: self.tint * entering,
@@ -196,15 +196,21 @@ impl<const F: u32> Microfacet<F> {
     }
 
     /// Both directions above.
-    pub(super) fn reflected(&self, wo: Vec3, wi: Vec3, h: Vec3, shares: &Shares) -> Evaluation {
+    pub(super) fn reflected(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        h: Vec3,
+        weights: &LobeWeights,
+    ) -> Evaluation {
         if self.smooth {
             return Evaluation::NONE;
         }
         let density = self.ggx.density(h);
-        let f = shares.reflected * (density * self.ggx.visibility(wo, wi));
+        let f = weights.reflected * (density * self.ggx.visibility(wo, wi));
         Evaluation {
             f,
-            pdf: shares.chance() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
+            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
         }
     }
 
@@ -218,55 +224,55 @@ impl<const F: u32> Microfacet<F> {
             Crossing::Wall => {
                 let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
                 let h = (wo + mirrored).normalize();
-                let shares = self.shares(wo.dot(h));
-                let f = shares.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
+                let weights = self.weights(wo.dot(h));
+                let f = weights.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
                 Evaluation {
                     f,
-                    pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) / 4.0,
+                    pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) / 4.0,
                 }
             }
-            Crossing::Bent => self.bent(wo, wi),
+            Crossing::Refracted => self.refracted(wo, wi),
         }
     }
 
     /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007),
     /// equation 21.
-    fn bent(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+    fn refracted(&self, wo: Vec3, wi: Vec3) -> Evaluation {
         let half = wo + wi * self.eta;
         let h = (half * half.z.signum()).normalize_or_zero();
         let (o, i) = (wo.dot(h), wi.dot(h));
         if o <= 0.0 || i >= 0.0 {
             return Evaluation::NONE;
         }
-        let shares = self.shares(o);
+        let weights = self.weights(o);
         // How fast the direction turns with the normal: |ω_i·h|/(ω_i·h + ω_o·h/η)².
         let root = i + o / self.eta;
         let turn = -i / (root * root);
         let f =
-            shares.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
+            weights.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
         Evaluation {
             f,
-            pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) * o * turn,
+            pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) * o * turn,
         }
     }
 
     /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on
     /// the wrong side.
-    pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<Way> {
+    pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<ScatteredDirection> {
         let h = if self.smooth {
             Vec3::Z
         } else {
             self.ggx.visible_normal(wo, u)
         };
         let cosine = wo.dot(h);
-        let shares = self.shares(cosine);
-        let chance = shares.chance();
+        let weights = self.weights(cosine);
+        let chance = weights.lobe_pdf();
         if choice < chance {
             let wi = h * (2.0 * cosine) - wo;
             let way = if self.smooth {
-                Way::Single(wi, shares.reflected, chance)
+                ScatteredDirection::Single(wi, weights.reflected, chance)
             } else {
-                Way::Lobe(wi)
+                ScatteredDirection::Lobe(wi)
             };
             return (wi.z > 0.0).then_some(way);
         }
@@ -276,15 +282,15 @@ impl<const F: u32> Microfacet<F> {
                 let mirrored = h * (2.0 * cosine) - wo;
                 Vec3::new(mirrored.x, mirrored.y, -mirrored.z)
             }
-            Crossing::Bent => {
+            Crossing::Refracted => {
                 h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
             }
         };
         let single = self.smooth || self.crossing == Crossing::Straight;
         let way = if single {
-            Way::Single(wi, shares.through, 1.0 - chance)
+            ScatteredDirection::Single(wi, weights.through, 1.0 - chance)
         } else {
-            Way::Lobe(wi)
+            ScatteredDirection::Lobe(wi)
         };
         (wi.z < 0.0).then_some(way)
     }

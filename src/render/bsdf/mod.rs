@@ -24,7 +24,7 @@ use crate::math::Vec3;
 use crate::plan::PathFeatures;
 use coat::Coat;
 use compensation::Compensation;
-use microfacet::{Microfacet, Shares, Way};
+use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
 use sheen::Fibres;
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
@@ -83,28 +83,28 @@ pub struct Lobes<const F: u32> {
     compensation: Option<Compensation>,
     sheen: Option<Fibres>,
     coat: Option<Coat>,
-    chances: Chances,
+    lobe_pdf: LobePdf,
 }
 
 /// The probabilities of the ways to sample; they sum to 1, or to 0 for a black surface.
 #[derive(Clone, Copy, Debug)]
-struct Chances {
+struct LobePdf {
     cosine: f64,
     microfacet: f64,
     coat: f64,
 }
 
-impl Chances {
+impl LobePdf {
     /// Chances proportional to estimates of what each way brings, of a base and microfacets below
     /// the layers given.
     #[inline]
-    fn new(base: Vec3, shares: &Shares, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
+    fn new(base: Vec3, weights: &LobeWeights, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
         let mut cosine = base.max_element().max(0.0);
-        let mut microfacet = shares.reflected.max_element() + shares.through.max_element();
+        let mut microfacet = weights.reflected.max_element() + weights.through.max_element();
         if let Some(sheen) = sheen {
             (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
         }
-        let coat = coat.map_or(0.0, |coat| coat.share);
+        let coat = coat.map_or(0.0, |coat| coat.weight);
         let whole = (cosine + microfacet) * (1.0 - coat) + coat;
         let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         let below = scale * (1.0 - coat);
@@ -152,13 +152,13 @@ impl<const F: u32> Lobes<F> {
         let compensation = compensates.then(|| microfacet.compensation(wo.z));
         let base = match &compensation {
             // The half-way vector is seldom as grazing as the view.
-            None => diffuse * microfacet.shares(1.0).entering,
+            None => diffuse * microfacet.weights(1.0).entering,
             Some(compensation) => diffuse * compensation.base_albedo() + compensation.albedo(),
         };
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
-        let chances = Chances::new(
+        let lobe_pdf = LobePdf::new(
             base,
-            &microfacet.shares(wo.z),
+            &microfacet.weights(wo.z),
             sheen.as_ref(),
             coat.as_ref(),
         );
@@ -170,7 +170,7 @@ impl<const F: u32> Lobes<F> {
             compensation,
             sheen,
             coat,
-            chances,
+            lobe_pdf,
         }
     }
 
@@ -206,7 +206,7 @@ impl<const F: u32> Lobes<F> {
     #[must_use]
     pub fn is_delta(&self) -> bool {
         let coat = self.coat().is_none_or(Coat::is_smooth);
-        self.chances.cosine == 0.0 && self.microfacet.is_smooth() && coat
+        self.lobe_pdf.cosine == 0.0 && self.microfacet.is_smooth() && coat
     }
 
     /// The BSDF and the density of [`Bsdf::sample`] for light from `wi`.
@@ -225,17 +225,17 @@ impl<const F: u32> Lobes<F> {
         } else {
             self.microfacet.through(self.wo, wi)
         };
-        sum.pdf *= self.chances.microfacet;
+        sum.pdf *= self.lobe_pdf.microfacet;
         if above {
-            sum.pdf += self.chances.cosine * cosine_density(wi);
+            sum.pdf += self.lobe_pdf.cosine * cosine_density(wi);
         }
         if let Some(sheen) = self.sheen() {
             sum.f = sheen.over(sum.f, self.wo, wi);
         }
         if let Some(coat) = self.coat() {
             let (f, pdf) = if above { coat.evaluate(wi) } else { (0.0, 0.0) };
-            sum.f = sum.f.lerp(Vec3::splat(f), coat.share);
-            sum.pdf += self.chances.coat * pdf;
+            sum.f = sum.f.lerp(Vec3::splat(f), coat.weight);
+            sum.pdf += self.lobe_pdf.coat * pdf;
         }
         sum
     }
@@ -250,10 +250,10 @@ impl<const F: u32> Lobes<F> {
             };
         }
         let h = (self.wo + wi).normalize();
-        let shares = self.microfacet.shares(self.wo.dot(h));
-        let mut sum = self.microfacet.reflected(self.wo, wi, h, &shares);
+        let weights = self.microfacet.weights(self.wo.dot(h));
+        let mut sum = self.microfacet.reflected(self.wo, wi, h, &weights);
         sum.f += match self.compensation() {
-            None => self.diffuse * (shares.entering * FRAC_1_PI),
+            None => self.diffuse * (weights.entering * FRAC_1_PI),
             Some(compensation) => compensation.f(self.diffuse, wi.z),
         };
         sum
@@ -262,11 +262,11 @@ impl<const F: u32> Lobes<F> {
     /// A direction for three numbers in [0, 1); `None` where nothing is scattered.
     #[must_use]
     pub fn sample(&self, u: [f64; 3]) -> Option<Sample> {
-        let Chances {
+        let LobePdf {
             cosine,
             microfacet,
             coat,
-        } = self.chances;
+        } = self.lobe_pdf;
         let rest = [u[1], u[2]];
         if u[0] < cosine {
             return self.in_lobe(cosine_direction(rest));
@@ -274,11 +274,11 @@ impl<const F: u32> Lobes<F> {
         let left = u[0] - cosine;
         if left < microfacet {
             return match self.microfacet.sample(self.wo, left / microfacet, rest)? {
-                Way::Lobe(wi) => self.in_lobe(wi),
-                Way::Single(wi, share, chance) => {
+                ScatteredDirection::Lobe(wi) => self.in_lobe(wi),
+                ScatteredDirection::Single(wi, weight, pdf) => {
                     let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
-                    let covered = self.coat().map_or(0.0, |coat| coat.share);
-                    self.single(wi, share * (left * (1.0 - covered)), microfacet * chance)
+                    let covered = self.coat().map_or(0.0, |coat| coat.weight);
+                    self.single(wi, weight * (left * (1.0 - covered)), microfacet * pdf)
                 }
             };
         }
@@ -286,7 +286,7 @@ impl<const F: u32> Lobes<F> {
         let wi = layer.sample(rest);
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,
-            true => self.single(wi, Vec3::splat(layer.share), coat),
+            true => self.single(wi, Vec3::splat(layer.weight), coat),
             false => self.in_lobe(wi),
         }
     }

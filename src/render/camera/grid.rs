@@ -1,7 +1,7 @@
 //! The samples of a pixel that a scene of the course asks for: sub-samples in cells, and for each
 //! of them points of the lens.
 
-use super::{Twist, image_point, lens_point, lens_samples, ray_through};
+use super::{CranleyPatterson, image_point, lens_point, lens_samples, ray_through};
 use crate::math::Vec3;
 use crate::render::film::Seeds;
 use crate::render::ray::Ray;
@@ -22,7 +22,7 @@ pub(in crate::render) struct Grid {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Cell {
     target: Vec3,
-    twist: Twist,
+    rotated: CranleyPatterson,
 }
 
 impl Grid {
@@ -72,7 +72,7 @@ impl Grid {
         );
         Cell {
             target: image_point(camera, pixel, place),
-            twist: Twist::new(seeds.lens, key),
+            rotated: CranleyPatterson::new(seeds.lens, key),
         }
     }
 
@@ -94,7 +94,7 @@ impl Grid {
 impl Cell {
     /// The ray from point k of the lens.
     pub(in crate::render) fn ray(&self, camera: &Camera, k: u32) -> Ray {
-        ray_through(camera, lens_point(camera, k, self.twist), self.target)
+        ray_through(camera, lens_point(camera, k, self.rotated), self.target)
     }
 }
 

@@ -55,12 +55,12 @@ pub(in crate::render) fn lens_samples(lens: &Lens) -> u32 {
 /// construct the sunflower head", Mathematical Biosciences 44 (1979)).
 #[must_use]
 pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
-    Twist::NONE.vogel(k, n, radius, pixel)
+    CranleyPatterson::NONE.vogel(k, n, radius, pixel)
 }
 
 /// How a spiral is turned, and how far its points are pushed outwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::render) struct Twist {
+pub(in crate::render) struct CranleyPatterson {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
     /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is
@@ -68,7 +68,7 @@ pub(in crate::render) struct Twist {
     shift: f64,
 }
 
-impl Twist {
+impl CranleyPatterson {
     /// The plain spiral.
     const NONE: Self = Self {
         rotation: 0,
@@ -100,7 +100,7 @@ const LENS: u64 = u64::MAX - 1;
 
 /// The origin of a ray for a place in the unit square: uniform over the lens if that is.
 #[must_use]
-pub(in crate::render) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
+pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let radius = camera.lens.radius.get();
@@ -113,17 +113,17 @@ pub(in crate::render) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Ve
         reason = "a share of a turn, below one"
     )]
     let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
-    let r = radius * share.sqrt() / camera.up.length();
+    let r = radius * fraction.sqrt() / camera.up.length();
     camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)
 }
 
 /// The origin of ray k of a sub-sample.
 #[must_use]
-pub(in crate::render) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {
+pub(in crate::render) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
     let n = lens_samples(&camera.lens);
-    if n == 1 && twist == Twist::NONE {
+    if n == 1 && rotated == CranleyPatterson::NONE {
         return camera.eye;
     }
-    let [across, upward] = twist.vogel(k, n, camera.lens.radius.get(), camera.up.length());
+    let [across, upward] = rotated.vogel(k, n, camera.lens.radius.get(), camera.up.length());
     camera.eye + camera.right * across + camera.up * upward
 }

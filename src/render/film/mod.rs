@@ -27,7 +27,7 @@ pub struct Job {
     /// Which pixels are rendered; the others stay black.
     pub stride: Stride,
     /// What is seen past all surfaces.
-    pub behind: Behind,
+    pub background: Background,
     /// At most so many samples a pixel, the first of those that the scene asks for.
     pub samples: Option<NonZeroU32>,
 }
@@ -35,10 +35,10 @@ pub struct Job {
 /// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
 /// case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Behind {
+pub enum Background {
     /// The surroundings of the scene; black if it has none.
     #[default]
-    Surroundings,
+    Environment,
     /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
     Nothing,
 }

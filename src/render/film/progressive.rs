@@ -7,14 +7,14 @@
 
 use super::pixel::{Accumulator, Asked, Sample, SampleId, Stream};
 use super::tiled::Tiled;
-use super::{Behind, Counts, Crop, Values, coverage};
+use super::{Background, Counts, Crop, Values, coverage};
 use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
 
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Strands {
+pub struct Replicates {
     /// How the mean of the samples is shown; none where each is clamped to [0, 1].
     tone: Option<Tone>,
     /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the
@@ -35,8 +35,8 @@ pub struct Strands {
 pub struct ProgressiveFilm {
     seed: u64,
     /// What it shows behind all surfaces, where paths are traced.
-    pub behind: Behind,
-    pub(in crate::render) pixels: Tiled<Strands>,
+    pub background: Background,
+    pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
 }
@@ -48,8 +48,8 @@ impl ProgressiveFilm {
     pub fn new(crop: Crop, seed: u64) -> Self {
         Self {
             seed,
-            behind: Behind::default(),
-            pixels: Tiled::new(crop, Strands::default()),
+            background: Background::default(),
+            pixels: Tiled::new(crop, Replicates::default()),
             counts: Counts::default(),
         }
     }
@@ -68,19 +68,19 @@ impl ProgressiveFilm {
     }
 
     /// The pixels row by row.
-    pub fn pixels(&self) -> impl Iterator<Item = &Strands> {
+    pub fn pixels(&self) -> impl Iterator<Item = &Replicates> {
         self.pixels.iter()
     }
 
     /// A pixel, counted row by row.
     #[must_use]
-    pub fn pixel(&self, index: usize) -> &Strands {
+    pub fn pixel(&self, index: usize) -> &Replicates {
         self.pixels.at(index)
     }
 
     /// The samples that a pixel lacks of those wanted: per half, how many each of its strands is
     /// to have at least.
-    pub(in crate::render) fn lacking(seed: u64, pixel: &Strands, wanted: [u32; 2]) -> Asked {
+    pub(in crate::render) fn lacking(seed: u64, pixel: &Replicates, wanted: [u32; 2]) -> Asked {
         let strand = |strand: usize| {
             let number = (seed << 2 | strand as u64).wrapping_add(1);
             let samples = pixel.counts[strand / 2]..wanted[strand / 2];
@@ -97,7 +97,7 @@ impl ProgressiveFilm {
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
-        self.pixels().map(Strands::samples).sum()
+        self.pixels().map(Replicates::samples).sum()
     }
 
     /// The picture so far; black where nothing was sampled.
@@ -116,11 +116,11 @@ impl ProgressiveFilm {
     /// Of each pixel the share of the samples that met a surface.
     #[must_use]
     pub fn coverage(&self) -> Vec<f32> {
-        self.pixels().map(Strands::coverage).collect()
+        self.pixels().map(Replicates::coverage).collect()
     }
 }
 
-impl Strands {
+impl Replicates {
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
@@ -195,7 +195,7 @@ impl Strands {
     }
 }
 
-impl Accumulator for Strands {
+impl Accumulator for Replicates {
     type Sample = Sample;
     type Kept = Self;
 

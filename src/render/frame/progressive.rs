@@ -2,9 +2,9 @@
 
 use super::{Selection, run};
 use crate::color::Tone;
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Sample;
-use crate::render::film::progressive::{ProgressiveFilm, Strands};
+use crate::render::film::progressive::{ProgressiveFilm, Replicates};
 use crate::render::integrator::Integrator;
 use crate::render::integrator::path::{PathTracer, Strategy};
 use crate::render::integrator::whitted::Tracer;
@@ -23,12 +23,12 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return dispatch_paths!(self.grow_paths(path, film, wanted, proceed));
+            return dispatch_paths!(self.grow_paths(path, film, wanted, on_pixel));
         }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, proceed))
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, on_pixel))
     }
 
     /// Grows by tracing paths with the features `F`.
@@ -37,12 +37,12 @@ impl<S: Geometry> World<S> {
         path: Path,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
-        let (lights, behind) = (Lights::new(self, Strategy::Mis), film.behind);
-        let tracer = || PathTracer::<S, F>::new(self, &lights, path, Strategy::Mis, proceed);
+        let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
+        let tracer = || PathTracer::<S, F>::new(self, &lights, path, Strategy::Mis, on_pixel);
         let tone = self.scene.settings().mode.tone();
-        add_samples(film, wanted, Some(tone), || tracer().before(behind))
+        add_samples(film, wanted, Some(tone), || tracer().before(background))
     }
 
     /// Grows with the features `F`.
@@ -50,10 +50,10 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
         add_samples(film, wanted, None, || {
-            Tracer::<S, F>::new(self, proceed).spread()
+            Tracer::<S, F>::new(self, on_pixel).spread()
         })
     }
 }
@@ -67,7 +67,7 @@ fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
     worker: impl Fn() -> I + Sync + Send,
 ) -> bool {
     let seed = film.seed();
-    let open = |_: [u32; 2], index: usize, pixel: &Strands| {
+    let open = |_: [u32; 2], index: usize, pixel: &Replicates| {
         (
             pixel.toned(tone),
             ProgressiveFilm::lacking(seed, pixel, wanted(index)),

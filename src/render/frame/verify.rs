@@ -2,7 +2,7 @@
 //! the plan says adds nothing is looked at where it is added.
 
 use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::shape::Shape;
 use crate::render::shape::plain::PlainShape;
@@ -57,7 +57,7 @@ impl Verify {
     }
 }
 
-/// Renders as planned and without rules, and compares: `None` if `proceed` said stop, else the film
+/// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the film
 /// as planned, or the first fault.
 ///
 /// # Errors
@@ -66,18 +66,18 @@ pub fn verify(
     scene: &Proof,
     plan: &Plan,
     job: &Job,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Option<Result<Film, Fault>> {
-    let planned = any::render(scene, plan, job, proceed)?;
+    let planned = any::render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
-        Arithmetic::Robust => naively::<Shape>(scene, plan, job, proceed)?,
-        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, proceed)?,
-        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, proceed)?,
+        Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
+        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, on_pixel)?,
+        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, on_pixel)?,
     };
     if !plan.rules.contains(Rule::Cut)
         && let Some((pixel, color)) = first_difference(&planned, &naive, job)
     {
-        verify.keep(blame(scene, plan, job, pixel, color, proceed)?);
+        verify.keep(blame(scene, plan, job, pixel, color, on_pixel)?);
     }
     let first = verify
         .first
@@ -91,14 +91,14 @@ fn naively<S: Prepare>(
     scene: &Proof,
     plan: &Plan,
     job: &Job,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Option<(Film, Verify)> {
     let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
     world.verify = Some(Verify {
         plan: plan.clone(),
         first: Mutex::new(None),
     });
-    let naive = world.render_by_few(job, proceed)?;
+    let naive = world.render_by_few(job, on_pixel)?;
     Some((naive, world.verify?))
 }
 
@@ -119,7 +119,7 @@ fn first_difference(planned: &Film, naive: &Film, job: &Job) -> Option<([u32; 2]
     ))
 }
 
-/// The rule without which a pixel has the value it has without all rules; `None` if `proceed` said
+/// The rule without which a pixel has the value it has without all rules; `None` if `on_pixel` said
 /// stop.
 fn blame(
     scene: &Proof,
@@ -127,7 +127,7 @@ fn blame(
     job: &Job,
     pixel: [u32; 2],
     color: [f64; 3],
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Option<Fault> {
     let [x, y] = pixel;
     let crop = Some(Crop {
@@ -147,7 +147,7 @@ fn blame(
             continue;
         };
         let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
-        let film = any::render(scene, &without, &Job { crop, ..*job }, proceed)?;
+        let film = any::render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
             (fault.effect, fault.rule) = (verdict.effect, Some(rule));
             break;

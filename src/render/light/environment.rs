@@ -3,7 +3,7 @@
 use crate::math::{Vec3, acos, atan2, cos, sin};
 use crate::render::bsdf::direction_turned;
 use crate::render::sampler::discrete::Table;
-use crate::render::texture::sampled::{Content, sample};
+use crate::render::texture::sampled::{ColorSpace, sample};
 use crate::render::texture::{Filter, Image, Wrap};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -98,7 +98,7 @@ impl Environment {
             place,
             [Wrap::Repeat, Wrap::Clamp],
             Filter::Linear,
-            Content::Color,
+            ColorSpace::Srgb,
         );
         let pdf = if sine > 0.0 {
             table.pdf(place) / (TAU * PI * sine)
@@ -131,7 +131,7 @@ fn table(image: &Image) -> Table {
             uv,
             [Wrap::Repeat, Wrap::Clamp],
             Filter::Nearest,
-            Content::Color,
+            ColorSpace::Srgb,
         );
         r.max(g).max(b) * sin(v * PI)
     };

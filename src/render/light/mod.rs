@@ -15,10 +15,10 @@ use crate::render::integrator::path::Strategy;
 use crate::render::light::environment::Seen;
 use crate::render::light::punctual::Punctual;
 use crate::render::light::triangle::TriangleLight;
-use crate::render::material::point::places;
+use crate::render::material::point::uvs;
 use crate::render::material::standard::StandardMaterial;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::discrete::Choice;
+use crate::render::sampler::discrete::DiscreteDistribution;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::Asked;
 use crate::render::world::World;
@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 pub(in crate::render) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
-    choice: Choice,
+    by_power: DiscreteDistribution,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
 }
@@ -70,12 +70,12 @@ impl<'world, S: Geometry> Lights<'world, S> {
             if shines && surface.shape.triangles() > 0 {
                 firsts[index] = Some(lights.len());
                 let parts = u32::try_from(surface.shape.triangles()).unwrap_or(u32::MAX);
-                let corners =
-                    (0..parts).filter_map(|part| Some((part, surface.shape.corners(part)?)));
-                lights.extend(corners.map(|(part, corners)| {
+                let corners = (0..parts)
+                    .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
+                lights.extend(corners.map(|(prim_id, corners)| {
                     Light::Triangle(TriangleLight {
                         surface: index,
-                        part,
+                        prim_id,
                         corners,
                     })
                 }));
@@ -85,11 +85,11 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let mut all = Self {
             world,
             lights,
-            choice: Choice::new(std::iter::empty()),
+            by_power: DiscreteDistribution::new(std::iter::empty()),
             firsts,
         };
         let disc = PI * all.radius_squared();
-        all.choice = Choice::new(
+        all.by_power = DiscreteDistribution::new(
             all.lights
                 .iter()
                 .map(|light| all.weight(light, disc, strategy)),
@@ -104,8 +104,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
             .surfaces
             .iter()
             .filter_map(|surface| surface.shape.bounds());
-        let whole = boxes.fold(Bounds::EMPTY, Bounds::union);
-        let square = (whole.max - whole.min).length_squared() / 4.0;
+        let total = boxes.fold(Bounds::EMPTY, Bounds::union);
+        let square = (total.max - total.min).length_squared() / 4.0;
         if square > 0.0 && square.is_finite() {
             square
         } else {
@@ -173,23 +173,23 @@ impl<'world, S: Geometry> Lights<'world, S> {
             tangent: false,
         };
         let shape = &self.world.surfaces[triangle.surface].shape;
-        emission.at(&places(&shape.details(&ray, &at, triangle.part, asked)))
+        emission.at(&uvs(&shape.details(&ray, &at, triangle.prim_id, asked)))
     }
 
     fn material(&self, surface: usize) -> &'world StandardMaterial {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
-    /// Light for a point, from a light chosen by `choice` and a place on it, if it has several, by
+    /// Light for a point, from a light chosen by `by_power` and a place on it, if it has several, by
     /// `u`.
     pub(in crate::render) fn sample(
         &self,
         from: Vec3,
-        choice: f64,
+        by_power: f64,
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
-        let (index, _) = self.choice.choose(choice)?;
-        let probability = self.choice.probability(index);
+        let (index, _) = self.by_power.choose(by_power)?;
+        let probability = self.by_power.probability(index);
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
             Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
@@ -223,17 +223,17 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(in crate::render) fn pdf_of_surface(
         &self,
         surface: usize,
-        part: u32,
+        prim_id: u32,
         wi: Vec3,
         distance_squared: f64,
     ) -> f64 {
         let Some(first) = self.firsts[surface] else {
             return 0.0;
         };
-        let index = first + part as usize;
+        let index = first + prim_id as usize;
         match &self.lights[index] {
             Light::Triangle(triangle) => {
-                self.choice.probability(index) * triangle.pdf(wi, distance_squared)
+                self.by_power.probability(index) * triangle.pdf(wi, distance_squared)
             }
             Light::Punctual(..) | Light::Environment => 0.0,
         }
@@ -245,7 +245,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let Seen { radiance, pdf } = self.world.lights.environment.seen(wi);
         (
             radiance,
-            self.choice.probability(self.lights.len() - 1) * pdf,
+            self.by_power.probability(self.lights.len() - 1) * pdf,
         )
     }
 }

@@ -125,8 +125,8 @@ impl Falloff {
             Self::None => 1.0,
             Self::Square => 1.0 / distance_squared,
             Self::Ranged(range_squared) => {
-                let share = distance_squared / range_squared;
-                (1.0 - share * share).clamp(0.0, 1.0) / distance_squared
+                let fraction = distance_squared / range_squared;
+                (1.0 - fraction * fraction).clamp(0.0, 1.0) / distance_squared
             }
         }
     }

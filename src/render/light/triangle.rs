@@ -6,7 +6,7 @@ use crate::math::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct TriangleLight {
     pub(super) surface: usize,
-    pub(super) part: u32,
+    pub(super) prim_id: u32,
     pub(super) corners: [Vec3; 3],
 }
 

@@ -8,12 +8,12 @@ use crate::render::material::standard::{
 };
 use crate::render::ray::Interaction;
 use crate::render::shape::instance::Details;
-use crate::render::texture::sampled::Places;
+use crate::render::texture::sampled::UvSets;
 
 /// A material with what a surface says of one point.
 pub(in crate::render) struct Point<'world> {
     pub(in crate::render) material: &'world StandardMaterial,
-    places: Places,
+    uvs: UvSets,
     /// The colour at the point, that of the corners included, and alpha.
     base: [f64; 4],
 }
@@ -27,28 +27,28 @@ pub(in crate::render) struct Frame {
 }
 
 /// Where on a surface its material looks maps up.
-pub(in crate::render) fn places(details: &Details) -> Places {
+pub(in crate::render) fn uvs(details: &Details) -> UvSets {
     [details.uv, details.second_uv]
 }
 
 impl<'world> Point<'world> {
     pub(in crate::render) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
-        let places = places(details);
+        let uvs = uvs(details);
         let (own, corners) = (
-            material.base_color.at(&places),
+            material.base_color.at(&uvs),
             details.color.unwrap_or([1.0; 4]),
         );
         let base = |k: usize| own[k] * corners[k];
         Self {
             material,
-            places,
+            uvs,
             base: [base(0), base(1), base(2), base(3)],
         }
     }
 
     /// The first texture coordinates.
     pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
-        self.places[0]
+        self.uvs[0]
     }
 
     /// The probability that a ray meets the surface.
@@ -68,7 +68,7 @@ impl<'world> Point<'world> {
 
     /// The radiance it sends out by itself.
     pub(in crate::render) fn emission(&self) -> Vec3 {
-        self.material.emission.at(&self.places)
+        self.material.emission.at(&self.uvs)
     }
 
     /// What is scattered; `channel` is the colour that a dispersed path has been left with.
@@ -87,7 +87,7 @@ impl<'world> Point<'world> {
             ior: 0.0,
             specular: 1.0,
             specular_color: Vec3::ONE,
-            transmission: m.transmission.at(&self.places),
+            transmission: m.transmission.at(&self.uvs),
             thin_walled: !m.bounds_a_volume,
             anisotropy: None,
             clearcoat: None,
@@ -110,20 +110,18 @@ impl<'world> Point<'world> {
                 specular,
                 specular_color,
             } => {
-                let [_, g, b, _] = map
-                    .as_ref()
-                    .map_or([1.0; 4], |map| shown(map, &self.places));
+                let [_, g, b, _] = map.as_ref().map_or([1.0; 4], |map| shown(map, &self.uvs));
                 (standard.metallic, standard.roughness) = (metallic * b, roughness * g);
                 standard.ior = match (channel, m.dispersed) {
                     (Some(channel), Some(dispersed)) => dispersed[channel],
                     (Some(_), None) | (None, _) => m.ior,
                 };
-                standard.specular = specular.at(&self.places);
-                standard.specular_color = specular_color.at(&self.places);
+                standard.specular = specular.at(&self.uvs);
+                standard.specular_color = specular_color.at(&self.uvs);
             }
             // An infinite index reflects the colour given.
             Reflection::Specular(factor) => {
-                let [red, green, blue, glossiness] = factor.at(&self.places);
+                let [red, green, blue, glossiness] = factor.at(&self.uvs);
                 standard.specular_color = Vec3::new(red, green, blue);
                 standard.roughness = (1.0 - glossiness).clamp(0.0, 1.0);
             }
@@ -131,21 +129,21 @@ impl<'world> Point<'world> {
     }
 
     fn add_layers(&self, standard: &mut Standard, frame: &Frame, clearcoat: Vec3) {
-        let (m, places) = (self.material, &self.places);
+        let (m, uvs) = (self.material, &self.uvs);
         // A layer whose map shows 0 is not there.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
-            factor: layer.factor.at(places),
-            roughness: layer.roughness.at(places),
+            factor: layer.factor.at(uvs),
+            roughness: layer.roughness.at(uvs),
             normal: frame.to_local(clearcoat),
         });
         let sheen = m.sheen.as_ref().map(|layer| Sheen {
-            color: layer.color.at(places),
-            roughness: layer.roughness.at(places),
+            color: layer.color.at(uvs),
+            roughness: layer.roughness.at(uvs),
         });
         let film = m.iridescence.as_ref().map(|layer| Iridescence {
-            factor: layer.factor.at(places),
+            factor: layer.factor.at(uvs),
             ior: layer.ior,
-            thickness: layer.least + layer.spread.at(places),
+            thickness: layer.min + layer.spread.at(uvs),
         });
         standard.clearcoat = coat.filter(|coat| coat.factor > 0.0);
         standard.sheen = sheen.filter(|sheen| sheen.color != Vec3::ZERO);
@@ -154,8 +152,8 @@ impl<'world> Point<'world> {
     }
 
     fn stretch(&self, layer: &AnisotropyLayer, side: f64) -> Anisotropy {
-        let map = layer.map.as_ref().and_then(|map| map.look_up(&self.places));
-        let [r, g, share, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
+        let map = layer.map.as_ref().and_then(|map| map.look_up(&self.uvs));
+        let [r, g, fraction, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
         let along = Vec3::new(r * 2.0 - 1.0, g * 2.0 - 1.0, 0.0).normalize_or(Vec3::X);
         let [c, s] = layer.turn;
         let direction = [
@@ -163,7 +161,7 @@ impl<'world> Point<'world> {
             (s * along.x + c * along.y) * side,
         ];
         Anisotropy {
-            strength: layer.strength * share,
+            strength: layer.strength * fraction,
             direction,
         }
     }
@@ -176,7 +174,7 @@ impl<'world> Point<'world> {
 
     /// Whether light goes through at the point.
     pub(in crate::render) fn transmits(&self) -> bool {
-        self.material.transmission.at(&self.places) > 0.0
+        self.material.transmission.at(&self.uvs) > 0.0
     }
 
     /// The frame with the normal map applied, and the normal of the clearcoat.
@@ -196,7 +194,7 @@ impl<'world> Point<'world> {
             let normal = map
                 .as_ref()
                 .map_or(normal, |map| self.mapped(map, normal, details));
-            bent(normal, at.normal, wo)
+            clamped_shading_normal(normal, at.normal, wo)
         };
         let shading = mapped(&m.normal);
         let coat = m
@@ -216,7 +214,7 @@ impl<'world> Point<'world> {
 
     /// The normal that a map gives.
     fn mapped(&self, map: &NormalMap, normal: Vec3, details: &Details) -> Vec3 {
-        let Some([x, y, z, _]) = map.map.look_up(&self.places) else {
+        let Some([x, y, z, _]) = map.map.look_up(&self.uvs) else {
             return normal;
         };
         let local = Vec3::new(
@@ -258,18 +256,18 @@ fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
 /// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
 /// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
 /// light transport simulation and rendering system", 2017, has a like rule).
-fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
+fn clamped_shading_normal(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
     /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
     const LEAST: f64 = 0.01;
     const SHARE: f64 = 0.9;
     let side = 1.0_f64.copysign(wo.dot(geometric));
     let (n, above) = (shading * side, geometric * side);
     let mirrored = n * (2.0 * n.dot(wo)) - wo;
-    let (height, least) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
-    if height >= least {
+    let (height, min) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
+    if height >= min {
         return shading;
     }
     // The normal halfway between the viewer and the direction raised.
-    let raised = (mirrored + above * (least - height)).normalize_or_zero();
+    let raised = (mirrored + above * (min - height)).normalize_or_zero();
     (wo + raised).normalize_or(above) * side
 }

@@ -3,7 +3,7 @@
 
 use crate::math::Vec3;
 use crate::render::shape::instance::Asked;
-use crate::render::texture::sampled::{Map, Places};
+use crate::render::texture::sampled::{Map, UvSets};
 
 /// A material, prepared: what is the same everywhere is a number, what is not has a map.
 #[derive(Clone, Debug)]
@@ -92,10 +92,10 @@ pub(in crate::render) enum Source {
 
 impl Source {
     /// What it shows; `None` on a surface without coordinates.
-    pub(in crate::render) fn look_up(&self, places: &Places) -> Option<[f64; 4]> {
+    pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         match self {
             Self::Value(value) => Some(*value),
-            Self::Map(map) => map.look_up(places),
+            Self::Map(map) => map.look_up(uvs),
         }
     }
 }
@@ -138,16 +138,16 @@ pub(in crate::render) struct IridescenceLayer {
     pub(in crate::render) factor: Number,
     pub(in crate::render) ior: f64,
     /// The thickness where the map shows 0, and how much more it is where that shows 1.
-    pub(in crate::render) least: f64,
+    pub(in crate::render) min: f64,
     pub(in crate::render) spread: Number,
 }
 
 impl Number {
     /// The number at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, places: &Places) -> f64 {
+    pub(in crate::render) fn at(&self, uvs: &UvSets) -> f64 {
         match &self.map {
-            Some((map, channel)) => self.factor * shown(map, places)[*channel],
+            Some((map, channel)) => self.factor * shown(map, uvs)[*channel],
             None => self.factor,
         }
     }
@@ -156,10 +156,10 @@ impl Number {
 impl Tint {
     /// The colour at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, places: &Places) -> Vec3 {
+    pub(in crate::render) fn at(&self, uvs: &UvSets) -> Vec3 {
         match &self.map {
             Some(map) => {
-                let [r, g, b, _] = shown(map, places);
+                let [r, g, b, _] = shown(map, uvs);
                 self.factor * Vec3::new(r, g, b)
             }
             None => self.factor,
@@ -170,10 +170,10 @@ impl Tint {
 impl Rgba {
     /// All four at a point.
     #[inline]
-    pub(in crate::render) fn at(&self, places: &Places) -> [f64; 4] {
+    pub(in crate::render) fn at(&self, uvs: &UvSets) -> [f64; 4] {
         match &self.map {
             Some(map) => {
-                let shown = shown(map, places);
+                let shown = shown(map, uvs);
                 [0, 1, 2, 3].map(|channel| self.factor[channel] * shown[channel])
             }
             None => self.factor,
@@ -183,6 +183,6 @@ impl Rgba {
 
 /// What a map shows; ones on a surface without coordinates.
 #[inline]
-pub(in crate::render) fn shown(map: &Map, places: &Places) -> [f64; 4] {
-    map.look_up(places).unwrap_or([1.0; 4])
+pub(in crate::render) fn shown(map: &Map, uvs: &UvSets) -> [f64; 4] {
+    map.look_up(uvs).unwrap_or([1.0; 4])
 }

@@ -93,7 +93,7 @@ impl DiscPoints {
 /// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles
 /// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Lobe {
+pub(in crate::render) struct PhongLobeSampler {
     basis: Basis,
     exponent: f64,
     count: u32,
@@ -102,7 +102,7 @@ pub(in crate::render) struct Lobe {
     rotation: u64,
 }
 
-impl Lobe {
+impl PhongLobeSampler {
     /// The lobe of `count` directions around the unit vector `axis`.
     #[must_use]
     pub(in crate::render) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
@@ -119,8 +119,8 @@ impl Lobe {
     /// Direction k, a unit vector.
     #[must_use]
     pub(in crate::render) fn direction(&self, k: u32) -> Vec3 {
-        let share = (f64::from(k) + self.shift) / f64::from(self.count);
-        let cosine = pow(share, self.exponent).min(1.0);
+        let fraction = (f64::from(k) + self.shift) / f64::from(self.count);
+        let cosine = pow(fraction, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
         let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
         self.basis
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn the_mean_cosine_of_a_lobe_is_that_of_its_density() {
         for n in [0.0, 1.0, 8.0, 64.0] {
-            let lobe = Lobe::new(
+            let lobe = PhongLobeSampler::new(
                 Vec3::Z,
                 NonNegative::new(n).unwrap(),
                 1 << 14,
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn directions_of_a_lobe_balance_around_its_axis() {
-        let lobe = Lobe::new(
+        let lobe = PhongLobeSampler::new(
             Vec3::X,
             NonNegative::new(8.0).unwrap(),
             1 << 12,

@@ -24,7 +24,7 @@ pub struct Instance {
     mirrors: bool,
     bounds: Bounds,
     /// How far rounding may move a corner on its way to the world.
-    blur: f64,
+    error_bound: f64,
 }
 
 impl Instance {
@@ -49,7 +49,7 @@ impl Instance {
             inverse,
             mirrors,
             bounds,
-            blur: 0.0,
+            error_bound: 0.0,
         };
         let mesh = Arc::clone(&instance.mesh);
         let corners = mesh
@@ -61,7 +61,7 @@ impl Instance {
             // The map rounds; the box must hold what the ray in object space may hit.
             let rounding = instance.rounding(*corner);
             instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
-            instance.blur = instance.blur.max(rounding);
+            instance.error_bound = instance.error_bound.max(rounding);
         }
         instance
     }
@@ -127,7 +127,7 @@ impl Instance {
     /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first
     /// triangle.
     #[must_use]
-    pub(in crate::render) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+    pub(in crate::render) fn closest_hit(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
         let local = self.to_object(ray);
         let shear = Shear::new(&local);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
@@ -140,7 +140,7 @@ impl Instance {
         match nearest.key {
             u32::MAX => None,
             _ if nearest.is_tied() => self.settle(ray, nearest.t),
-            part => Some((nearest.t, part)),
+            prim_id => Some((nearest.t, prim_id)),
         }
     }
 
@@ -148,8 +148,12 @@ impl Instance {
     #[cold]
     fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
         let mut tie = Tie::new();
-        self.visit_roots(ray, t, &mut |t, part| {
-            tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part)
+        self.visit_roots(ray, t, &mut |t, prim_id| {
+            tie.add(
+                t,
+                tie::error(ray, t, &self.interaction(ray, t, prim_id)),
+                prim_id,
+            )
         });
         tie.first()
     }
@@ -175,18 +179,18 @@ impl Instance {
         });
     }
 
-    /// The root above 0 of triangle `part`.
+    /// The root above 0 of triangle `prim_id`.
     #[inline]
-    pub(in crate::render) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+    pub(in crate::render) fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
         let ray = self.to_object(ray);
-        self.mesh.triangles()[part as usize].intersect(&ray, &Shear::new(&ray))
+        self.mesh.triangles()[prim_id as usize].intersect(&ray, &Shear::new(&ray))
     }
 
-    /// The point at `t` on triangle `part`.
+    /// The point at `t` on triangle `prim_id`.
     #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    pub fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let local_ray = self.to_object(ray);
-        let local = self.mesh.triangles()[part as usize].interaction(&local_ray, t);
+        let local = self.mesh.triangles()[prim_id as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
         let reach = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * self.sizes.dot(reach);
@@ -209,9 +213,9 @@ impl Instance {
         self.mesh.triangles().len()
     }
 
-    /// The corners of triangle `part` in the world.
-    pub(in crate::render) fn corners(&self, part: u32) -> [Vec3; 3] {
-        self.mesh.triangles()[part as usize]
+    /// The corners of triangle `prim_id` in the world.
+    pub(in crate::render) fn corners(&self, prim_id: u32) -> [Vec3; 3] {
+        self.mesh.triangles()[prim_id as usize]
             .vertices()
             .map(|corner| self.to_world(corner))
     }
@@ -221,11 +225,11 @@ impl Instance {
         !self.mesh.attributes.normals.is_empty()
     }
 
-    /// What the mesh says about a point of triangle `part`, as far as that is asked.
-    pub(in crate::render) fn details(&self, point: Vec3, part: u32, asked: Asked) -> Details {
-        let triangle = &self.mesh.triangles()[part as usize];
+    /// What the mesh says about a point of triangle `prim_id`, as far as that is asked.
+    pub(in crate::render) fn details(&self, point: Vec3, prim_id: u32, asked: Asked) -> Details {
+        let triangle = &self.mesh.triangles()[prim_id as usize];
         let mesh = &self.mesh.attributes;
-        let corners = self.mesh.corners(part);
+        let corners = self.mesh.corners(prim_id);
         let normals = at(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let has_no_coordinates =
@@ -300,8 +304,8 @@ impl Instance {
     }
 
     /// How far rounding may have moved its corners.
-    pub(in crate::render) fn blur(&self) -> f64 {
-        self.blur
+    pub(in crate::render) fn error_bound(&self) -> f64 {
+        self.error_bound
     }
 }
 

@@ -65,11 +65,11 @@ impl Quad {
         }
     }
 
-    /// The point at `t` in half `part`, moved onto the surface.
+    /// The point at `t` in half `prim_id`, moved onto the surface.
     #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    pub fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         match self {
-            Self::Flat { halves, .. } => match (&halves[part as usize & 1], &halves[0]) {
+            Self::Flat { halves, .. } => match (&halves[prim_id as usize & 1], &halves[0]) {
                 (Some((triangle, _)), _) | (None, Some((triangle, _))) => {
                     triangle.interaction(ray, t)
                 }
@@ -85,12 +85,12 @@ impl Quad {
         }
     }
 
-    /// The texture coordinates at a point hit in half `part`.
-    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, part: u32) -> [f64; 2] {
+    /// The texture coordinates at a point hit in half `prim_id`.
+    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, prim_id: u32) -> [f64; 2] {
         const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         match self {
             Self::Flat { halves, .. } => {
-                halves[part as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
+                halves[prim_id as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
                     let weights = triangle.weights(point);
                     [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
                 })

@@ -5,7 +5,7 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::math::{Double, U, Vec3};
+use crate::math::{DoubleDouble, U, Vec3};
 use crate::render::ray::{Interaction, Ray};
 
 /// A root is computed again when rounding may have been amplified by more than this.
@@ -93,26 +93,27 @@ impl Sphere {
     #[cold]
     #[inline(never)]
     fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
-        let f = [0, 1, 2].map(|k| Double::difference(ray.origin[k], self.center[k]));
-        let d = [0, 1, 2].map(|k| Double::from(ray.direction[k]));
-        let dot = |u: [Double; 3], v: [Double; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let zero = Double::from(0.0);
-        let radius = Double::from(self.radius);
+        let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.center[k]));
+        let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
+        let dot =
+            |u: [DoubleDouble; 3], v: [DoubleDouble; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        let zero = DoubleDouble::from(0.0);
+        let radius = DoubleDouble::from(self.radius);
         let a = dot(d, d);
         let b = zero - dot(f, d);
         let step = b / a;
         let foot = [0, 1, 2].map(|k| f[k] + d[k] * step);
         let discriminant = radius * radius - dot(foot, foot);
-        if discriminant.rounded().is_nan() || discriminant.rounded() < 0.0 {
+        if discriminant.to_f64().is_nan() || discriminant.to_f64() < 0.0 {
             return None;
         }
 
         let c = dot(f, f) - radius * radius;
         let root = (a * discriminant).sqrt();
-        let forward = b.rounded() >= 0.0;
+        let forward = b.to_f64() >= 0.0;
         let q = if forward { b + root } else { b - root };
-        let quotient = (c / q).rounded();
-        let other = (q / a).rounded();
+        let quotient = (c / q).to_f64();
+        let other = (q / a).to_f64();
         let (near, far) = if forward {
             (quotient, other)
         } else {

@@ -31,7 +31,7 @@ pub struct Torus {
 }
 
 /// A ray near the torus, in units of about its outer radius, as seen from the axis.
-struct Line {
+struct TorusRay {
     /// Of the point nearest to the centre: the square of its distance, its height along the axis,
     /// and its cross product with the axis, as long as it is off the axis.
     square: f64,
@@ -44,7 +44,7 @@ struct Line {
     minor: f64,
 }
 
-impl Line {
+impl TorusRay {
     /// The signed distance of the point at `s` from the surface, from the factored difference of
     /// squares: its digits survive where the ray only grazes.
     fn distance(&self, s: f64) -> f64 {
@@ -92,9 +92,9 @@ impl Line {
     /// no middle.
     fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
         let mut before;
-        let mut share = 0.5;
+        let mut fraction = 0.5;
         for _ in 0..MAX_STEPS {
-            let at = last.0 + share * (other.0 - last.0);
+            let at = last.0 + fraction * (other.0 - last.0);
             let there = (at, self.distance(at));
             if (there.1 < 0.0) == (last.1 < 0.0) {
                 before = last;
@@ -111,7 +111,7 @@ impl Line {
             if best.1.abs() <= ROUNDING || finest > 0.5 {
                 return best.0;
             }
-            share = share_of(last, other, before).clamp(finest, 1.0 - finest);
+            fraction = fraction_of(last, other, before).clamp(finest, 1.0 - finest);
         }
         last.0
     }
@@ -120,7 +120,7 @@ impl Line {
 /// Where to look next between two points of opposite signs, as the share of the way from the last
 /// to the other: where the parabola through both and the point before has its root, if it is safe
 /// to ask, else in the middle.
-fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
+fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     let along = (last.0 - other.0) / (before.0 - other.0);
     let up = (last.1 - other.1) / (before.1 - other.1);
     let is_safe = up * up < along && (1.0 - up) * (1.0 - up) < 1.0 - along;
@@ -207,7 +207,7 @@ impl Torus {
         let unit = ldexp(1.0, libm::ilogb(outer));
         let length = length2.sqrt();
         let (from, step) = (foot / unit, d / length);
-        let line = Line {
+        let line = TorusRay {
             square: from.dot(from),
             height: from.dot(self.axis),
             off: cross(from, self.axis),

@@ -24,27 +24,27 @@ impl<R: Real> Prepare for PlainShape<R> {
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
-        let twin_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.twin);
-        let twin = Shape::prepare(shape, &meshes.iter().map(twin_mesh).collect::<Vec<_>>())?;
+        let robust_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.robust);
+        let robust = Shape::prepare(shape, &meshes.iter().map(robust_mesh).collect::<Vec<_>>())?;
         Some(Self {
-            form: form(shape, &twin, meshes)?,
-            twin: Box::new(twin),
+            form: form(shape, &robust, meshes)?,
+            robust: Box::new(robust),
         })
     }
 }
 
-fn form<R: Real>(shape: &valid::Shape, twin: &Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Form<R>> {
-    Some(match (shape, twin) {
+fn form<R: Real>(shape: &valid::Shape, robust: &Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Form<R>> {
+    Some(match (shape, robust) {
         (valid::Shape::Sphere(sphere), _) => Form::Sphere(Sphere {
             center: Vector::of(sphere.center),
             radius: R::of(sphere.radius.get()),
         }),
-        (valid::Shape::Plane(plane), Shape::Plane(twin)) => {
-            Form::Plane(Plane::new(plane.center, twin.normal()))
+        (valid::Shape::Plane(plane), Shape::Plane(robust)) => {
+            Form::Plane(Plane::new(plane.center, robust.normal()))
         }
         (valid::Shape::Triangle(triangle), _) => Form::Triangle(Triangle::new(&triangle.vertices)),
-        (valid::Shape::Quad(quad), Shape::Quad(twin)) => {
-            Form::Quad(Box::new(Quad::new(twin, quad.vertices)))
+        (valid::Shape::Quad(quad), Shape::Quad(robust)) => {
+            Form::Quad(Box::new(Quad::new(robust, quad.vertices)))
         }
         (valid::Shape::Disc(disc), _) => {
             let normal = unit(disc.normal)?;
@@ -64,9 +64,9 @@ fn form<R: Real>(shape: &valid::Shape, twin: &Shape, meshes: &[Arc<Mesh<R>>]) ->
             major: R::of(torus.major.get()),
             minor: R::of(torus.minor.get()),
         }),
-        (valid::Shape::Instance(instance), Shape::Instance(twin)) => {
+        (valid::Shape::Instance(instance), Shape::Instance(robust)) => {
             let (mesh, origin) = (&meshes[instance.mesh], instance.world_from_object[3]);
-            Form::Instance(Box::new(Instance::new(mesh, twin, origin)))
+            Form::Instance(Box::new(Instance::new(mesh, robust, origin)))
         }
         (valid::Shape::Plane(_) | valid::Shape::Quad(_) | valid::Shape::Instance(_), _) => {
             return None;

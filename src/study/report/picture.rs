@@ -40,9 +40,9 @@ fn glow(value: f64) -> [f64; 3] {
         .rev()
         .find(|stop| f64::from(*stop) <= place)
         .unwrap_or(0);
-    let share = place - f64::from(below);
+    let fraction = place - f64::from(below);
     let (from, to) = (STOPS[below as usize], STOPS[below as usize + 1]);
-    [0, 1, 2].map(|c| from[c] * (1.0 - share) + to[c] * share)
+    [0, 1, 2].map(|c| from[c] * (1.0 - fraction) + to[c] * fraction)
 }
 
 /// Tiles in rows of about as many as there are rows; black where there is none.

@@ -8,7 +8,7 @@ use crate::plan::body::{Body, Form};
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
-use crate::plan::space::{ROOM, Sides, Space};
+use crate::plan::space::{MARGIN, Sides, Space};
 use crate::valid::{Falloff, Punctual};
 
 fn place(light: usize) -> Place {
@@ -173,8 +173,8 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
     };
     let is_beyond = |position: Vec3, falloff: Falloff| match falloff {
         Falloff::Ranged(range) => {
-            let margin = 8.0 * ROOM * (space.size() + position.abs().max_element());
-            space.distance(position) > range.get() * (1.0 + ROOM) + margin
+            let margin = 8.0 * MARGIN * (space.size() + position.abs().max_element());
+            space.distance(position) > range.get() * (1.0 + MARGIN) + margin
         }
         Falloff::None | Falloff::Square => false,
     };
@@ -192,13 +192,13 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
 /// of its half angle.
 fn is_beside(space: &Space, apex: Vec3, axis: Vec3, cosine: f64) -> bool {
     /// Far more than rounding moves a cosine.
-    const MARGIN: f64 = 1e-9;
+    const SLACK: f64 = 1e-9;
     let center = space.min * 0.5 + space.max * 0.5;
-    let radius = (space.max - center).length() * (1.0 + MARGIN) + ROOM * space.size();
+    let radius = (space.max - center).length() * (1.0 + SLACK) + MARGIN * space.size();
     let (to, sine) = (center - apex, (1.0 - cosine * cosine).max(0.0).sqrt());
     let along = to.dot(axis);
     let across = (to.length_squared() - along * along).max(0.0).sqrt();
     // The distance from the side of the cone, where that is the nearest of it; never more.
     let outside = across * cosine - along * sine;
-    outside > radius + MARGIN * to.length()
+    outside > radius + SLACK * to.length()
 }

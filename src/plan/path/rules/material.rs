@@ -119,10 +119,10 @@ pub(super) const OPAQUE: PathRule = PathRule {
 fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
     /// More than rounding moves what filtering blends.
     const MARGIN: f64 = 1e-6;
-    let [least, greatest] = draft.channel(index, material.base_color_map.as_ref(), 3);
+    let [min, max] = draft.channel(index, material.base_color_map.as_ref(), 3);
     let corners = draft.uses[index].least_alpha;
-    let alpha = material.base_color[3].get() * least * corners;
-    let is_exact = least == greatest && corners == 1.0;
+    let alpha = material.base_color[3].get() * min * corners;
+    let is_exact = min == max && corners == 1.0;
     match material.alpha {
         Alpha::Opaque => true,
         Alpha::Mask(cutoff) => alpha > cutoff.get() + MARGIN || (is_exact && alpha >= cutoff.get()),

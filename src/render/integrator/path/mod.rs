@@ -14,9 +14,9 @@ use super::Integrator;
 use crate::math::{Vec3, cos_sin_turns};
 use crate::plan::{Effect, PathFeatures};
 use crate::render::camera::{image_point, ray_through};
-use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::film::{Behind, Counts, Seeds};
+use crate::render::film::{Background, Counts, Seeds};
 use crate::render::light::Lights;
 use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
@@ -48,7 +48,7 @@ pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     /// Whether vertices know all that surfaces know, not only what their materials need.
     knows_all: bool,
     /// What a ray of the camera that meets nothing shows.
-    behind: Behind,
+    background: Background,
     /// Whether anything arrives from where no surface stands.
     has_environment: bool,
     /// How often a path may go on.
@@ -66,7 +66,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         lights: &'world Lights<'world, S>,
         path: Path,
         strategy: Strategy,
-        proceed: &'world Proceed<'world>,
+        on_pixel: &'world OnPixel<'world>,
     ) -> Self {
         let plan = world.plan.paths.as_ref();
         let useless = u32::from(plan.is_some_and(|plan| !plan.last_ray));
@@ -77,18 +77,18 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             strategy,
             alpha_tested: AlphaTested::of(world),
             knows_all: false,
-            behind: Behind::default(),
+            background: Background::default(),
             has_environment: plan.is_none_or(|plan| plan.environment),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
-            heartbeat: Heartbeat::new(proceed),
+            heartbeat: Heartbeat::new(on_pixel),
             counts: Counts::default(),
         }
     }
 
     /// The same, with something else behind all surfaces.
-    pub(in crate::render) fn before(self, behind: Behind) -> Self {
-        Self { behind, ..self }
+    pub(in crate::render) fn before(self, background: Background) -> Self {
+        Self { background, ..self }
     }
 
     /// The same, with all that surfaces know at the vertices of its paths.
@@ -165,7 +165,7 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
         let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
         let hit = self.counts.hits > hits;
-        let is_shown = self.behind == Behind::Surroundings || hit;
+        let is_shown = self.background == Background::Environment || hit;
         // A number that overflowed says nothing.
         let is_shown = is_shown && radiance.is_finite();
         Sample {

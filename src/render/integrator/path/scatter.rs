@@ -70,7 +70,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         let (hit, wo) = (vertex.hit, -state.ray.direction);
         let square = state.travelled * state.travelled;
         let lights = self.lights;
-        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.part, -wo, square);
+        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.prim_id, -wo, square);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
         state.radiance += state.beta * emission * weight;
     }
@@ -109,7 +109,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Vec3::ZERO
             };
         }
-        (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.part));
+        (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.prim_id));
         *if through {
             &mut self.counts.refracted
         } else {

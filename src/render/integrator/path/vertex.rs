@@ -28,11 +28,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(super) fn closest_hit(&mut self, state: &mut PathState) -> Option<PathVertex<'world>> {
         state.travelled = 0.0;
         for skipped in 0..MAX_SKIPPED {
-            let hit = self.world.nearest_from(&state.ray, state.from)?;
+            let hit = self.world.closest_hit_from(&state.ray, state.from)?;
             let surface = &self.world.surfaces[hit.surface];
-            let at = surface.shape.interaction(&state.ray, hit.t, hit.part);
+            let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
             let asked = self.asked(surface.material);
-            let details = surface.shape.details(&state.ray, &at, hit.part, asked);
+            let details = surface.shape.details(&state.ray, &at, hit.prim_id, asked);
             let point = self.point(surface.material, &details);
             state.travelled += hit.t;
             let opacity = if skips_back(state, &at, point.material) {
@@ -41,7 +41,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 self.opacity(&point)
             };
             if opacity < 1.0 && state.sobol.uniform(state.bounces, skipped) >= opacity {
-                (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.part));
+                (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
                 continue;
             }
             return Some(PathVertex {

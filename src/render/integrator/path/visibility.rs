@@ -27,7 +27,7 @@ impl AlphaTested {
         };
         let tested = (0..world.surfaces.len()).filter(is_tested);
         tested.fold(Self::None, |all, surface| match all {
-            Self::None | Self::Triangles if world.is_merged(surface) => Self::Triangles,
+            Self::None | Self::Triangles if world.is_flattened(surface) => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,
         })
     }
@@ -46,7 +46,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         self.counts.shadow += 1;
         let ray = vertex.at.ray(wi);
-        let from = (vertex.hit.surface, vertex.hit.part);
+        let from = (vertex.hit.surface, vertex.hit.prim_id);
         let is_tested = Self::can(PathFeatures::ALPHA);
         if is_tested && self.alpha_tested == AlphaTested::Solids {
             return self.transmittance_one_by_one(ray, from, wi, place);
@@ -57,9 +57,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         };
         let world = self.world;
         if is_tested && self.alpha_tested == AlphaTested::Triangles {
-            world.passing(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
+            world.transmittance(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
         } else {
-            world.passing(&ray, t_max, from, |_| 0.0)
+            world.transmittance(&ray, t_max, from, |_| 0.0)
         }
     }
 
@@ -69,9 +69,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         if self.world.standards[surface.material].alpha == Alpha::Opaque {
             return (None, 0.0);
         }
-        let at = surface.shape.interaction(ray, hit.t, hit.part);
+        let at = surface.shape.interaction(ray, hit.t, hit.prim_id);
         let asked = self.asked(surface.material);
-        let details = surface.shape.details(ray, &at, hit.part, asked);
+        let details = surface.shape.details(ray, &at, hit.prim_id, asked);
         let point = self.point(surface.material, &details);
         (Some(at), 1.0 - self.opacity(&point))
     }
@@ -92,18 +92,18 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Some(Some(to_place)) => to_place,
             };
             // Nothing stands before the light.
-            if self.world.passing(&end, t_max, from, |_| 0.0) > 0.0 {
+            if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
                 return transmittance;
             }
-            let Some(hit) = self.world.nearest_from(&ray, from) else {
+            let Some(hit) = self.world.closest_hit_from(&ray, from) else {
                 return transmittance;
             };
-            let (at, passing) = self.transmittance(&ray, &hit);
-            transmittance *= passing;
+            let (at, fraction) = self.transmittance(&ray, &hit);
+            transmittance *= fraction;
             let Some(at) = at.filter(|_| transmittance > 0.0) else {
                 return 0.0;
             };
-            (ray, from) = (at.ray(wi), (hit.surface, hit.part));
+            (ray, from) = (at.ray(wi), (hit.surface, hit.prim_id));
         }
         0.0
     }

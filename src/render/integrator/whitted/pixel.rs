@@ -2,7 +2,7 @@
 
 use super::Tracer;
 use crate::math::Vec3;
-use crate::plan::{Effect, Features, Sight};
+use crate::plan::{Effect, Features, PixelClass};
 use crate::render::camera::grid::{Cell, Grid};
 use crate::render::camera::{camera_ray, image_point, lens_at};
 use crate::render::film::heartbeat::Heartbeat;
@@ -100,7 +100,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     fn begin_pixel(&mut self, pixel: [u32; 2]) {
         let several = Self::can(Features::CAMERA) && self.grid.samples() > 1;
-        let is_uniform = several && self.world.plan.region.sight(pixel) == Sight::Uniform;
+        let is_uniform = several && self.world.plan.region.class_of(pixel) == PixelClass::Uniform;
         self.pixel = PixelState {
             is_uniform,
             ..PixelState::default()
@@ -132,11 +132,12 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
             let differs = |last: Sample| last.radiance != sample.radiance;
-            self.pixel.last.is_some_and(differs) && plan.region.sight(pixel) == Sight::Uniform
+            self.pixel.last.is_some_and(differs)
+                && plan.region.class_of(pixel) == PixelClass::Uniform
         });
         let what = "a pixel that shows nothing shows something";
         self.verify(Effect::Surfaces, what, |plan| {
-            sample.hit && plan.region.sight(pixel) == Sight::Nothing
+            sample.hit && plan.region.class_of(pixel) == PixelClass::Nothing
         });
     }
 }

@@ -6,14 +6,14 @@ use crate::render::ray::Ray;
 
 /// A ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<R> {
+pub(super) struct PlainRay<R> {
     pub(super) origin: Vector<R>,
     pub(super) direction: Vector<R>,
     /// The square of the direction's length in the world.
     pub(super) length2: R,
 }
 
-impl<R: Real> Line<R> {
+impl<R: Real> PlainRay<R> {
     #[inline]
     pub(super) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);

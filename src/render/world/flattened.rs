@@ -6,45 +6,45 @@ use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
 
 /// The triangles of meshes that stand in the world one by one.
-pub(super) struct Merged {
+pub(super) struct Flattened {
     /// The surface of each, and the part of it.
-    pub(super) parts: Vec<[u32; 2]>,
+    pub(super) prims: Vec<[u32; 2]>,
     pub(super) hierarchy: Bvh4,
 }
 
 /// A mesh that stands several times is merged into the world if all its triangles are no more than
 /// this.
-const MERGED: usize = 1 << 18;
+const MAX_TRIANGLES: usize = 1 << 18;
 
-impl Merged {
+impl Flattened {
     /// Those of the surfaces with these indices.
     pub(super) fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
         let shape = |surface: u32| &surfaces[surface as usize].shape;
-        let parts_of = |surface: u32| {
+        let prims_of = |surface: u32| {
             (0..)
                 .take(shape(surface).triangles())
-                .map(move |part| [surface, part])
+                .map(move |prim_id| [surface, prim_id])
         };
-        let parts = indices
+        let prims = indices
             .iter()
             .copied()
-            .flat_map(parts_of)
+            .flat_map(prims_of)
             .collect::<Vec<_>>();
-        let blur = indices
+        let error_bound = indices
             .iter()
-            .map(|surface| shape(*surface).blur())
+            .map(|surface| shape(*surface).error_bound())
             .fold(0.0, f64::max);
         let corners = |item: u32| {
-            let [surface, part] = parts[item as usize];
-            shape(surface).corners(part).unwrap_or_default()
+            let [surface, prim_id] = prims[item as usize];
+            shape(surface).corners(prim_id).unwrap_or_default()
         };
-        let hierarchy = Bvh4::build(parts.len(), blur, corners)?;
-        Some(Self { parts, hierarchy })
+        let hierarchy = Bvh4::build(prims.len(), error_bound, corners)?;
+        Some(Self { prims, hierarchy })
     }
 }
 
 /// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
-pub(super) fn merging(scene: &Proof) -> Vec<bool> {
+pub(super) fn flattened_surfaces(scene: &Proof) -> Vec<bool> {
     let mut uses = vec![0_usize; scene.meshes().len()];
     let mesh = |surface: &valid::Surface| {
         if let valid::Shape::Instance(instance) = &surface.shape {
@@ -58,12 +58,12 @@ pub(super) fn merging(scene: &Proof) -> Vec<bool> {
         .iter()
         .filter_map(mesh)
         .for_each(|mesh| uses[mesh] += 1);
-    let merges = |mesh: usize| {
-        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MERGED
+    let flattens = |mesh: usize| {
+        uses[mesh] == 1 || uses[mesh] * scene.meshes()[mesh].triangles.len() <= MAX_TRIANGLES
     };
     scene
         .surfaces()
         .iter()
-        .map(|surface| mesh(surface).is_some_and(merges))
+        .map(|surface| mesh(surface).is_some_and(flattens))
         .collect()
 }
