@@ -12,7 +12,7 @@ use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene, Stage};
 use crate::math::BasisFault;
 use crate::plan::Plan;
-use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, OnPixel};
+use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof};
@@ -80,17 +80,17 @@ fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
         .filter(|_| !has_assets);
     for (noun, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };
-        let fault = Diagnostic::new(
+        let mismatch = Diagnostic::new(
             &codes::GLTF_CHOSEN,
             format!("the scene has no {noun} called `{}`", clip(name)),
         );
-        sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
+        sink.push(mismatch.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }
 
 /// Puts view and light into a scene that was read, and what has no light into the studio.
 pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
-    let fault = match stage.apply(lowered) {
+    let mismatch = match stage.apply(lowered) {
         Ok(false) => return,
         Ok(true) => {
             let note = Diagnostic::new(
@@ -114,7 +114,7 @@ pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
             "the upward direction asked for is along the view",
         ),
     };
-    sink.push(Diagnostic::new(fault.0, fault.1));
+    sink.push(Diagnostic::new(mismatch.0, mismatch.1));
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.
@@ -217,7 +217,7 @@ pub fn verify(
     job: &Job,
     threads: usize,
     on_pixel: &OnPixel<'_>,
-) -> Result<Option<Result<Film, Fault>>, ThreadPoolBuildError> {
+) -> Result<Option<Result<Film, Mismatch>>, ThreadPoolBuildError> {
     Ok(pool(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 

@@ -136,9 +136,9 @@ impl Look {
         origin: impl FnOnce() -> Origin,
     ) -> Result<Vec<u8>, Failure> {
         let form = match self.kind {
-            Kind::Png8 => image::Form::Png8,
-            Kind::Png16 => image::Form::Png16,
-            Kind::Exr => image::Form::Exr(origin()),
+            Kind::Png8 => image::FileFormat::Png8,
+            Kind::Png16 => image::FileFormat::Png16,
+            Kind::Exr => image::FileFormat::Exr(origin()),
         };
         picture
             .encode(&form)

@@ -192,7 +192,7 @@ fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<Size, DecodeError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Form, Image, Origin, Picture};
+    use super::super::{FileFormat, Image, Origin, Picture};
     use super::*;
     use ::exr::prelude::{SpecificChannels, WritableImage};
 
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(
             read(
                 &Picture::opaque(image)
-                    .encode(&Form::Exr(Origin::default()))
+                    .encode(&FileFormat::Exr(Origin::default()))
                     .unwrap()
             )
             .unwrap(),

@@ -31,7 +31,7 @@ pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
 pub use overrides::Overrides;
-pub use settings::{Gooch, Mode, Path, Pattern, Settings};
+pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };

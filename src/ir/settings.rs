@@ -135,13 +135,14 @@ pub enum Mode {
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
     /// The light that arrives along all paths, from the materials and lights in physical units.
-    Path(Path),
+    Path(PathSettings),
 }
 
 /// How paths are traced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct Path {
+#[schemars(rename = "Path")]
+pub struct PathSettings {
     /// Paths a pixel, at least 1.
     #[schemars(range(min = 1))]
     pub samples: u32,
@@ -149,12 +150,12 @@ pub struct Path {
     pub multiple_scattering: bool,
 }
 
-impl Path {
+impl PathSettings {
     /// Bounces of a path, where nobody says how many.
     pub const DEPTH: u32 = 16;
 }
 
-impl Default for Path {
+impl Default for PathSettings {
     /// What is good for a look.
     fn default() -> Self {
         Self {
@@ -184,7 +185,7 @@ mod tests {
 
     fn paths() -> Settings {
         Settings {
-            mode: Mode::Path(Path {
+            mode: Mode::Path(PathSettings {
                 samples: 64,
                 multiple_scattering: true,
             }),
@@ -212,7 +213,7 @@ mod tests {
         for (name, value) in values {
             settings.set(name, value).unwrap();
         }
-        let mode = Mode::Path(Path {
+        let mode = Mode::Path(PathSettings {
             samples: 9,
             multiple_scattering: false,
         });

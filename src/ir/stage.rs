@@ -2,7 +2,7 @@
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
 use super::{
-    Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, Path,
+    Ball, Camera, Emitter, Environment, Image, ImageId, Light, Lowered, Mode, Noun, PathSettings,
     PointLight,
 };
 use super::{Projection, Punctual, Scene};
@@ -268,8 +268,8 @@ impl Scene {
 /// Has all paths traced, if they are not.
 fn trace_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
-        scene.settings.mode = Mode::Path(Path::default());
-        scene.settings.max_depth = Path::DEPTH;
+        scene.settings.mode = Mode::Path(PathSettings::default());
+        scene.settings.max_depth = PathSettings::DEPTH;
         scene.settings.supersampling = 1;
     }
 }

@@ -1,6 +1,6 @@
 //! What each light adds, and what may stand between it and each surface.
 
-use super::body::{Body, Extent, Form};
+use super::body::{Body, BodyForm, Extent};
 use super::rules::Rule;
 use super::space::{Flat, MARGIN, Sides, Space};
 use super::visibility::Visibility;
@@ -186,10 +186,10 @@ impl Facts<'_> {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let gated = self.scene.settings().shadows || !summary.shines;
         let behind = || match body.form {
-            Form::Flat(flat) if gated && !summary.is_bent() && seen_from != Sides::BOTH => {
+            BodyForm::Flat(flat) if gated && !summary.is_bent() && seen_from != Sides::BOTH => {
                 flat.sides(&extent(light)) == seen_from.opposite()
             }
-            Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other => false,
+            BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => false,
         };
         !summary.is_lit() || behind()
     }
@@ -198,11 +198,11 @@ impl Facts<'_> {
     fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let spares = match body.form {
-            Form::Flat(flat) => flat.sides(light) != Sides::BOTH,
-            Form::Ball(..) | Form::Convex => {
+            BodyForm::Flat(flat) => flat.sides(light) != Sides::BOTH,
+            BodyForm::Ball(..) | BodyForm::Convex => {
                 seen_from == Sides::FRONT && !summary.is_bent() && body.is_clear_of(light)
             }
-            Form::Other => false,
+            BodyForm::Other => false,
         };
         spares && self.rules.contains(Rule::ShadowConvex)
     }
@@ -232,8 +232,8 @@ struct Ball(Option<(Vec3, f64)>);
 impl Ball {
     fn of(body: &Body) -> Self {
         match body.form {
-            Form::Ball(center, radius) => Self(Some((center, radius))),
-            Form::Flat(_) | Form::Convex | Form::Other => Self(None),
+            BodyForm::Ball(center, radius) => Self(Some((center, radius))),
+            BodyForm::Flat(_) | BodyForm::Convex | BodyForm::Other => Self(None),
         }
     }
 

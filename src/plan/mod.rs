@@ -31,7 +31,7 @@ pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Path, Projection, Proof, Shape};
+use crate::valid::{Mode, PathSettings, Projection, Proof, Shape};
 use findings::{Facts, Findings};
 use light::Lights;
 use path::Planned;
@@ -172,7 +172,7 @@ impl Plan {
     }
 
     /// Plans traced paths.
-    fn of_paths(scene: &Proof, path: Path, rules: Rules) -> Self {
+    fn of_paths(scene: &Proof, path: PathSettings, rules: Rules) -> Self {
         let Planned {
             plan,
             surfaces,

@@ -4,7 +4,7 @@
 //! of pixels so many that they stay cheap. What no rectangle overlaps shows nothing, whatever the
 //! order or shape of the surfaces.
 
-use super::body::Form;
+use super::body::BodyForm;
 use super::rules::Rule;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
@@ -130,7 +130,7 @@ impl Findings<'_> {
     /// The outline in the picture of a convex polygon within a surface, if that is flat and shows
     /// one value.
     fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
-        let Form::Flat(flat) = self.facts.bodies[surface].form else {
+        let BodyForm::Flat(flat) = self.facts.bodies[surface].form else {
             return None;
         };
         let shape = &self.facts.scene.surfaces()[surface].shape;

@@ -1,7 +1,7 @@
 //! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of
 //! mirrors.
 
-use super::body::{Body, Form};
+use super::body::{Body, BodyForm};
 use super::rules::{Rule, Rules};
 use super::space::Sides;
 use super::window::{Shown, Window};
@@ -109,7 +109,7 @@ impl Facts<'_> {
             Some(sides)
         };
         match (body.form, one_side) {
-            (Form::Flat(flat), Some(side))
+            (BodyForm::Flat(flat), Some(side))
                 if !scatters && self.rules.contains(Rule::MirrorUnreached) =>
             {
                 others(&|body| {
@@ -117,12 +117,12 @@ impl Facts<'_> {
                         .is_none_or(|space| flat.sides(space) != side.opposite())
                 })
             }
-            (Form::Ball(..) | Form::Convex, Some(Sides::FRONT))
+            (BodyForm::Ball(..) | BodyForm::Convex, Some(Sides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
             }
-            (Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other, _) => {
+            (BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other, _) => {
                 (0..self.bodies.len()).collect()
             }
         }

@@ -6,7 +6,7 @@ use crate::render::film::{Film, Job};
 use crate::render::integrator::path::Strategy;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Path};
+use crate::valid::{Mode, PathSettings};
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,7 +159,7 @@ impl<S: Geometry> World<S> {
     #[must_use]
     pub fn render_paths(
         &self,
-        path: Path,
+        path: PathSettings,
         strategy: Strategy,
         job: &Job,
         on_pixel: &OnPixel<'_>,

@@ -9,11 +9,11 @@ mod advice;
 mod bench;
 mod effects;
 mod flip;
-mod front;
 mod knob;
 mod metrics;
 mod noise;
 mod outcome;
+mod pareto;
 mod precision;
 mod race;
 mod reference;
@@ -29,7 +29,7 @@ pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use knob::{Knob, idle};
 pub use metrics::{Errors, LEVELS, rmse};
-pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
+pub use outcome::{About, KnobReport, Rays, ReferenceReport, Row, Study, StudyArea};
 pub use precision::PrecisionCost;
 pub use reference::{DepthEnd, Level};
 pub use report::{csv, html, json, table};
@@ -102,7 +102,7 @@ pub fn study(
         about,
         effort,
         seed,
-        part: Part {
+        part: StudyArea {
             size: scene.camera.size,
             tiles: if subject.is_whole() {
                 0
@@ -280,11 +280,11 @@ impl Scope {
             .iter()
             .fold(self.own, |setting, knob| setting.with(*knob, knob.lowest()));
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
-        let best = front::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
+        let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
         let settings = std::iter::once(self.own)
             .chain(best.into_iter().filter(|setting| *setting != self.own));
         let settings = settings
-            .flat_map(|setting| std::iter::once(setting).chain(front::cheaper(model, setting)));
+            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)));
         let runners: Vec<_> = settings
             .map(|setting| Runner {
                 subject: subject.clone(),
@@ -310,7 +310,7 @@ impl Scope {
         let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
         let points: Vec<_> = rows.iter().map(Row::point).collect();
         let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
-        let ranked = front::ranking(&points).into_iter();
+        let ranked = pareto::ranking(&points).into_iter();
         let ranked = ranked.filter_map(|(place, front)| {
             Some(Row {
                 front,
@@ -332,8 +332,8 @@ impl Context {
 }
 
 impl Row {
-    fn point(&self) -> front::Point {
-        front::Point {
+    fn point(&self) -> pareto::Point {
+        pareto::Point {
             seconds: [self.seconds.low, self.seconds.high],
             rays: self.rays.all(),
             error: self.errors.rmse,

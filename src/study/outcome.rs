@@ -29,7 +29,7 @@ pub struct About {
 /// The part of the picture that was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Part {
+pub struct StudyArea {
     /// Width and height of the whole picture.
     pub size: [u32; 2],
     /// Tiles looked at, or 0 for the whole.
@@ -149,7 +149,7 @@ pub struct Study {
     /// The seed of its chances.
     pub seed: u64,
     /// The part of the picture that was looked at.
-    pub part: Part,
+    pub part: StudyArea,
     /// What errors are measured against.
     pub reference: ReferenceReport,
     /// Each knob alone.

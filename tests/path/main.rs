@@ -13,9 +13,9 @@ mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path,
-    Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard, Surface,
-    Triangle,
+    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
+    PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard,
+    Surface, Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
@@ -26,7 +26,7 @@ use rtc::valid::{self, Proof};
 /// the origin.
 fn scene(samples: u32) -> Scene {
     let settings = Settings {
-        mode: Mode::Path(Path {
+        mode: Mode::Path(PathSettings {
             samples,
             multiple_scattering: false,
         }),

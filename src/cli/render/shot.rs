@@ -8,7 +8,7 @@ use crate::diag::Diagnostic;
 use crate::image::Image;
 use crate::pipeline::{self, Meter};
 use crate::plan::Rule;
-use crate::render::{Counts, Crop, Fault, Film, Job};
+use crate::render::{Counts, Crop, Film, Job, Mismatch};
 use crate::study::{Order, Reached, Samples, Stopped, Watch};
 use std::path::Path;
 use std::time::Duration;
@@ -88,7 +88,7 @@ impl Plan {
             image,
             coverage,
             counts,
-        } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        } = film.map_err(|mismatch| Failure::Trouble(left_out(&mismatch)))?;
         Ok(Ok(Shot {
             image,
             coverage,
@@ -167,13 +167,13 @@ fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Bo
 }
 
 /// What to say of a rule that was wrong.
-fn left_out(fault: &Fault) -> String {
-    let Fault {
+fn left_out(mismatch: &Mismatch) -> String {
+    let Mismatch {
         pixel: [x, y],
         effect,
         rule,
         what,
-    } = fault;
+    } = mismatch;
     let rule = rule.map_or("no rule", Rule::name);
     let version = env!("CARGO_PKG_VERSION");
     format!(

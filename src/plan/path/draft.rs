@@ -9,13 +9,13 @@ use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, Path, Proof, Punctual, Shape, Standard};
+use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard};
 
 /// What is left of a scene.
 #[derive(Clone)]
 pub(super) struct Draft<'scene> {
     pub(super) scene: &'scene Proof,
-    pub(super) path: Path,
+    pub(super) path: PathSettings,
     /// The lights without extent.
     pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.

@@ -19,7 +19,7 @@ use super::features::PathFeatures;
 use super::rules::Rules;
 use super::window::{Shown, Window};
 use crate::math::Vec3;
-use crate::valid::{Map, Path, Projection, Proof, Standard};
+use crate::valid::{Map, PathSettings, Projection, Proof, Standard};
 use draft::{Applied, Draft};
 use facts::Uses;
 
@@ -60,7 +60,7 @@ pub(super) struct Planned {
 }
 
 /// Plans the paths of a scene.
-pub(super) fn plan(scene: &Proof, path: Path, rules: Rules) -> Planned {
+pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
     let (uses, bodies) = (Uses::of(scene), bodies(scene));
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();

@@ -4,7 +4,7 @@
 use super::compensation::Compensation;
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
-use super::standard::Standard;
+use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
 use super::{Evaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::math::Vec3;
@@ -75,7 +75,7 @@ pub(super) enum ScatteredDirection {
 impl<const F: u32> Microfacet<F> {
     /// The boundary of a material, seen from within the body if `inside`.
     #[inline]
-    pub(super) fn new(standard: &Standard, inside: bool) -> Self {
+    pub(super) fn new(standard: &StandardParameters, inside: bool) -> Self {
         let ggx = match standard.anisotropy {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),

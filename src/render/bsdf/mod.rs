@@ -18,7 +18,7 @@ mod thin_film;
 mod warp;
 
 pub use fresnel::dispersed;
-pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
 
 use crate::math::Vec3;
 use crate::plan::PathFeatures;
@@ -57,7 +57,7 @@ impl Evaluation {
 
 /// A direction sampled: what comes from there counts `f·|cos θ|/pdf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct BsdfSample {
     /// The direction light comes from.
     pub wi: Vec3,
     /// The BSDF; for a single direction, what it scatters divided by |cos θ|.
@@ -120,7 +120,7 @@ impl<const F: u32> Lobes<F> {
     /// The material seen from `wo`.
     #[must_use]
     #[inline]
-    pub fn new(standard: &Standard, wo: Vec3) -> Self {
+    pub fn new(standard: &StandardParameters, wo: Vec3) -> Self {
         let along = standard
             .anisotropy
             .map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
@@ -261,7 +261,7 @@ impl<const F: u32> Lobes<F> {
 
     /// A direction for three numbers in [0, 1); `None` where nothing is scattered.
     #[must_use]
-    pub fn sample(&self, u: [f64; 3]) -> Option<Sample> {
+    pub fn sample(&self, u: [f64; 3]) -> Option<BsdfSample> {
         let LobePdf {
             cosine,
             microfacet,
@@ -291,9 +291,9 @@ impl<const F: u32> Lobes<F> {
         }
     }
 
-    fn in_lobe(&self, wi: Vec3) -> Option<Sample> {
+    fn in_lobe(&self, wi: Vec3) -> Option<BsdfSample> {
         let Evaluation { f, pdf } = self.evaluate_entered(wi);
-        (pdf > 0.0).then(|| Sample {
+        (pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,
             pdf,
@@ -301,9 +301,9 @@ impl<const F: u32> Lobes<F> {
         })
     }
 
-    fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<Sample> {
+    fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<BsdfSample> {
         let f = scattered / wi.z.abs();
-        (wi.z != 0.0 && pdf > 0.0).then(|| Sample {
+        (wi.z != 0.0 && pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,
             pdf,

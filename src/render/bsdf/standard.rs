@@ -8,7 +8,7 @@ use crate::math::Vec3;
 ///
 /// Colours are linear, shares and roughnesses in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standard {
+pub struct StandardParameters {
     /// Albedo of the diffuse, reflectance of the metallic, tint of the transmitting part.
     pub base_color: Vec3,
     /// The share that is metal.
@@ -79,7 +79,7 @@ pub struct Iridescence {
     pub thickness: f64,
 }
 
-impl Default for Standard {
+impl Default for StandardParameters {
     /// The defaults of glTF, but for the metal: white and rough, of glass's index.
     fn default() -> Self {
         Self {
@@ -100,7 +100,7 @@ impl Default for Standard {
     }
 }
 
-impl Standard {
+impl StandardParameters {
     /// The reflectance of the dielectric part at normal incidence.
     #[must_use]
     pub(super) fn dielectric_f0(&self) -> Vec3 {

@@ -5,7 +5,7 @@
 //! is worth. How many samples a half takes may hang on what the other half saw: neither is then
 //! biased by its own luck.
 
-use super::pixel::{Accumulator, Asked, Sample, SampleId, Stream};
+use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
 use super::{Background, Counts, Crop, Values, coverage};
 use crate::color::Tone;
@@ -80,7 +80,11 @@ impl ProgressiveFilm {
 
     /// The samples that a pixel lacks of those wanted: per half, how many each of its strands is
     /// to have at least.
-    pub(in crate::render) fn lacking(seed: u64, pixel: &Replicates, wanted: [u32; 2]) -> Asked {
+    pub(in crate::render) fn lacking(
+        seed: u64,
+        pixel: &Replicates,
+        wanted: [u32; 2],
+    ) -> SampleRanges {
         let strand = |strand: usize| {
             let number = (seed << 2 | strand as u64).wrapping_add(1);
             let samples = pixel.counts[strand / 2]..wanted[strand / 2];

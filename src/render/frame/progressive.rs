@@ -12,7 +12,7 @@ use crate::render::kernel::{choose_of_few, dispatch, dispatch_paths};
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Path};
+use crate::valid::{Mode, PathSettings};
 
 /// Of each pixel, counted row by row, how many samples each strand of its halves is to have.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
@@ -34,7 +34,7 @@ impl<S: Geometry> World<S> {
     /// Grows by tracing paths with the features `F`.
     fn grow_paths<const F: u32>(
         &self,
-        path: Path,
+        path: PathSettings,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
         on_pixel: &OnPixel<'_>,

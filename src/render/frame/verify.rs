@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Something that a plan left out and that shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct Mismatch {
     /// The pixel, from the upper left.
     pub pixel: [u32; 2],
     /// The effect that was left out.
@@ -28,7 +28,7 @@ pub struct Fault {
 /// A plan under validation, and the first fault in the order of pixels.
 pub(in crate::render) struct Verify {
     pub(in crate::render) plan: Plan,
-    first: Mutex<Option<Fault>>,
+    first: Mutex<Option<Mismatch>>,
 }
 
 impl Verify {
@@ -36,7 +36,7 @@ impl Verify {
     /// kept.
     pub(in crate::render) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
-        self.keep(Fault {
+        self.keep(Mismatch {
             pixel,
             effect,
             rule,
@@ -45,14 +45,14 @@ impl Verify {
     }
 
     /// Keeps a fault, if it is the first in the order of pixels.
-    fn keep(&self, fault: Fault) {
+    fn keep(&self, mismatch: Mismatch) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let order = |fault: &Fault| (fault.pixel[1], fault.pixel[0]);
+        let order = |mismatch: &Mismatch| (mismatch.pixel[1], mismatch.pixel[0]);
         if first
             .as_ref()
-            .is_none_or(|first| order(&fault) < order(first))
+            .is_none_or(|first| order(&mismatch) < order(first))
         {
-            *first = Some(fault);
+            *first = Some(mismatch);
         }
     }
 }
@@ -67,7 +67,7 @@ pub fn verify(
     plan: &Plan,
     job: &Job,
     on_pixel: &OnPixel<'_>,
-) -> Option<Result<Film, Fault>> {
+) -> Option<Result<Film, Mismatch>> {
     let planned = any::render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
         Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
@@ -128,7 +128,7 @@ fn blame(
     pixel: [u32; 2],
     color: [f64; 3],
     on_pixel: &OnPixel<'_>,
-) -> Option<Fault> {
+) -> Option<Mismatch> {
     let [x, y] = pixel;
     let crop = Some(Crop {
         x,
@@ -136,7 +136,7 @@ fn blame(
         width: 1,
         height: 1,
     });
-    let mut fault = Fault {
+    let mut mismatch = Mismatch {
         pixel,
         effect: Effect::Surfaces,
         rule: None,
@@ -149,9 +149,9 @@ fn blame(
         let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
         let film = any::render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
-            (fault.effect, fault.rule) = (verdict.effect, Some(rule));
+            (mismatch.effect, mismatch.rule) = (verdict.effect, Some(rule));
             break;
         }
     }
-    Some(fault)
+    Some(mismatch)
 }

@@ -2,7 +2,7 @@
 
 use crate::math::{Vec3, acos, atan2, cos, sin};
 use crate::render::bsdf::direction_turned;
-use crate::render::sampler::discrete::Table;
+use crate::render::sampler::discrete::Distribution2D;
 use crate::render::texture::sampled::{ColorSpace, sample};
 use crate::render::texture::{Filter, Image, Wrap};
 use std::f64::consts::{PI, TAU};
@@ -12,12 +12,12 @@ use std::sync::Arc;
 pub(in crate::render) struct Environment {
     radiance: Vec3,
     /// The image, and its pixels by what they send to the scene.
-    image: Option<(Arc<Image>, Table)>,
+    image: Option<(Arc<Image>, Distribution2D)>,
     image_from_world: [Vec3; 3],
 }
 
 /// What there is in a direction.
-pub(in crate::render) struct Seen {
+pub(in crate::render) struct EnvironmentRadiance {
     pub(in crate::render) radiance: Vec3,
     /// The density of [`Environment::sample`] per solid angle.
     pub(in crate::render) pdf: f64,
@@ -58,7 +58,7 @@ impl Environment {
     }
 
     /// What there is in a direction, a unit vector.
-    pub(in crate::render) fn seen(&self, direction: Vec3) -> Seen {
+    pub(in crate::render) fn seen(&self, direction: Vec3) -> EnvironmentRadiance {
         let Some((image, table)) = &self.image else {
             return self.uniform();
         };
@@ -67,7 +67,7 @@ impl Environment {
     }
 
     /// A direction, and what there is.
-    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, Seen) {
+    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
         let Some((image, table)) = &self.image else {
             return (direction_turned(1.0 - 2.0 * u[0], u[1]), self.uniform());
         };
@@ -84,15 +84,21 @@ impl Environment {
         (direction, self.seen_at(image, table, place, sine))
     }
 
-    fn uniform(&self) -> Seen {
-        Seen {
+    fn uniform(&self) -> EnvironmentRadiance {
+        EnvironmentRadiance {
             radiance: self.radiance,
             pdf: 0.5 / TAU,
         }
     }
 
     /// What there is at a place in the image, at the sine of the colatitude given.
-    fn seen_at(&self, image: &Image, table: &Table, place: [f64; 2], sine: f64) -> Seen {
+    fn seen_at(
+        &self,
+        image: &Image,
+        table: &Distribution2D,
+        place: [f64; 2],
+        sine: f64,
+    ) -> EnvironmentRadiance {
         let [r, g, b, _] = sample(
             image,
             place,
@@ -105,7 +111,7 @@ impl Environment {
         } else {
             0.0
         };
-        Seen {
+        EnvironmentRadiance {
             radiance: self.radiance * Vec3::new(r, g, b),
             pdf,
         }
@@ -121,7 +127,7 @@ impl Environment {
 }
 
 /// Pixels by their strongest channel, and by the solid angle they span.
-fn table(image: &Image) -> Table {
+fn table(image: &Image) -> Distribution2D {
     let [width, height] = [image.width, image.height];
     let weight = |x: u32, y: u32| {
         let v = (f64::from(y) + 0.5) / f64::from(height);
@@ -135,5 +141,5 @@ fn table(image: &Image) -> Table {
         );
         r.max(g).max(b) * sin(v * PI)
     };
-    Table::new([width, height], weight)
+    Distribution2D::new([width, height], weight)
 }

@@ -12,7 +12,7 @@ use crate::math::Vec3;
 use crate::plan::LightLeft;
 use crate::render::accel::bounds::Bounds;
 use crate::render::integrator::path::Strategy;
-use crate::render::light::environment::Seen;
+use crate::render::light::environment::EnvironmentRadiance;
 use crate::render::light::punctual::Punctual;
 use crate::render::light::triangle::TriangleLight;
 use crate::render::material::point::uvs;
@@ -206,7 +206,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 })
             }
             Light::Environment => {
-                let (wi, Seen { radiance, pdf }) = self.world.lights.environment.sample(u());
+                let (wi, EnvironmentRadiance { radiance, pdf }) =
+                    self.world.lights.environment.sample(u());
                 let pdf = probability * pdf;
                 (pdf > 0.0).then_some(Incident {
                     wi,
@@ -242,7 +243,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
     /// The radiance from a direction that leads to no surface, and the density with which
     /// [`Lights::sample`] takes it.
     pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, f64) {
-        let Seen { radiance, pdf } = self.world.lights.environment.seen(wi);
+        let EnvironmentRadiance { radiance, pdf } = self.world.lights.environment.seen(wi);
         (
             radiance,
             self.by_power.probability(self.lights.len() - 1) * pdf,

@@ -2,7 +2,7 @@
 //! it emits or is absent.
 
 use crate::math::{Basis, Vec3};
-use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
 use crate::render::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
@@ -11,7 +11,7 @@ use crate::render::shape::instance::Details;
 use crate::render::texture::sampled::UvSets;
 
 /// A material with what a surface says of one point.
-pub(in crate::render) struct Point<'world> {
+pub(in crate::render) struct MaterialPoint<'world> {
     pub(in crate::render) material: &'world StandardMaterial,
     uvs: UvSets,
     /// The colour at the point, that of the corners included, and alpha.
@@ -19,7 +19,7 @@ pub(in crate::render) struct Point<'world> {
 }
 
 /// The frame of shading at a point: the unit normal, and the directions along which maps grow.
-pub(in crate::render) struct Frame {
+pub(in crate::render) struct ShadingFrame {
     /// Right-handed, as the BSDF wants it.
     basis: Basis,
     /// How highlights are stretched.
@@ -31,7 +31,7 @@ pub(in crate::render) fn uvs(details: &Details) -> UvSets {
     [details.uv, details.second_uv]
 }
 
-impl<'world> Point<'world> {
+impl<'world> MaterialPoint<'world> {
     pub(in crate::render) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
         let uvs = uvs(details);
         let (own, corners) = (
@@ -74,13 +74,13 @@ impl<'world> Point<'world> {
     /// What is scattered; `channel` is the colour that a dispersed path has been left with.
     pub(in crate::render) fn standard(
         &self,
-        frame: &Frame,
+        frame: &ShadingFrame,
         clearcoat: Vec3,
         channel: Option<usize>,
         multiple: bool,
-    ) -> Standard {
+    ) -> StandardParameters {
         let m = self.material;
-        let mut standard = Standard {
+        let mut standard = StandardParameters {
             base_color: self.base_color(),
             metallic: 0.0,
             roughness: 0.0,
@@ -100,7 +100,7 @@ impl<'world> Point<'world> {
         standard
     }
 
-    fn reflect(&self, standard: &mut Standard, channel: Option<usize>) {
+    fn reflect(&self, standard: &mut StandardParameters, channel: Option<usize>) {
         let m = self.material;
         match &m.reflection {
             Reflection::Metallic {
@@ -128,7 +128,7 @@ impl<'world> Point<'world> {
         }
     }
 
-    fn add_layers(&self, standard: &mut Standard, frame: &Frame, clearcoat: Vec3) {
+    fn add_layers(&self, standard: &mut StandardParameters, frame: &ShadingFrame, clearcoat: Vec3) {
         let (m, uvs) = (self.material, &self.uvs);
         // A layer whose map shows 0 is not there.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
@@ -183,7 +183,7 @@ impl<'world> Point<'world> {
         at: &Interaction,
         details: &Details,
         wo: Vec3,
-    ) -> (Frame, Vec3) {
+    ) -> (ShadingFrame, Vec3) {
         // The winding says which side is outside, and the normals of some meshes were made against
         // it.
         let normal = details
@@ -209,7 +209,7 @@ impl<'world> Point<'world> {
         let stretch = stretch.filter(|stretch| stretch.strength > 0.0);
         let tangent = details.tangent.filter(|_| stretch.is_some());
         let basis = basis(shading, tangent, 1.0);
-        (Frame { basis, stretch }, coat)
+        (ShadingFrame { basis, stretch }, coat)
     }
 
     /// The normal that a map gives.
@@ -228,7 +228,7 @@ impl<'world> Point<'world> {
     }
 }
 
-impl Frame {
+impl ShadingFrame {
     pub(in crate::render) fn to_local(&self, w: Vec3) -> Vec3 {
         self.basis.to_local(w)
     }

@@ -59,13 +59,13 @@ impl DiscreteDistribution {
 
 /// Places of the unit square with a density proportional to the weight of their cell.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Table {
+pub(in crate::render) struct Distribution2D {
     rows: DiscreteDistribution,
     cells: Vec<DiscreteDistribution>,
     width: usize,
 }
 
-impl Table {
+impl Distribution2D {
     /// A table of columns and rows, both at least 1.
     pub(in crate::render) fn new(
         [width, height]: [u32; 2],
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn places_have_the_density_of_their_cell() {
-        let table = Table::new([3, 2], |x, y| f64::from(x + 3 * y));
+        let table = Distribution2D::new([3, 2], |x, y| f64::from(x + 3 * y));
         let n = 300;
         let mut counts = [[0.0; 3]; 2];
         for i in 0..n {

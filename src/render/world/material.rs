@@ -16,21 +16,21 @@ use crate::render::texture::sampled::{ColorSpace, UvSets};
 use crate::valid::{self, Maps, Mode, Phong, Proof, Standard};
 
 /// The materials of a scene as its integrator sees them, one for each.
-pub(super) enum Seen {
+pub(super) enum MaterialsFor {
     Whitted(Vec<Phong>),
     Paths(Vec<Standard>),
 }
 
 /// What the materials of a scene are to the integrator that is planned.
-pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> Seen {
+pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> MaterialsFor {
     let materials = scene.materials().iter();
     if let Some(paths) = &plan.paths {
-        return Seen::Paths(paths.materials.clone());
+        return MaterialsFor::Paths(paths.materials.clone());
     }
     match scene.settings().mode {
-        Mode::Path(_) => Seen::Paths(materials.map(facts::material::standard).collect()),
+        Mode::Path(_) => MaterialsFor::Paths(materials.map(facts::material::standard).collect()),
         Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-            Seen::Whitted(materials.map(facts::material::phong).collect())
+            MaterialsFor::Whitted(materials.map(facts::material::phong).collect())
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
 
 use super::flattened::{Flattened, flattened_surfaces};
-use super::material::{PhongList, Seen, materials_for, standard};
+use super::material::{MaterialsFor, PhongList, materials_for, standard};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Surface, World, light};
@@ -19,12 +19,12 @@ impl<S: Prepare> World<S> {
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, &textures);
         let (surfaces, phongs, standards) = match materials_for(scene, plan) {
-            Seen::Whitted(materials) => {
+            MaterialsFor::Whitted(materials) => {
                 let mut list = PhongList::new(materials, plan);
                 let surfaces = surfaces(scene, plan, |material, has_uv| list.of(material, has_uv));
                 (surfaces, list.prepared(&textures), Vec::new())
             }
-            Seen::Paths(materials) => {
+            MaterialsFor::Paths(materials) => {
                 let paths = plan.paths.as_ref();
                 let materials = materials.iter().enumerate();
                 let prepared =

@@ -2,7 +2,7 @@
 //! data URIs.
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
-use crate::image::{Form, Image, Picture};
+use crate::image::{FileFormat, Image, Picture};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
@@ -95,7 +95,7 @@ fn shrunk(image: Image) -> Image {
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
     let bytes = Picture::opaque(image.clone())
-        .encode(&Form::Png8)
+        .encode(&FileFormat::Png8)
         .unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }

@@ -6,7 +6,7 @@ use libtest_mimic::Failed;
 use rtc::color::Tone;
 use rtc::diag::Sink;
 use rtc::front::assets;
-use rtc::image::{Association, BackgroundFill, Form, Image, Layers, Look, Picture};
+use rtc::image::{Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture};
 use rtc::ir::{EnvironmentOverride, Lowered, Stage};
 use rtc::pipeline::{self, Renderer};
 use rtc::plan::{Plan, Rules};
@@ -34,7 +34,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     };
     Ok(Shot {
         png: picture
-            .encode(&Form::Png8)
+            .encode(&FileFormat::Png8)
             .map_err(|error| error.to_string())?,
         tolerance: match scene.settings().mode {
             Mode::Path(_) => 1,

@@ -8,7 +8,7 @@ mod shape;
 
 use super::settings::PATTERNS;
 use crate::ir::{
-    Gooch, Light, MaterialId, Mode, Path, Pattern, Projection, Scene, Settings, Surface,
+    Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Projection, Scene, Settings, Surface,
 };
 use std::fmt::Write as _;
 
@@ -170,7 +170,7 @@ impl Text {
 
 /// The rays along the side of a pixel, that of paths too.
 fn factor(mode: &Mode, supersampling: u32) -> Result<u32, String> {
-    let Mode::Path(Path {
+    let Mode::Path(PathSettings {
         samples,
         multiple_scattering,
     }) = mode

@@ -19,7 +19,7 @@ const HEURISTIC_DEPTH: usize = 16;
 
 /// What a walk has left for later, with where the ray enters it: each level leaves at most three
 /// children.
-type Open = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
+type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
 /// it.
@@ -157,7 +157,7 @@ impl Bvh4 {
             }
         };
         let mut limit = beam.limit(t_max);
-        let mut open = Open::new();
+        let mut open = TraversalStack::new();
         let mut link = self.root;
         loop {
             if link & LEAF == 0 {
@@ -203,7 +203,12 @@ impl Bvh4 {
 
 /// The nearest of the children met; the others are left for later.
 #[inline(always)]
-fn nearest(open: &mut Open, mut met: u32, enter: &[f32; WIDTH], links: &[u32; WIDTH]) -> u32 {
+fn nearest(
+    open: &mut TraversalStack,
+    mut met: u32,
+    enter: &[f32; WIDTH],
+    links: &[u32; WIDTH],
+) -> u32 {
     let lane = met.trailing_zeros() as usize & (WIDTH - 1);
     let mut first = (enter[lane], links[lane]);
     met &= met - 1;

@@ -22,7 +22,7 @@ use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::Path;
+use crate::valid::PathSettings;
 use state::PathState;
 use visibility::AlphaTested;
 
@@ -42,7 +42,7 @@ pub enum Strategy {
 pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: Path,
+    path: PathSettings,
     strategy: Strategy,
     alpha_tested: AlphaTested,
     /// Whether vertices know all that surfaces know, not only what their materials need.
@@ -64,7 +64,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(in crate::render) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        path: Path,
+        path: PathSettings,
         strategy: Strategy,
         on_pixel: &'world OnPixel<'world>,
     ) -> Self {

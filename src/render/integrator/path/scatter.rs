@@ -5,14 +5,14 @@ use super::vertex::PathVertex;
 use super::{PathTracer, Strategy};
 use crate::math::{Vec3, exp};
 use crate::plan::{Effect, PathFeatures};
-use crate::render::bsdf::{Lobes, Standard};
+use crate::render::bsdf::{Lobes, StandardParameters};
 use crate::render::light::Incident;
-use crate::render::material::point::Frame;
+use crate::render::material::point::ShadingFrame;
 use crate::render::shape::geometry::Geometry;
 
 /// The BSDF at a vertex, in its frame of shading.
 struct Shading<const F: u32> {
-    frame: Frame,
+    frame: ShadingFrame,
     bsdf: Lobes<F>,
     /// The direction to the viewer in the frame.
     wo: Vec3,
@@ -139,7 +139,12 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// Counts what was evaluated of a material.
     #[inline]
-    fn count_shading(&mut self, vertex: &PathVertex<'_>, standard: &Standard, bsdf: &Lobes<F>) {
+    fn count_shading(
+        &mut self,
+        vertex: &PathVertex<'_>,
+        standard: &StandardParameters,
+        bsdf: &Lobes<F>,
+    ) {
         let material = vertex.point.material;
         let mut count = |effect: Effect, is_there: bool| {
             if is_there {

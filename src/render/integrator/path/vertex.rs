@@ -3,7 +3,7 @@
 use super::PathTracer;
 use super::state::PathState;
 use crate::plan::{Effect, PathFeatures};
-use crate::render::material::point::Point;
+use crate::render::material::point::MaterialPoint;
 use crate::render::material::standard::{Alpha, StandardMaterial};
 use crate::render::ray::Interaction;
 use crate::render::shape::geometry::Geometry;
@@ -16,7 +16,7 @@ pub(super) const MAX_SKIPPED: u32 = 1 << 10;
 /// Where a path meets a surface.
 pub(in crate::render) struct PathVertex<'world> {
     pub(super) at: Interaction,
-    pub(super) point: Point<'world>,
+    pub(super) point: MaterialPoint<'world>,
     pub(super) details: Details,
     pub(super) hit: Hit,
 }
@@ -64,7 +64,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// A material at a point of a surface.
-    pub(super) fn point(&mut self, material: usize, details: &Details) -> Point<'world> {
+    pub(super) fn point(&mut self, material: usize, details: &Details) -> MaterialPoint<'world> {
         let material = &self.world.standards[material];
         if material.base_color.map.is_some() {
             self.counts.add(Effect::Textures);
@@ -72,11 +72,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         if details.color.is_some() {
             self.counts.add(Effect::VertexColors);
         }
-        Point::new(material, details)
+        MaterialPoint::new(material, details)
     }
 
     /// The probability that a ray meets the surface at a point.
-    pub(super) fn opacity(&mut self, point: &Point<'_>) -> f64 {
+    pub(super) fn opacity(&mut self, point: &MaterialPoint<'_>) -> f64 {
         if !Self::can(PathFeatures::ALPHA) || point.material.alpha == Alpha::Opaque {
             return 1.0;
         }

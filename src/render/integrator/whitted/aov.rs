@@ -3,13 +3,13 @@
 use super::Tracer;
 use crate::render::film::Seeds;
 use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{First, FirstHit, Seen};
+use crate::render::integrator::aov::{CameraHit, First, FirstHit};
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::Asked;
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
-    fn first_hit(&mut self, id: &SampleId) -> Seen {
+    fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let camera = self.scene().camera();
         let (cell, k) = self.grid.split(id.index);
         let ray = self
@@ -28,7 +28,7 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
                 surface: shading_point.surface,
             }
         });
-        Seen {
+        CameraHit {
             direction: ray.direction,
             first,
         }

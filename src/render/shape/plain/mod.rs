@@ -30,14 +30,14 @@ use real::{Real, Vector};
 /// A shape of any kind, ready to be hit by the plain formulas in `R`.
 #[derive(Clone, Debug)]
 pub struct PlainShape<R> {
-    pub(in crate::render) form: Form<R>,
+    pub(in crate::render) form: PlainForm<R>,
     /// Answers what is not a question of arithmetic.
     pub(in crate::render) robust: Box<Shape>,
 }
 
 /// How rays meet it.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Form<R> {
+pub(in crate::render) enum PlainForm<R> {
     Sphere(sphere::Sphere<R>),
     Plane(plane::Plane<R>),
     Triangle(triangle::Triangle<R>),
@@ -49,7 +49,7 @@ pub(in crate::render) enum Form<R> {
     Instance(Box<instance::Instance<R>>),
 }
 
-impl<R: Real> Form<R> {
+impl<R: Real> PlainForm<R> {
     fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         match self {
             Self::Sphere(sphere) => sphere.normal(point),
@@ -70,15 +70,15 @@ impl<R: Real> Geometry for PlainShape<R> {
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let ray = PlainRay::of(ray);
         let hit = match &self.form {
-            Form::Sphere(sphere) => sphere.intersect(&ray),
-            Form::Plane(plane) => plane.intersect(&ray),
-            Form::Triangle(triangle) => triangle.intersect(&ray).map(|t| (t, 0)),
-            Form::Quad(quad) => quad.intersect(&ray),
-            Form::Disc(disc) => disc.intersect(&ray),
-            Form::Cylinder(cylinder) => cylinder.intersect(&ray),
-            Form::Cone(cone) => cone.intersect(&ray),
-            Form::Torus(torus) => torus.intersect(&ray),
-            Form::Instance(instance) => return instance.intersect(&ray, t_max),
+            PlainForm::Sphere(sphere) => sphere.intersect(&ray),
+            PlainForm::Plane(plane) => plane.intersect(&ray),
+            PlainForm::Triangle(triangle) => triangle.intersect(&ray).map(|t| (t, 0)),
+            PlainForm::Quad(quad) => quad.intersect(&ray),
+            PlainForm::Disc(disc) => disc.intersect(&ray),
+            PlainForm::Cylinder(cylinder) => cylinder.intersect(&ray),
+            PlainForm::Cone(cone) => cone.intersect(&ray),
+            PlainForm::Torus(torus) => torus.intersect(&ray),
+            PlainForm::Instance(instance) => return instance.intersect(&ray, t_max),
         };
         hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
