@@ -66,8 +66,7 @@ pub struct Sun {
     pub irradiance: [f64; 3],
 }
 
-/// So many times as far as the scene is large stands a sun for those to whom it must stand
-/// somewhere.
+/// Distance of a sun, in scene radii, for integrators that need a position.
 const FAR: f64 = 1e4;
 
 impl Stage {

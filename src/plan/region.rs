@@ -99,7 +99,7 @@ impl Region {
         }
     }
 
-    /// The share of the picture that surely shows nothing, in [0, 1].
+    /// The fraction of the picture that surely shows nothing, in [0, 1].
     #[must_use]
     pub fn empty_fraction(&self) -> f64 {
         let empty = self

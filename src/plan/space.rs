@@ -7,7 +7,7 @@
 
 use crate::math::Vec3;
 
-/// The margin, as a share of the coordinates it is for: 2⁻³².
+/// The margin, as a fraction of the coordinates it is for: 2⁻³².
 pub(in crate::plan) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
 /// An axis-aligned box.
@@ -90,7 +90,7 @@ impl Space {
 
     /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
     ///
-    /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
+    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
     /// `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
     pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
@@ -352,7 +352,7 @@ pub(in crate::plan) mod tests {
                 span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0]),
             ]
         };
-        // Of size 3, the other takes room thrice, the end once, the share of the way once.
+        // Of size 3, the other takes room thrice, the end once, the fraction of the way once.
         have_margin(11.0 * MARGIN, boxes, |[start, end, other]| {
             !start.may_see_through(&end, &other)
         });

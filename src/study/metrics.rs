@@ -15,14 +15,14 @@ pub const LEVELS: f64 = 255.0;
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
-    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a share of
+    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a fraction of
     /// it: 0 if all of the picture was looked at.
     pub rmse_uncertainty: f64,
     /// The mean of `(x − r)²/(r² + 0.01)`, which weighs dark places more.
     pub relative_mse: f64,
     /// The largest difference of a channel, in grey levels.
     pub max: f64,
-    /// The share of pixels with a channel off by more than one grey level.
+    /// The fraction of pixels with a channel off by more than one grey level.
     pub visible: f64,
     /// The mean of FLIP, from 0 to 1.
     pub flip: f64,

@@ -68,7 +68,7 @@ const FOR_ROWS: u64 = 30;
 const FOR_EFFECTS: u64 = 6;
 const FOR_PRECISION: u64 = 4;
 
-/// A reference may be off by this share of an error that it judges.
+/// A reference may be off by this fraction of an error that it judges.
 const JUDGE: f64 = 0.2;
 
 /// Studies a proven scene.

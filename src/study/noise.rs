@@ -62,7 +62,7 @@ impl Noise {
     }
 }
 
-/// No strand grows longer.
+/// No replicate grows longer.
 const LONGEST: u32 = 1 << 24;
 
 /// What samples each half of each pixel deserves.
@@ -71,7 +71,7 @@ pub(super) struct Allotment {
     deviations: Vec<[f64; 2]>,
     /// The mean of all.
     mean: f64,
-    /// How much less the noise is than that of independent samples would be: strands are
+    /// How much less the noise is than that of independent samples would be: replicates are
     /// stratified.
     gain: f64,
 }
@@ -102,10 +102,10 @@ impl Allotment {
         }
     }
 
-    /// How many samples a strand of each half of pixel `index` is to have so that the mean square
+    /// How many samples a replicate of each half of pixel `index` is to have so that the mean square
     /// error becomes `square`: the least work is samples in proportion to the deviation
     /// (Neyman, Journal of the Royal Statistical Society 97 (1934)). At most twice as many as
-    /// there are; a power of two, of which strands are stratified.
+    /// there are; a power of two, of which replicates are stratified.
     pub(super) fn wanted(&self, film: &ProgressiveFilm, index: usize, square: f64) -> [u32; 2] {
         let scale = self.gain * self.mean / (4.0 * square);
         [0, 1].map(|half: usize| {

@@ -32,8 +32,8 @@ pub(super) struct Race {
 const FEWEST_ROUNDS: u64 = 3;
 const MOST_ROUNDS: u64 = 9;
 
-/// Renders of a runner in a round: what is over in a few milliseconds says little of a machine
-/// whose speed changes as fast.
+/// At most so many renders of a runner in a round. Renders of a few milliseconds are too short to
+/// time on a noisy machine.
 const MOST_REPEATS: u64 = 8;
 
 /// Times all runners in at least three rounds, those that take few rays in more and several times

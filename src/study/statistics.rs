@@ -26,7 +26,7 @@ impl Estimate {
         }
     }
 
-    /// Half the width of the interval, as a share of the value; 0 for a value of 0.
+    /// Half the width of the interval, as a fraction of the value; 0 for a value of 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
         if self.value == 0.0 {
@@ -126,7 +126,7 @@ fn middle(values: &mut [f64]) -> f64 {
     }
 }
 
-/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a share of it.
+/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a fraction of it.
 ///
 /// The population is finite: the mean over all of it is exact.
 #[must_use]

@@ -83,7 +83,7 @@ impl<'bench> Subject<'bench> {
             .sum()
     }
 
-    /// The share of the picture that is looked at.
+    /// The fraction of the picture that is looked at.
     pub(super) fn fraction(&self) -> f64 {
         let [width, height] = self.scene.camera.size;
         self.pixels() as f64 / (f64::from(width) * f64::from(height))

@@ -45,7 +45,7 @@ pub struct Order {
     pub seed: u64,
 }
 
-/// Who looks on.
+/// The observer of a render in progress.
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with the rays it took; false means stop.
     pub on_pixel: &'a OnPixel<'a>,
@@ -82,7 +82,7 @@ pub struct Samples {
 pub struct Reached {
     /// The picture.
     pub image: Image,
-    /// Of each pixel the share of the samples that met a surface.
+    /// Of each pixel the fraction of the samples that met a surface.
     pub coverage: Vec<f32>,
     /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
@@ -95,14 +95,14 @@ pub struct Reached {
     pub light_samples: u32,
 }
 
-/// The share of pictures that may be worse than promised.
+/// The fraction of pictures that may be worse than promised.
 const TAIL: f64 = 0.05;
 
-/// The samples that each of the four strands of all pixels have together in the first round, at
+/// The samples that each of the four replicates of all pixels have together in the first round, at
 /// least one each: so many that a handful of pixels is not judged by a handful of samples.
 const FIRST: usize = 1024;
 
-/// The least samples of a strand in the first round where paths are traced: what a code of sRGB
+/// The least samples of a replicate in the first round where paths are traced: what a code of sRGB
 /// makes of a mean of very few is no measure of what it makes of many.
 const FIRST_PATHS: usize = 4;
 
@@ -238,7 +238,7 @@ fn light_samples(
     order: &Order,
     watch: &Watch<'_>,
 ) -> Result<(u32, Counts), Stopped> {
-    /// Tiles, and samples of a strand in them.
+    /// Tiles, and samples of a replicate in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 2;
     let own = scene.settings.light_samples;
@@ -299,7 +299,7 @@ fn samples_of(film: &ProgressiveFilm) -> Samples {
     }
 }
 
-/// The length of all strands after the next round; none if the goal is reached, or no further round
+/// The length of all replicates after the next round; none if the goal is reached, or no further round
 /// fits into the time.
 fn next_round(
     film: &ProgressiveFilm,

@@ -82,9 +82,9 @@ pub struct Gooch {
     pub b: f64,
     /// The yellow of the warm colour.
     pub y: f64,
-    /// The share of the surface's colour in the cool tone.
+    /// The fraction of the surface's colour in the cool tone.
     pub alpha: f64,
-    /// The share of the surface's colour in the warm tone.
+    /// The fraction of the surface's colour in the warm tone.
     pub beta: f64,
 }
 

@@ -134,7 +134,7 @@ pub enum Alpha {
     Opaque,
     /// Where alpha is at least the number given.
     Mask(NonNegative),
-    /// To the share alpha.
+    /// To the fraction alpha.
     Blend,
 }
 

@@ -198,7 +198,7 @@ impl Draft<'_> {
         has_places && is_even(map, self.scene)
     }
 
-    /// The least and the greatest of a channel of a map; ones where there is none.
+    /// The least and the largest of a channel of a map; ones where there is none.
     pub(super) fn channel(&self, material: usize, map: Option<&Map>, channel: usize) -> [f64; 2] {
         map.map_or([1.0; 2], |map| {
             self.uses[material].range(map, self.scene)[channel]
@@ -215,7 +215,7 @@ impl Draft<'_> {
         self.lights.contains(&LightLeft::All) || self.has_extended_light()
     }
 
-    /// Whether there is a light that aiming and scattering both find: an image of the surroundings,
+    /// Whether there is a light that aiming and scattering both find: an image of the environment,
     /// or triangles that shine.
     fn has_extended_light(&self) -> bool {
         let has_image = self.scene.environment().image.is_some();

@@ -69,7 +69,7 @@ impl Uses {
         self.surfaces.push(surface);
     }
 
-    /// The least and the greatest that a map shows on these surfaces, channel by channel, each
+    /// The least and the largest that a map shows on these surfaces, channel by channel, each
     /// colour channel as it is stored.
     pub(super) fn range(&self, map: &Map, scene: &Proof) -> [[f64; 2]; 4] {
         let set = map.set.index();

@@ -4,7 +4,7 @@ use crate::image::Texel;
 use crate::valid::{Image, Map, Proof, Texture, Wrap};
 use std::ops::Range;
 
-/// A rectangle of texture coordinates, from the least to the greatest of each.
+/// A rectangle of texture coordinates, from the least to the largest of each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Area([[f64; 2]; 2]);
 
@@ -46,7 +46,7 @@ impl Area {
     }
 }
 
-/// The least and the greatest that a map shows on an area, channel by channel (red, green, blue,
+/// The least and the largest that a map shows on an area, channel by channel (red, green, blue,
 /// alpha), bytes in units of 255, colours as they are stored; what filtering blends lies between.
 pub(super) fn show(map: &Map, area: Area, scene: &Proof) -> [[f64; 2]; 4] {
     let area = area.mapped(&map.texture_from_surface);
@@ -99,7 +99,7 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     first..last.max(first + 1)
 }
 
-/// The least and the greatest of each channel of a part of an image.
+/// The least and the largest of each channel of a part of an image.
 fn extremes(image: &Image, columns: Range<u32>, rows: Range<u32>) -> [[f64; 2]; 4] {
     let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
     for row in rows {

@@ -1,7 +1,6 @@
-//! Directional albedos: how much of a uniform sky a lobe sends to the viewer, as tables over cosine
-//! and roughness.
+//! Directional albedos of the lobes, tabulated over cosine and roughness.
 //!
-//! They are integrated when first needed, by the very formulas that shade; no number is stored.
+//! The tables are integrated at first use, by the same functions that shade.
 
 use super::fresnel::schlick;
 use super::ggx::Ggx;
@@ -114,8 +113,9 @@ fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for k in 0..NORMALS {
         let k = f64::from(k) + 0.5;
-        // More of the slopes in the long tail, each of which counts less.
+        // Place more samples in the long tail of the slopes, with smaller weights.
         let rest = 1.0 - k / f64::from(NORMALS);
+        // Sample a visible normal, and reflect.
         let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
         let cosine = wo.dot(h);
         let wi = h * (2.0 * cosine) - wo;
@@ -129,7 +129,7 @@ fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
     sum.map(|part| part / f64::from(NORMALS))
 }
 
-/// Bilinear between the four entries around.
+/// Interpolates bilinearly between four entries.
 fn look_up(table: &[[f64; 2]], roughness: f64, cosine: f64) -> [f64; 2] {
     let (row, rest) = place(roughness, ROUGHNESSES);
     let low = between(&table[row * COSINES..][..COSINES], cosine);
@@ -142,7 +142,7 @@ fn between(row: &[[f64; 2]], cosine: f64) -> [f64; 2] {
     [0, 1].map(|part| row[k][part] * (1.0 - rest) + row[k + 1][part] * rest)
 }
 
-/// The entry at or before a number in [0, 1], with one after it, and how far the number is beyond.
+/// The index of the entry below a number in [0, 1], and the interpolation weight of the next.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

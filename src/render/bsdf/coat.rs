@@ -11,13 +11,13 @@ pub(super) struct Coat {
     basis: Basis,
     ggx: Ggx,
     wo: Vec3,
-    /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
+    /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
     /// viewer.
     pub(super) weight: f64,
 }
 
 impl Coat {
-    /// `None` if the viewer sees nothing of it.
+    /// The coat for one viewer; `None` if the viewer cannot see it.
     pub(super) fn new(clearcoat: &Clearcoat, normal: Vec3, wo: Vec3) -> Option<Self> {
         let basis = Basis::around(normal);
         let wo = basis.to_local(wo);
@@ -46,7 +46,7 @@ impl Coat {
         (f, self.ggx.visible_density(self.wo, h) / 4.0)
     }
 
-    /// A direction that it reflects to the viewer.
+    /// Samples a direction that the coat reflects to the viewer.
     pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
         let h = if self.is_smooth() {
             Vec3::Z

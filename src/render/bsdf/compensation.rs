@@ -1,8 +1,8 @@
 //! The light that leaves a rough surface after more than one bounce between microfacets.
 //!
 //! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that
-//! returns exactly what the single bounce loses, and a diffuse base under the reflection that gets
-//! exactly what both leave. Both are reciprocal; a white surface in a white sky is white.
+//! returns exactly the energy that single bounces lose, and a diffuse base that receives exactly
+//! the energy that both lobes leave. Both are reciprocal; a white surface in a white sky is white.
 
 use super::albedo::{Split, tables};
 use super::fresnel::Fresnel;
@@ -16,12 +16,12 @@ pub(super) struct Compensation {
     /// 1 − E(μ) for the viewer and in the mean.
     missing: f64,
     missing_mean: f64,
-    /// How much of what is missing comes back.
+    /// The fraction of the missing energy that multiple bounces return.
     returned: Vec3,
     base: Base,
 }
 
-/// What the dielectric reflection leaves for the diffuse base.
+/// The energy that the dielectric reflection leaves to the diffuse base.
 #[derive(Clone, Copy, Debug)]
 struct Base {
     f0: f64,
@@ -32,13 +32,13 @@ struct Base {
 }
 
 impl Base {
-    /// The albedo of the base's cover.
+    /// The albedo of the reflection above the base.
     fn covered(&self, e: Split) -> f64 {
         self.f0 * e.e0 + self.f90 * e.e90 + self.returned * (1.0 - e.whole())
     }
 }
 
-/// How much of the light that bounces on comes out: `F²·E/(1 − F·(1 − E))` with the means of F and
+/// The fraction of multiply scattered light that leaves the surface: `F²·E/(1 − F·(1 − E))` with the means of F and
 /// E.
 fn returned(mean: Vec3, missing: f64) -> Vec3 {
     let whole = mean * mean * (1.0 - missing) / (Vec3::ONE - mean * missing);
@@ -55,10 +55,12 @@ impl Compensation {
         metal: &Fresnel,
         metallic: f64,
     ) -> Self {
+        // Look up the directional and the mean albedo.
         let (e, mean) = (
             tables().specular(roughness, cosine),
             tables().specular_mean(roughness),
         );
+        // Return the energy that a single bounce loses.
         let missing_mean = 1.0 - mean.whole();
         let from_dielectric = returned(dielectric.mean(), missing_mean);
         let from_metal = if metallic > 0.0 {

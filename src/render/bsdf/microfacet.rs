@@ -1,5 +1,5 @@
-//! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let
-//! through.
+//! The rough boundary: the reflection of its microfacets, and the transmission of the dielectric
+//! ones.
 
 use super::compensation::Compensation;
 use super::fresnel::Fresnel;
@@ -18,22 +18,22 @@ pub(super) struct Microfacet<const F: u32> {
     /// The reflectance of the dielectric part at normal and at grazing incidence.
     f0: Vec3,
     f90: f64,
-    /// The same of the metallic part at normal incidence; at grazing it is 1.
+    /// The reflectance of the metallic part at normal incidence; at grazing incidence it is 1.
     metal: Vec3,
     metallic: f64,
-    /// What lies on both, and the share of the surface it covers.
+    /// The thin film on both, and the fraction of the surface it covers.
     film: Option<(ThinFilm, f64)>,
-    /// What of the light that the dielectric lets in goes through, by channel.
+    /// The fraction of the light in the dielectric that is transmitted, by channel.
     tint: Vec3,
     crossing: Crossing,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
 }
 
-/// How light goes on behind the boundary.
+/// How light continues behind the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Crossing {
-    /// Through a thin wall: as reflected, but to the other side.
+    /// Through a thin wall: the reflected direction, mirrored to the other side.
     Wall,
     /// Into a medium of the same index.
     Straight,
@@ -41,14 +41,14 @@ enum Crossing {
     Refracted,
 }
 
-/// What a microfacet does with light at one angle.
+/// The fractions of light that a microfacet reflects and transmits at one angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LobeWeights {
     /// Reflected.
     pub(super) reflected: Vec3,
-    /// Let in by the dielectric part.
+    /// Enters the dielectric part.
     pub(super) entering: f64,
-    /// Let through.
+    /// Transmitted.
     pub(super) through: Vec3,
 }
 
@@ -64,11 +64,11 @@ impl LobeWeights {
     }
 }
 
-/// A direction that microfacets scatter to.
+/// A sampled direction of the microfacets.
 pub(super) enum ScatteredDirection {
-    /// One of a lobe.
+    /// A direction of a rough lobe.
     Lobe(Vec3),
-    /// A single one, with the share of the light and the probability of taking it.
+    /// A single one, with the fraction of the light and the probability of taking it.
     Single(Vec3, Vec3, f64),
 }
 
@@ -119,7 +119,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// The film; known at compile time to be none where there are no layers.
+    /// The film; `None` at compile time without the feature for layers.
     #[inline]
     fn film(&self) -> Option<(ThinFilm, f64)> {
         if can::<F>(LAYERS) { self.film } else { None }
@@ -143,7 +143,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// What bounces on between its microfacets.
+    /// The light of multiple bounces between the microfacets.
     pub(super) fn compensation(&self, cosine: f64) -> Compensation {
         Compensation::new(
             self.ggx.mean_roughness(),
@@ -154,7 +154,7 @@ impl<const F: u32> Microfacet<F> {
         )
     }
 
-    /// Whether it scatters into single directions only.
+    /// Whether its lobes are delta lobes.
     pub(super) fn is_smooth(&self) -> bool {
         self.smooth
     }
@@ -164,7 +164,7 @@ impl<const F: u32> Microfacet<F> {
         !can::<F>(MICROFACETS) || self.dark
     }
 
-    /// What a microfacet that meets light at the cosine given does with it.
+    /// The weights of a microfacet whose normal has this cosine to the light.
     pub(super) fn weights(&self, cosine: f64) -> LobeWeights {
         if self.is_dark() {
             return LobeWeights {
@@ -186,8 +186,8 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is
-    /// reflected.
+    /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium of
+    /// the lower index; beyond the critical angle the reflectance is 1.
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
         if self.eta >= 1.0 {
             return self.dielectric().at(cosine);
@@ -195,7 +195,7 @@ impl<const F: u32> Microfacet<F> {
         refracted_cosine(cosine, self.eta).map_or(Vec3::ONE, |cosine| self.dielectric().at(cosine))
     }
 
-    /// Both directions above.
+    /// The reflection lobe: `wi` is above the surface.
     pub(super) fn reflected(
         &self,
         wo: Vec3,
@@ -214,7 +214,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// `wi` below.
+    /// The transmission lobe: `wi` is below the surface.
     pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> Evaluation {
         if !can::<F>(TRANSMISSION) || self.smooth || self.tint == Vec3::ZERO {
             return Evaluation::NONE;
@@ -235,9 +235,10 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007),
-    /// equation 21.
+    /// The refraction lobe (Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR
+    /// 2007), equation 21).
     fn refracted(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+        // Find the generalized half vector.
         let half = wo + wi * self.eta;
         let h = (half * half.z.signum()).normalize_or_zero();
         let (o, i) = (wo.dot(h), wi.dot(h));
@@ -245,7 +246,7 @@ impl<const F: u32> Microfacet<F> {
             return Evaluation::NONE;
         }
         let weights = self.weights(o);
-        // How fast the direction turns with the normal: |ω_i·h|/(ω_i·h + ω_o·h/η)².
+        // Jacobian dω_h/dω_i: |ω_i·h|/(ω_i·h + ω_o·h/η)².
         let root = i + o / self.eta;
         let turn = -i / (root * root);
         let f =
@@ -256,9 +257,9 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on
-    /// the wrong side.
-    pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<ScatteredDirection> {
+    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side.
+    pub(super) fn sample(&self, wo: Vec3, u_lobe: f64, u: [f64; 2]) -> Option<ScatteredDirection> {
+        // Sample the visible normal.
         let h = if self.smooth {
             Vec3::Z
         } else {
@@ -266,16 +267,18 @@ impl<const F: u32> Microfacet<F> {
         };
         let cosine = wo.dot(h);
         let weights = self.weights(cosine);
-        let chance = weights.lobe_pdf();
-        if choice < chance {
+        let lobe_pdf = weights.lobe_pdf();
+        // Reflect at the microfacet.
+        if u_lobe < lobe_pdf {
             let wi = h * (2.0 * cosine) - wo;
             let way = if self.smooth {
-                ScatteredDirection::Single(wi, weights.reflected, chance)
+                ScatteredDirection::Single(wi, weights.reflected, lobe_pdf)
             } else {
                 ScatteredDirection::Lobe(wi)
             };
             return (wi.z > 0.0).then_some(way);
         }
+        // Or transmit through it.
         let wi = match self.crossing {
             Crossing::Straight => -wo,
             Crossing::Wall => {
@@ -288,7 +291,7 @@ impl<const F: u32> Microfacet<F> {
         };
         let single = self.smooth || self.crossing == Crossing::Straight;
         let way = if single {
-            ScatteredDirection::Single(wi, weights.through, 1.0 - chance)
+            ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
         } else {
             ScatteredDirection::Lobe(wi)
         };
@@ -296,10 +299,10 @@ impl<const F: u32> Microfacet<F> {
     }
 }
 
-/// Indices that differ by less bend no ray by more than rounding would.
+/// Indices that differ by less refract by no more than a rounding error.
 const NEARLY_STRAIGHT: f64 = 1e-6;
 
-/// The cosine beyond a boundary by Snell's law; `None` where all is reflected.
+/// The cosine of refraction by Snell's law; `None` for total internal reflection.
 fn refracted_cosine(cosine: f64, eta: f64) -> Option<f64> {
     let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
     (square > 0.0).then(|| square.sqrt())

@@ -63,7 +63,7 @@ pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
 pub(in crate::render) struct CranleyPatterson {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
-    /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is
+    /// In [0, 1), as a fraction of the area of one point: any number of points is unbiased if this is
     /// uniform.
     shift: f64,
 }
@@ -75,7 +75,7 @@ impl CranleyPatterson {
         shift: 0.0,
     };
 
-    /// The twist of a sub-sample; that of seed 0 is none.
+    /// The rotation of a sub-sample; that of seed 0 is none.
     #[must_use]
     pub(in crate::render) fn new(seed: u64, key: Key) -> Self {
         if seed == 0 {

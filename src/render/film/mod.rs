@@ -36,7 +36,7 @@ pub struct Job {
 /// case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Background {
-    /// The surroundings of the scene; black if it has none.
+    /// The environment of the scene; black if it has none.
     #[default]
     Environment,
     /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
@@ -162,7 +162,7 @@ pub enum Values {
     Linear,
 }
 
-/// The share of rays that hit something; 0 of none.
+/// The fraction of rays that hit something; 0 of none.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
 pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
@@ -174,7 +174,7 @@ pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
 pub struct Film {
     /// The picture, of the size of the crop.
     pub image: Image,
-    /// Of each pixel the share of the camera rays that met a surface, in [0, 1].
+    /// Of each pixel the fraction of the camera rays that met a surface, in [0, 1].
     pub coverage: Vec<f32>,
     /// The rays it took.
     pub counts: Counts,

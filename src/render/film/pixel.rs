@@ -24,11 +24,11 @@ pub(in crate::render) struct SampleId {
 pub(in crate::render) enum Stream {
     /// The samples that the scene asks for.
     Picture(Seeds),
-    /// One of four sequences without end that are independent of each other; strands of other
+    /// One of four sequences without end that are independent of each other; replicates of other
     /// numbers are independent too.
-    Strand {
+    Replicate {
         /// Which of the four.
-        strand: usize,
+        replicate: usize,
         /// The number that its samples are keyed by.
         number: u64,
     },

@@ -1,7 +1,7 @@
-//! A film that grows: in each pixel four strands of samples, independent of each other, two to each
+//! A film that grows: in each pixel four replicates of samples, independent of each other, two to each
 //! half of the pixel.
 //!
-//! The mean of the halves is the picture; how far the strands of a half are apart tells what that
+//! The mean of the halves is the picture; how far the replicates of a half are apart tells what that
 //! is worth. How many samples a half takes may hang on what the other half saw: neither is then
 //! biased by its own luck.
 
@@ -17,14 +17,14 @@ use crate::math::Vec3;
 pub struct Replicates {
     /// How the mean of the samples is shown; none where each is clamped to [0, 1].
     tone: Option<Tone>,
-    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the
+    /// Per replicate, the sum of its samples, clamped if they are shown so; replicates 0 and 1 are the
     /// first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],
     /// Per half, the sum of its samples as they are.
     linear: [Vec3; 2],
-    /// Per half, how many samples each of its strands has.
+    /// Per half, how many samples each of its replicates has.
     counts: [u32; 2],
     /// Per half, how many of its samples met a surface.
     hits: [u64; 2],
@@ -78,19 +78,19 @@ impl ProgressiveFilm {
         self.pixels.at(index)
     }
 
-    /// The samples that a pixel lacks of those wanted: per half, how many each of its strands is
+    /// The samples that a pixel lacks of those wanted: per half, how many each of its replicates is
     /// to have at least.
     pub(in crate::render) fn lacking(
         seed: u64,
         pixel: &Replicates,
         wanted: [u32; 2],
     ) -> SampleRanges {
-        let strand = |strand: usize| {
-            let number = (seed << 2 | strand as u64).wrapping_add(1);
-            let samples = pixel.counts[strand / 2]..wanted[strand / 2];
-            (Stream::Strand { strand, number }, samples)
+        let replicate = |replicate: usize| {
+            let number = (seed << 2 | replicate as u64).wrapping_add(1);
+            let samples = pixel.counts[replicate / 2]..wanted[replicate / 2];
+            (Stream::Replicate { replicate, number }, samples)
         };
-        (0..4).map(strand).collect()
+        (0..4).map(replicate).collect()
     }
 
     /// The number that the samples are keyed by.
@@ -117,7 +117,7 @@ impl ProgressiveFilm {
         }
     }
 
-    /// Of each pixel the share of the samples that met a surface.
+    /// Of each pixel the fraction of the samples that met a surface.
     #[must_use]
     pub fn coverage(&self) -> Vec<f32> {
         self.pixels().map(Replicates::coverage).collect()
@@ -131,13 +131,13 @@ impl Replicates {
         2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
     }
 
-    /// How many samples each strand of a half has.
+    /// How many samples each replicate of a half has.
     #[must_use]
     pub fn count(&self, half: usize) -> u32 {
         self.counts[half]
     }
 
-    /// The variance of the mean of a half, from how far its strands are apart: the mean over the
+    /// The variance of the mean of a half, from how far its replicates are apart: the mean over the
     /// channels.
     #[must_use]
     pub fn variance_of_half(&self, half: usize) -> f64 {
@@ -171,7 +171,7 @@ impl Replicates {
         }
     }
 
-    /// The share of the samples that met a surface: the mean of the halves.
+    /// The fraction of the samples that met a surface: the mean of the halves.
     fn coverage(&self) -> f32 {
         let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
         (of(0) + of(1)) * 0.5
@@ -204,15 +204,15 @@ impl Accumulator for Replicates {
     type Kept = Self;
 
     fn add(&mut self, id: &SampleId, Sample { radiance, hit }: Sample) {
-        let Stream::Strand { strand, .. } = id.stream else {
+        let Stream::Replicate { replicate, .. } = id.stream else {
             return;
         };
         let shown = match self.tone {
             None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
             Some(_) => radiance,
         };
-        let half = strand / 2;
-        self.sums[strand] += shown;
+        let half = replicate / 2;
+        self.sums[replicate] += shown;
         self.squares[half] += shown.length_squared();
         self.linear[half] += radiance;
         self.hits[half] += u64::from(hit);

@@ -1,4 +1,4 @@
-//! Pictures that grow: each pixel takes the samples that its strands lack of those wanted.
+//! Pictures that grow: each pixel takes the samples that its replicates lack of those wanted.
 
 use super::{Selection, run};
 use crate::color::Tone;
@@ -14,7 +14,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use crate::valid::{Mode, PathSettings};
 
-/// Of each pixel, counted row by row, how many samples each strand of its halves is to have.
+/// Of each pixel, counted row by row, how many samples each replicate of its halves is to have.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Geometry> World<S> {

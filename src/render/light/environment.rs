@@ -8,7 +8,7 @@ use crate::render::texture::{Filter, Image, Wrap};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// The surroundings.
+/// The environment.
 pub(in crate::render) struct Environment {
     radiance: Vec3,
     /// The image, and its pixels by what they send to the scene.
@@ -24,7 +24,7 @@ pub(in crate::render) struct EnvironmentRadiance {
 }
 
 impl Environment {
-    /// Surroundings with this radiance, times that of an image if there is one, which the rows of a
+    /// Environment with this radiance, times that of an image if there is one, which the rows of a
     /// rotation turn.
     pub(in crate::render) fn new(
         radiance: Vec3,

@@ -185,10 +185,10 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(in crate::render) fn sample(
         &self,
         from: Vec3,
-        by_power: f64,
+        u_light: f64,
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
-        let (index, _) = self.by_power.choose(by_power)?;
+        let (index, _) = self.by_power.choose(u_light)?;
         let probability = self.by_power.probability(index);
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,

@@ -257,7 +257,7 @@ fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
 /// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
 /// light transport simulation and rendering system", 2017, has a like rule).
 fn clamped_shading_normal(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
-    /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
+    /// How far above the horizon, as a sine, and as a fraction of what the geometric normal gives.
     const LEAST: f64 = 0.01;
     const SHARE: f64 = 0.9;
     let side = 1.0_f64.copysign(wo.dot(geometric));

@@ -42,7 +42,7 @@ pub(in crate::render) enum Alpha {
     Opaque,
     /// Where alpha is at least the number given.
     Mask(f64),
-    /// To the share alpha.
+    /// To the fraction alpha.
     Blend,
 }
 

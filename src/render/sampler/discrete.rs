@@ -1,12 +1,12 @@
-//! Distributions given by tables: an index by its weight, a place of the unit square by the weight
-//! of its cell.
+//! Tabulated distributions: an index, or a point of the unit square, with a probability
+//! proportional to its weight.
 
-/// Indices with probabilities proportional to weights.
+/// A discrete distribution over indices, proportional to weights.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct DiscreteDistribution {
     /// Sums of the weights up to and including each.
     sums: Vec<f64>,
-    /// The last index that weighs something.
+    /// The last index with a nonzero weight.
     last: usize,
 }
 
@@ -38,8 +38,8 @@ impl DiscreteDistribution {
         }
     }
 
-    /// The index for a number in [0, 1), and the number left for choosing within it; `None` if all
-    /// weights are 0.
+    /// Samples an index with a number in [0, 1), and returns the number remapped to [0, 1) for the
+    /// next decision; `None` if all weights are 0.
     pub(in crate::render) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.total();
         let index = self
@@ -57,7 +57,7 @@ impl DiscreteDistribution {
     }
 }
 
-/// Places of the unit square with a density proportional to the weight of their cell.
+/// A piecewise constant distribution over the unit square.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Distribution2D {
     rows: DiscreteDistribution,
@@ -100,7 +100,7 @@ impl Distribution2D {
             * (self.width * self.cells.len()) as f64
     }
 
-    /// The place for two numbers in [0, 1); anywhere if all weights are 0.
+    /// Samples a point with two numbers in [0, 1); uniform if all weights are 0.
     pub(in crate::render) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
         let place = || {
             let (y, rest_y) = self.rows.choose(u[1])?;

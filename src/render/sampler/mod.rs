@@ -60,7 +60,7 @@ pub(in crate::render) fn mix(x: u64) -> u64 {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct DiscPoints {
     count: u32,
-    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points
+    /// In [0, 1), as a fraction of the area of one point: uniform, it spreads any number of points
     /// without bias.
     shift: f64,
     /// In units of 2⁻⁶⁴ turns.
@@ -90,7 +90,7 @@ impl DiscPoints {
 
 /// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.
 ///
-/// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles
+/// Stratified: the cosines take equal fractions of the distribution, the azimuths are golden angles
 /// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct PhongLobeSampler {

@@ -8,11 +8,11 @@
 use crate::math::U;
 use crate::render::ray::{Interaction, Ray};
 
-/// The half of an interval at most, as a share of t: where a ray all but runs along a surface its
+/// The half of an interval at most, as a fraction of t: where a ray all but runs along a surface its
 /// error knows no bound.
 const WIDEST: f64 = 1.0 / 8_388_608.0;
 
-/// Intervals whose middles are farther apart, as a share, do not meet; walks of hierarchies look
+/// Intervals whose middles are farther apart, as a fraction, do not meet; walks of hierarchies look
 /// farther than that.
 pub(in crate::render) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 

@@ -117,7 +117,7 @@ impl TorusRay {
     }
 }
 
-/// Where to look next between two points of opposite signs, as the share of the way from the last
+/// Where to look next between two points of opposite signs, as the fraction of the way from the last
 /// to the other: where the parabola through both and the point before has its root, if it is safe
 /// to ask, else in the middle.
 fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {

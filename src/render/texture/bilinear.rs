@@ -7,7 +7,7 @@ use crate::math::{Vec3, cross};
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Bump {
     pub(in crate::render) texture: Texture,
-    /// The height of white above black, as a share of the width of a texel.
+    /// The height of white above black, as a fraction of the width of a texel.
     pub(in crate::render) height: f64,
 }
 

@@ -97,7 +97,7 @@ impl AnyWorld {
     }
 
     /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many
-    /// each strand of the halves of pixel i is to have at least. False if `on_pixel` said stop;
+    /// each replicate of the halves of pixel i is to have at least. False if `on_pixel` said stop;
     /// the film is then of no use.
     ///
     /// `on_pixel` is called from all threads, after each pixel and within long ones.

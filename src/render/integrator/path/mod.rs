@@ -152,7 +152,7 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
     fn sample(&mut self, id: &SampleId) -> Sample {
         let seeds = match id.stream {
             Stream::Picture(seeds) => seeds,
-            Stream::Strand { number, .. } => Seeds {
+            Stream::Replicate { number, .. } => Seeds {
                 pixel: number,
                 lens: number,
                 path: number,

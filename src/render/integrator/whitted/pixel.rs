@@ -30,7 +30,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     fn sample(&mut self, id: &SampleId) -> Sample {
         match id.stream {
             Stream::Picture(seeds) => self.sample_of_picture(id, seeds),
-            Stream::Strand { number, .. } => self.sample_of_strand(id, number),
+            Stream::Replicate { number, .. } => self.sample_of_replicate(id, number),
         }
     }
 
@@ -50,7 +50,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     }
 }
 
-/// Keeps the numbers of strands apart from those of the paths through them.
+/// Keeps the numbers of replicates apart from those of the paths through them.
 const STRAND: u64 = u64::MAX - 2;
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
@@ -87,7 +87,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 
     /// A sample of a sequence without end.
-    fn sample_of_strand(&mut self, id: &SampleId, number: u64) -> Sample {
+    fn sample_of_replicate(&mut self, id: &SampleId, number: u64) -> Sample {
         let camera = self.scene().camera();
         let sequence = Sequence::new(Key::new(id.pixel, number).child(STRAND));
         let [x, y, u, v] = sequence.point(id.index);
