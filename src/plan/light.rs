@@ -247,8 +247,8 @@ impl Ball {
 
     /// Whether a segment from this ball to `end` may meet `other`.
     ///
-    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c +
-    /// τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
+    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c
+    /// + τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
     /// ≤ 0`.
     fn may_see_through(self, end: &Self, other: &Self) -> bool {
         let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else {

@@ -90,8 +90,8 @@ impl Space {
 
     /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
     ///
-    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
-    /// `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
+    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
+    /// of `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
     pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = MARGIN;

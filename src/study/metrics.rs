@@ -29,7 +29,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The errors of parts of a picture that are `fraction` of it, each a picture of its own for FLIP.
+    /// The errors of parts of a picture that are `fraction` of it, each a picture of its own for
+    /// FLIP.
     #[must_use]
     pub fn of(test: &[Image], reference: &[Image], fraction: f64) -> Self {
         let pairs = || test.iter().zip(reference);

@@ -102,8 +102,8 @@ impl Allotment {
         }
     }
 
-    /// How many samples a replicate of each half of pixel `index` is to have so that the mean square
-    /// error becomes `square`: the least work is samples in proportion to the deviation
+    /// How many samples a replicate of each half of pixel `index` is to have so that the mean
+    /// square error becomes `square`: the least work is samples in proportion to the deviation
     /// (Neyman, Journal of the Royal Statistical Society 97 (1934)). At most twice as many as
     /// there are; a power of two, of which replicates are stratified.
     pub(super) fn wanted(&self, film: &ProgressiveFilm, index: usize, square: f64) -> [u32; 2] {

@@ -126,7 +126,8 @@ fn middle(values: &mut [f64]) -> f64 {
     }
 }
 
-/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a fraction of it.
+/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a fraction
+/// of it.
 ///
 /// The population is finite: the mean over all of it is exact.
 #[must_use]

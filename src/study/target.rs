@@ -299,8 +299,8 @@ fn samples_of(film: &ProgressiveFilm) -> Samples {
     }
 }
 
-/// The length of all replicates after the next round; none if the goal is reached, or no further round
-/// fits into the time.
+/// The length of all replicates after the next round; none if the goal is reached, or no further
+/// round fits into the time.
 fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,

@@ -11,8 +11,8 @@ pub(super) struct Coat {
     basis: Basis,
     ggx: Ggx,
     wo: Vec3,
-    /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
-    /// viewer.
+    /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for
+    /// the viewer.
     pub(super) weight: f64,
 }
 

@@ -38,8 +38,8 @@ impl Base {
     }
 }
 
-/// The fraction of multiply scattered light that leaves the surface: `F²·E/(1 − F·(1 − E))` with the means of F and
-/// E.
+/// The fraction of multiply scattered light that leaves the surface: `F²·E/(1 − F·(1 − E))` with
+/// the means of F and E.
 fn returned(mean: Vec3, missing: f64) -> Vec3 {
     let whole = mean * mean * (1.0 - missing) / (Vec3::ONE - mean * missing);
     whole.clamp(Vec3::ZERO, Vec3::ONE)

@@ -186,8 +186,8 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium of
-    /// the lower index; beyond the critical angle the reflectance is 1.
+    /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium
+    /// of the lower index; beyond the critical angle the reflectance is 1.
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
         if self.eta >= 1.0 {
             return self.dielectric().at(cosine);
@@ -235,8 +235,8 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// The refraction lobe (Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR
-    /// 2007), equation 21).
+    /// The refraction lobe (Walter et al., "Microfacet models for refraction through rough
+    /// surfaces" (EGSR 2007), equation 21).
     fn refracted(&self, wo: Vec3, wi: Vec3) -> Evaluation {
         // Find the generalized half vector.
         let half = wo + wi * self.eta;

@@ -1,5 +1,5 @@
-//! The samples of a pixel that a scene of the course asks for: sub-samples in cells, and for each
-//! of them points of the lens.
+//! The samples of a pixel in a scene of the course: sub-samples in cells, and lens points for each
+//! sub-sample.
 
 use super::{CranleyPatterson, image_point, lens_point, lens_samples, ray_through};
 use crate::math::Vec3;
@@ -18,7 +18,7 @@ pub(in crate::render) struct Grid {
     pattern: Pattern,
 }
 
-/// A sub-sample: where its rays go through the image.
+/// A sub-sample: a point of the image plane, and the rotation of its lens points.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Cell {
     target: Vec3,
@@ -33,7 +33,7 @@ impl Grid {
         pattern: Pattern::Grid,
     };
 
-    /// The layout of a scene. A buffer of depths asks the middle of each pixel.
+    /// The layout of a scene. A depth buffer has one ray through the center of each pixel.
     pub(in crate::render) fn of(scene: &Proof) -> Self {
         let settings = scene.settings();
         match settings.mode {
@@ -52,7 +52,7 @@ impl Grid {
         cells.saturating_mul(self.points)
     }
 
-    /// The cell of a sample, and which point of the lens it takes.
+    /// The cell of a sample, and the index of its lens point.
     pub(in crate::render) fn split(&self, sample: u32) -> (u32, u32) {
         (sample / self.points, sample % self.points)
     }
@@ -76,7 +76,7 @@ impl Grid {
         }
     }
 
-    /// Where in its pixel a sub-sample lies, each coordinate in [0, 1].
+    /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].
     fn place(&self, cell: [u32; 2], key: Key) -> [f64; 2] {
         let key = key.child(PATTERN);
         let random = || [key.uniform(0), key.uniform(1)];
@@ -98,5 +98,5 @@ impl Cell {
     }
 }
 
-/// Keeps the numbers of sub-samples apart from those of the paths through them.
+/// Makes the random numbers of sub-samples independent of those of the paths.
 const PATTERN: u64 = u64::MAX;

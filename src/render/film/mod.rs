@@ -26,14 +26,13 @@ pub struct Job {
     pub seeds: Seeds,
     /// Which pixels are rendered; the others stay black.
     pub stride: Stride,
-    /// What is seen past all surfaces.
+    /// The background of the picture.
     pub background: Background,
     /// At most so many samples a pixel, the first of those that the scene asks for.
     pub samples: Option<NonZeroU32>,
 }
 
-/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
-/// case.
+/// The value of a camera ray that meets no surface. The light on surfaces does not change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Background {
     /// The environment of the scene; black if it has none.

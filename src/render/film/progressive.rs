@@ -1,9 +1,8 @@
-//! A film that grows: in each pixel four replicates of samples, independent of each other, two to each
-//! half of the pixel.
+//! A progressive film: each pixel has four independent replicates of samples, two in each half.
 //!
-//! The mean of the halves is the picture; how far the replicates of a half are apart tells what that
-//! is worth. How many samples a half takes may hang on what the other half saw: neither is then
-//! biased by its own luck.
+//! The picture is the mean of the halves; the variance between the replicates of a half estimates
+//! its error. The number of samples of one half may depend on the values of the other half: so the
+//! stopping rule adds no bias.
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
@@ -17,8 +16,8 @@ use crate::math::Vec3;
 pub struct Replicates {
     /// How the mean of the samples is shown; none where each is clamped to [0, 1].
     tone: Option<Tone>,
-    /// Per replicate, the sum of its samples, clamped if they are shown so; replicates 0 and 1 are the
-    /// first half.
+    /// Per replicate, the sum of its samples, clamped if they are shown so; replicates 0 and 1 are
+    /// the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],

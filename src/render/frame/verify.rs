@@ -57,8 +57,8 @@ impl Verify {
     }
 }
 
-/// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the film
-/// as planned, or the first fault.
+/// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
+/// film as planned, or the first fault.
 ///
 /// # Errors
 /// If something that was left out adds something.

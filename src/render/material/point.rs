@@ -1,5 +1,4 @@
-//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of
-//! it emits or is absent.
+//! The glTF material at a hit: factors times maps, the shading frame, emission and opacity.
 
 use crate::math::{Basis, Vec3};
 use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
@@ -10,23 +9,23 @@ use crate::render::ray::Interaction;
 use crate::render::shape::instance::Details;
 use crate::render::texture::sampled::UvSets;
 
-/// A material with what a surface says of one point.
+/// A material at one point of a surface.
 pub(in crate::render) struct MaterialPoint<'world> {
     pub(in crate::render) material: &'world StandardMaterial,
     uvs: UvSets,
-    /// The colour at the point, that of the corners included, and alpha.
+    /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
 }
 
-/// The frame of shading at a point: the unit normal, and the directions along which maps grow.
+/// The shading frame at a point: the shading normal and the tangents of the maps.
 pub(in crate::render) struct ShadingFrame {
-    /// Right-handed, as the BSDF wants it.
+    /// A right-handed basis for the BSDF.
     basis: Basis,
-    /// How highlights are stretched.
+    /// The anisotropy of the highlights.
     stretch: Option<Anisotropy>,
 }
 
-/// Where on a surface its material looks maps up.
+/// The texture coordinates at a point.
 pub(in crate::render) fn uvs(details: &Details) -> UvSets {
     [details.uv, details.second_uv]
 }
@@ -51,7 +50,7 @@ impl<'world> MaterialPoint<'world> {
         self.uvs[0]
     }
 
-    /// The probability that a ray meets the surface.
+    /// The opacity: the probability that the alpha test keeps the hit.
     pub(in crate::render) fn opacity(&self) -> f64 {
         match self.material.alpha {
             Alpha::Opaque => 1.0,
@@ -66,12 +65,12 @@ impl<'world> MaterialPoint<'world> {
         Vec3::new(r, g, b).min(Vec3::ONE)
     }
 
-    /// The radiance it sends out by itself.
+    /// The emitted radiance.
     pub(in crate::render) fn emission(&self) -> Vec3 {
         self.material.emission.at(&self.uvs)
     }
 
-    /// What is scattered; `channel` is the colour that a dispersed path has been left with.
+    /// The parameters of the BSDF; `channel` is the wavelength that a dispersed path picked.
     pub(in crate::render) fn standard(
         &self,
         frame: &ShadingFrame,
@@ -119,7 +118,7 @@ impl<'world> MaterialPoint<'world> {
                 standard.specular = specular.at(&self.uvs);
                 standard.specular_color = specular_color.at(&self.uvs);
             }
-            // An infinite index reflects the colour given.
+            // An infinite index reflects the specular colour.
             Reflection::Specular(factor) => {
                 let [red, green, blue, glossiness] = factor.at(&self.uvs);
                 standard.specular_color = Vec3::new(red, green, blue);
@@ -130,7 +129,7 @@ impl<'world> MaterialPoint<'world> {
 
     fn add_layers(&self, standard: &mut StandardParameters, frame: &ShadingFrame, clearcoat: Vec3) {
         let (m, uvs) = (self.material, &self.uvs);
-        // A layer whose map shows 0 is not there.
+        // Omit layers whose maps are 0 here.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
             factor: layer.factor.at(uvs),
             roughness: layer.roughness.at(uvs),
@@ -166,26 +165,26 @@ impl<'world> MaterialPoint<'world> {
         }
     }
 
-    /// Whether a map bends its normals.
+    /// Whether the material has a normal map.
     pub(in crate::render) fn has_normal_map(&self) -> bool {
         let coat = self.material.clearcoat.as_ref();
         self.material.normal.is_some() || coat.is_some_and(|coat| coat.normal.is_some())
     }
 
-    /// Whether light goes through at the point.
+    /// Whether the material transmits light at the point.
     pub(in crate::render) fn transmits(&self) -> bool {
         self.material.transmission.at(&self.uvs) > 0.0
     }
 
-    /// The frame with the normal map applied, and the normal of the clearcoat.
+    /// The shading frame with the normal map applied, and the shading normal of the clearcoat.
     pub(in crate::render) fn frame(
         &self,
         at: &Interaction,
         details: &Details,
         wo: Vec3,
     ) -> (ShadingFrame, Vec3) {
-        // The winding says which side is outside, and the normals of some meshes were made against
-        // it.
+        // Flip the vertex normal to the side of the geometric normal: the winding decides which
+        // side is outside, and some meshes have normals against it.
         let normal = details
             .normal
             .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
@@ -201,7 +200,7 @@ impl<'world> MaterialPoint<'world> {
             .clearcoat
             .as_ref()
             .map_or(shading, |layer| mapped(&layer.normal));
-        // Only highlights that are stretched depend on how the frame is turned.
+        // Build the tangents only for anisotropy.
         let stretch = m
             .anisotropy
             .as_ref()
@@ -212,7 +211,7 @@ impl<'world> MaterialPoint<'world> {
         (ShadingFrame { basis, stretch }, coat)
     }
 
-    /// The normal that a map gives.
+    /// The normal of a normal map.
     fn mapped(&self, map: &NormalMap, normal: Vec3, details: &Details) -> Vec3 {
         let Some([x, y, z, _]) = map.map.look_up(&self.uvs) else {
             return normal;
@@ -238,7 +237,7 @@ impl ShadingFrame {
     }
 }
 
-/// The frame around a normal, its tangent that of a surface as far as there is one.
+/// A basis around a normal, with the surface's tangent if there is one.
 fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
     let tangent = tangent
         .map(|t| t - normal * normal.dot(t))
@@ -253,21 +252,22 @@ fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
     )
 }
 
-/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
-/// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
-/// light transport simulation and rendering system", 2017, has a like rule).
+/// Clamps a shading normal so that the mirror direction of the viewer stays above the surface.
+/// Otherwise shiny surfaces turn black at grazing angles (a similar rule: Keller et al., "The Iray
+/// light transport simulation and rendering system", 2017).
 fn clamped_shading_normal(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
-    /// How far above the horizon, as a sine, and as a fraction of what the geometric normal gives.
+    /// The minimum elevation, as a sine and as a fraction of the geometric normal's.
     const LEAST: f64 = 0.01;
     const SHARE: f64 = 0.9;
     let side = 1.0_f64.copysign(wo.dot(geometric));
     let (n, above) = (shading * side, geometric * side);
+    // Mirror the viewer at the shading normal.
     let mirrored = n * (2.0 * n.dot(wo)) - wo;
     let (height, min) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
     if height >= min {
         return shading;
     }
-    // The normal halfway between the viewer and the direction raised.
+    // Raise the mirror direction, and take the half vector.
     let raised = (mirrored + above * (min - height)).normalize_or_zero();
     (wo + raised).normalize_or(above) * side
 }

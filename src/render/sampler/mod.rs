@@ -1,5 +1,5 @@
-//! Numbers for sampling, keyed by pixel, sample and the path so far: never by time or the order of
-//! use.
+//! Random numbers, keyed by pixel, sample and path vertex: they never depend on time or on the
+//! order of calls.
 
 pub(in crate::render) mod discrete;
 pub(in crate::render) mod sequence;
@@ -7,7 +7,7 @@ pub(in crate::render) mod sobol;
 
 use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
 
-/// The name of one point of one path.
+/// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) struct Key(u64);
 
@@ -88,7 +88,7 @@ impl DiscPoints {
     }
 }
 
-/// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.
+/// Directions around an axis with a density proportional to cosⁿ of the angle to it.
 ///
 /// Stratified: the cosines take equal fractions of the distribution, the azimuths are golden angles
 /// apart, and both are shifted by numbers of the key.

@@ -1,4 +1,5 @@
-//! The capped cone: the stretch inside one nappe and the stretch between base and apex, intersected.
+//! The capped cone: the stretch inside one nappe and the stretch between base and apex,
+//! intersected.
 //!
 //! The ray is first moved to the point nearest to the cone's middle, so that the terms of the
 //! quadratic have the size of the cone; each root is then refined by one Newton step on the

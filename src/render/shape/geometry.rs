@@ -50,7 +50,8 @@ pub trait Geometry: Sized + Send + Sync {
     #[must_use]
     fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details;
 
-    /// How many flat parts it has that can be lights; each is a `prim_id` of [`Geometry::intersect`].
+    /// How many flat parts it has that can be lights; each is a `prim_id` of
+    /// [`Geometry::intersect`].
     #[must_use]
     fn triangles(&self) -> usize {
         0

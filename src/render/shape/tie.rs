@@ -8,8 +8,8 @@
 use crate::math::U;
 use crate::render::ray::{Interaction, Ray};
 
-/// The half of an interval at most, as a fraction of t: where a ray all but runs along a surface its
-/// error knows no bound.
+/// The half of an interval at most, as a fraction of t: where a ray all but runs along a surface
+/// its error knows no bound.
 const WIDEST: f64 = 1.0 / 8_388_608.0;
 
 /// Intervals whose middles are farther apart, as a fraction, do not meet; walks of hierarchies look

@@ -117,9 +117,9 @@ impl TorusRay {
     }
 }
 
-/// Where to look next between two points of opposite signs, as the fraction of the way from the last
-/// to the other: where the parabola through both and the point before has its root, if it is safe
-/// to ask, else in the middle.
+/// Where to look next between two points of opposite signs, as the fraction of the way from the
+/// last to the other: where the parabola through both and the point before has its root, if it is
+/// safe to ask, else in the middle.
 fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     let along = (last.0 - other.0) / (before.0 - other.0);
     let up = (last.1 - other.1) / (before.1 - other.1);

@@ -1,4 +1,4 @@
-//! Textures as glTF samples them: wrapping, filtering, and which of them hold colours.
+//! Texture sampling by the rules of glTF: wrap modes, filters and colour spaces.
 
 use super::{Filter, Image, Texture, Wrap};
 use crate::color::srgb_decoded;
@@ -6,33 +6,33 @@ use crate::image::Texel;
 use crate::math::Lanes;
 use std::sync::LazyLock;
 
-/// What the numbers of a texture are.
+/// The colour space of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) enum ColorSpace {
-    /// Colours, coded by sRGB where they are bytes.
+    /// Colours; bytes are encoded with sRGB.
     Srgb,
-    /// Numbers.
+    /// Numbers, without an encoding.
     Linear,
 }
 
-/// Where on a surface textures are looked up: its two sets of coordinates.
+/// The two sets of texture coordinates at a point; `None` for a missing set.
 pub(in crate::render) type UvSets = [Option<[f64; 2]>; 2];
 
-/// A texture as a material of glTF uses it: where on it a surface looks, and what its numbers are.
+/// A texture in a glTF material: its texture coordinates and its colour space.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Map {
     pub(in crate::render) texture: Texture,
-    /// Which of the [`UvSets`].
+    /// The index into [`UvSets`].
     pub(in crate::render) set: usize,
-    /// The rows of the affine map from the coordinates of the surface to those of the texture; none
-    /// for the identity.
+    /// The rows of the affine map from the surface's coordinates to the texture's; `None` for the
+    /// identity.
     pub(in crate::render) texture_from_surface: Option<[[f64; 3]; 2]>,
     pub(in crate::render) color_space: ColorSpace,
 }
 
 impl Map {
-    /// What it shows, red, green, blue and alpha in [0, 1], or as they are for float images; `None`
-    /// without coordinates.
+    /// Looks the texture up: red, green, blue and alpha, in [0, 1] except for float images. `None`
+    /// without texture coordinates.
     pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         let [u, v] = uvs[self.set]?;
         let uv = match self.texture_from_surface {
@@ -41,7 +41,7 @@ impl Map {
         };
         let value = match &self.texture {
             Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
-            // The course counts v upwards.
+            // In the course, v grows upwards.
             Texture::Image(image) => {
                 let uv = [uv[0], 1.0 - uv[1]];
                 sample(
@@ -62,8 +62,7 @@ impl Map {
     }
 }
 
-/// The texel or the mean of the four around a place, v = 0 at the top, texel middles half a texel
-/// inside.
+/// Samples an image: v = 0 is its top edge, texel centers lie half a texel inside.
 pub(in crate::render) fn sample(
     image: &Image,
     uv: [f64; 2],
@@ -103,7 +102,7 @@ pub(in crate::render) fn sample(
     value.as_dvec4().to_array()
 }
 
-/// The coordinate brought near the unit interval, or to [0, 2] where each other image is mirrored.
+/// Wraps a coordinate to the unit interval, or to [0, 2] for mirrored repetition.
 fn within(coordinate: f64, wrap: Wrap) -> f64 {
     match wrap {
         Wrap::Repeat => coordinate - floor(coordinate),
@@ -112,7 +111,7 @@ fn within(coordinate: f64, wrap: Wrap) -> f64 {
     }
 }
 
-/// The texel that stands for one beside a place that [`within`] gave.
+/// Wraps the index of a texel next to a coordinate from [`within`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,23 +1,23 @@
-//! Meshes whose triangles stand in the world one by one, in one hierarchy.
+//! Flattened instances: meshes whose triangles are in one world-space hierarchy.
 
 use super::Surface;
 use crate::render::accel::bvh4::Bvh4;
 use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
 
-/// The triangles of meshes that stand in the world one by one.
+/// The triangles of all flattened instances.
 pub(super) struct Flattened {
-    /// The surface of each, and the part of it.
+    /// The surface and the primitive id of each triangle.
     pub(super) prims: Vec<[u32; 2]>,
     pub(super) hierarchy: Bvh4,
 }
 
-/// A mesh that stands several times is merged into the world if all its triangles are no more than
-/// this.
+/// A mesh with several instances is flattened if its instances have at most this many triangles
+/// together.
 const MAX_TRIANGLES: usize = 1 << 18;
 
 impl Flattened {
-    /// Those of the surfaces with these indices.
+    /// Flattens the surfaces with these indices.
     pub(super) fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
         let shape = |surface: u32| &surfaces[surface as usize].shape;
         let prims_of = |surface: u32| {
@@ -43,7 +43,7 @@ impl Flattened {
     }
 }
 
-/// For each surface of a scene, whether it is a mesh that stands in the world triangle by triangle.
+/// For each surface of a scene, whether it is an instance to be flattened.
 pub(super) fn flattened_surfaces(scene: &Proof) -> Vec<bool> {
     let mut uses = vec![0_usize; scene.meshes().len()];
     let mesh = |surface: &valid::Surface| {

@@ -32,7 +32,7 @@ pub struct Hit {
     pub t: f64,
     /// The surface: an index into [`World::surfaces`].
     pub surface: usize,
-    /// Which part of the surface, for shapes of several.
+    /// The primitive of the surface, for shapes with several.
     pub prim_id: u32,
 }
 
@@ -72,21 +72,21 @@ pub struct World<S = Shape> {
 /// The `t_max` that ends a walk.
 const OVER: f64 = -1.0;
 
-/// The part of no surface.
+/// The primitive of a ray that starts at no surface.
 pub(in crate::render) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
 impl<S: Geometry> World<S> {
-    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first
-    /// surface and its first part. Rays that are none hit nothing.
+    /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
+    /// primitive. Non-finite rays hit nothing.
     #[must_use]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         self.closest_hit_from(ray, NOWHERE)
     }
 
-    /// As [`World::closest_hit`], for a ray that starts at a part of a surface: if that is a merged
-    /// triangle, it is flat, so the ray can't come back to it.
+    /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
+    /// triangle is flat, so the ray can't hit it again.
     pub(in crate::render) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
-        // A NaN passes every slab test, so such a ray would visit all there is.
+        // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
         }
@@ -116,7 +116,7 @@ impl<S: Geometry> World<S> {
         })
     }
 
-    /// The nearest hit on what is not merged; beyond all if there is none.
+    /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
     fn closest_hit_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
@@ -144,7 +144,7 @@ impl<S: Geometry> World<S> {
         nearest
     }
 
-    /// The first of the hits as near as one at `t`.
+    /// Breaks the tie between the hits as close as the one at `t`.
     #[cold]
     #[inline(never)]
     fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
@@ -183,7 +183,7 @@ impl<S: Geometry> World<S> {
         tie.first()
     }
 
-    /// Whether no surface stands apart from the triangles of meshes.
+    /// Whether all surfaces are flattened.
     #[inline]
     fn is_all_flattened(&self) -> bool {
         self.unbounded.is_empty() && self.bounded.is_empty()
@@ -203,9 +203,9 @@ impl<S: Geometry> World<S> {
         self.transmittance(ray, t_max, NOWHERE, |_| 0.0) == 0.0
     }
 
-    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no
-    /// more is asked once that is 0. Only triangles of meshes that are [`World::is_flattened`] are
-    /// asked about: all else lets nothing pass. The ray starts at the part of a surface given.
+    /// The product of `pass` over all hits with 0 < t < `t_max`, in any order, until it is 0. Only
+    /// flattened triangles are asked; all other surfaces are opaque. The ray starts at the
+    /// primitive `from`.
     pub(in crate::render) fn transmittance(
         &self,
         ray: &Ray,
@@ -218,7 +218,7 @@ impl<S: Geometry> World<S> {
         if self.any_hit_apart(&ray, t_max) {
             return 0.0;
         }
-        let mut fraction = 1.0;
+        let mut transmittance = 1.0;
         if let Some(Flattened { prims, hierarchy }) = &self.flattened {
             hierarchy.walk::<true>(&ray, t_max, |item| {
                 let [surface, prim_id] = prims[item as usize];
@@ -227,19 +227,19 @@ impl<S: Geometry> World<S> {
                     && let Some(t) = self.surfaces[surface].shape.intersect_prim(&ray, prim_id)
                     && t < t_max
                 {
-                    fraction *= pass(Hit {
+                    transmittance *= pass(Hit {
                         t: t * unit,
                         surface,
                         prim_id,
                     });
                 }
-                if fraction > 0.0 { t_max } else { OVER }
+                if transmittance > 0.0 { t_max } else { OVER }
             });
         }
-        fraction
+        transmittance
     }
 
-    /// Whether anything that is not merged is hit with 0 < t < `t_max`.
+    /// Whether a surface that is not flattened is hit with 0 < t < `t_max`.
     fn any_hit_apart(&self, ray: &Ray, t_max: f64) -> bool {
         if self.is_all_flattened() {
             return false;

@@ -23,7 +23,8 @@ pub(super) struct PathState {
     pub(super) sobol: Sobol,
     /// How often it has gone on from a surface.
     pub(super) bounces: u32,
-    /// The density with which the BSDF took the ray; `None` if no light could have been aimed at so.
+    /// The density with which the BSDF took the ray; `None` if no light could have been aimed at
+    /// so.
     pub(super) pdf: Option<f64>,
     /// The coefficient of absorption along the ray, per unit of length.
     pub(super) absorption: Vec3,

@@ -4,7 +4,7 @@ use super::real::{Real, Vector};
 use crate::plan::NEAREST;
 use crate::render::ray::Ray;
 
-/// A ray.
+/// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlainRay<R> {
     pub(super) origin: Vector<R>,
