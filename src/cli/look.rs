@@ -78,7 +78,7 @@ impl Look {
         }
     }
 
-    /// What the origin of a picture says of its look: what is not as always.
+    /// Adds the settings of the look that differ from the default to the origin of a picture.
     pub(super) fn describe(&self, settings: &mut serde_json::Value) {
         if self.stops != 0.0 {
             settings["exposure"] = self.stops.into();

@@ -1,5 +1,5 @@
-//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
-//! hierarchy.
+//! An instance of a mesh: rays are transformed to object space, where all instances share triangles
+//! and hierarchy.
 
 use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
@@ -9,7 +9,7 @@ use crate::render::shape::tie::{self, Nearest, Tie};
 use crate::render::shape::triangle::{Shear, Triangle};
 use std::sync::Arc;
 
-/// A mesh in the world.
+/// A prepared instance of a mesh.
 #[derive(Clone, Debug)]
 pub struct Instance {
     mesh: Arc<PreparedMesh>,
@@ -20,10 +20,10 @@ pub struct Instance {
     sizes: Vec3,
     /// The rows of the inverse of the axes.
     inverse: [Vec3; 3],
-    /// Whether the map turns left hands into right ones.
+    /// Whether the transform is a reflection.
     mirrors: bool,
     bounds: Bounds,
-    /// How far rounding may move a corner on its way to the world.
+    /// A bound on the error of a vertex in world space.
     error_bound: f64,
 }
 
@@ -58,7 +58,7 @@ impl Instance {
             .flat_map(|triangle| triangle.vertices());
         for corner in corners {
             let point = instance.to_world(*corner);
-            // The map rounds; the box must hold what the ray in object space may hit.
+            // Grow the box by the rounding error of the transform.
             let rounding = instance.rounding(*corner);
             instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
             instance.error_bound = instance.error_bound.max(rounding);
@@ -71,7 +71,7 @@ impl Instance {
         self.inverse
     }
 
-    /// How far rounding may move a point between the two spaces.
+    /// A bound on the error of a point transformed between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
         16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
     }
@@ -124,8 +124,7 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first
-    /// triangle.
+    /// As [`Instance::intersect`], but ties within rounding go to the first triangle.
     #[must_use]
     pub(in crate::render) fn closest_hit(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
         let local = self.to_object(ray);
@@ -144,7 +143,7 @@ impl Instance {
         }
     }
 
-    /// The first of the roots as near as one at `t`.
+    /// Breaks the tie between the roots as close as the one at `t`.
     #[cold]
     fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
         let mut tie = Tie::new();
@@ -225,7 +224,7 @@ impl Instance {
         !self.mesh.attributes.normals.is_empty()
     }
 
-    /// What the mesh says about a point of triangle `prim_id`, as far as that is asked.
+    /// The requested details of a point of triangle `prim_id`.
     pub(in crate::render) fn details(&self, point: Vec3, prim_id: u32, asked: Asked) -> Details {
         let triangle = &self.mesh.triangles()[prim_id as usize];
         let mesh = &self.mesh.attributes;
@@ -276,7 +275,7 @@ impl Instance {
         }
     }
 
-    /// The direction in which u grows, and the side on which v does.
+    /// The tangent along u, and the side of the bitangent.
     fn tangent(
         &self,
         triangle: &Triangle,
@@ -303,13 +302,13 @@ impl Instance {
         self.bounds
     }
 
-    /// How far rounding may have moved its corners.
+    /// A bound on the error of its vertices.
     pub(in crate::render) fn error_bound(&self) -> f64 {
         self.error_bound
     }
 }
 
-/// What of the [`Details`] someone asks for beyond normal and colour; what is not may be left out.
+/// The requested [`Details`] beyond normal and colour; others may be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// The texture coordinates.
@@ -332,7 +331,7 @@ impl Asked {
     };
 }
 
-/// What a surface knows of a point beyond its geometry.
+/// The shading attributes of a point of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Details {
     /// The unit shading normal, where it is not the geometric one.

@@ -15,10 +15,10 @@ use crate::render::shape::plane::Normal;
 /// Steps of a bracketed search: bisection alone would need 60.
 const MAX_STEPS: usize = 100;
 
-/// What rounding does to a number about as large as a torus, in units of one.
+/// The rounding error of lengths in units of the torus.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// A torus ready to be hit.
+/// A prepared torus.
 #[derive(Clone, Copy, Debug)]
 pub struct Torus {
     center: Vec3,
@@ -136,7 +136,7 @@ fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
 /// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
 /// asked for.
 fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
-    // Bracket by the extremes of the cubic.
+    // Bracket the roots by the extrema of the cubic.
     let spread = (-linear / 3.0).max(0.0).sqrt();
     let borders = [
         low,
@@ -163,7 +163,7 @@ fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64>
         } else {
             a = at
         }
-        // A Newton step, or half the bracket where it leaves it.
+        // Take a Newton step, or bisect if the step leaves the bracket.
         let newton = at - height / (3.0 * at * at + linear);
         let next = if newton > a && newton < b {
             newton
@@ -203,7 +203,7 @@ impl Torus {
         if half2 < 0.0 || half2.is_nan() {
             return None;
         }
-        // Measure in a power of two near the outer radius: that rounds nothing.
+        // Scale by a power of two near the outer radius, which is exact.
         let unit = ldexp(1.0, libm::ilogb(outer));
         let length = length2.sqrt();
         let (from, step) = (foot / unit, d / length);

@@ -1,4 +1,4 @@
-//! What happens at a vertex: light is found, and the path turns.
+//! Scattering at a vertex: next-event estimation and BSDF sampling.
 
 use super::state::PathState;
 use super::vertex::PathVertex;
@@ -19,7 +19,7 @@ struct Shading<const F: u32> {
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    /// Adds light from where no surface stands.
+    /// Adds the radiance of the environment to a path that leaves the scene.
     pub(super) fn add_escaped_radiance(&mut self, state: &mut PathState) {
         if !self.has_environment {
             return;
@@ -32,9 +32,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// Finds light at a vertex and turns the path; false if it ends there.
+    /// Adds light at a vertex and samples the next direction; false if the path ends there.
     pub(super) fn scatter(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> bool {
-        // Absorb what the medium on the way takes.
+        // Attenuate by the medium along the ray (Beer-Lambert).
         if state.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
             state.beta *= (state.absorption * -state.travelled).map(exp);
@@ -50,14 +50,14 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         let [choice, light] = state.pair(0);
         let shading = self.shading(state, vertex);
-        // Sample the light of one light.
+        // Sample one light.
         if self.does(PathFeatures::AIM) && !shading.bsdf.is_delta() {
             state.radiance += state.beta * self.direct(state, vertex, &shading, light);
         }
         state.bounces < self.max_bounces && self.turn(state, vertex, &shading, choice)
     }
 
-    /// Adds the radiance that a surface sends out by itself.
+    /// Adds the emitted radiance of a surface.
     fn add_emission(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) {
         let emission = vertex.point.emission();
         if emission == Vec3::ZERO {
@@ -75,7 +75,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         state.radiance += state.beta * emission * weight;
     }
 
-    /// Samples the BSDF for the direction in which the path goes on; false if it ends.
+    /// Samples the BSDF for the next direction; false if the path ends.
     fn turn(
         &mut self,
         state: &mut PathState,
@@ -93,8 +93,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return false;
         };
         let wi = frame.to_world(sample.wi).normalize();
-        // Light that the shading normal lets through and the surface itself does not, or the
-        // reverse, would leak.
+        // End the path where shading and geometric normal disagree on reflection or transmission:
+        // light would leak.
         let through = sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
@@ -118,7 +118,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         state.russian_roulette()
     }
 
-    /// The material at a vertex as the viewer sees it.
+    /// The BSDF at a vertex.
     #[inline]
     fn shading(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> Shading<F> {
         let PathVertex {
@@ -165,7 +165,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         debug_assert!(!material.is_unlit, "a path ends on an unlit surface");
     }
 
-    /// The light that one light sends to a vertex and on along the path.
+    /// The direct light of one sampled light at a vertex.
     fn direct(
         &mut self,
         state: &PathState,
@@ -205,7 +205,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// The weight of light that scattering found with a density, and aiming could have.
+    /// The MIS weight of light found by BSDF sampling, given both densities.
     fn weight_of_scattering(&mut self, pdf: Option<f64>, light_pdf: impl FnOnce() -> f64) -> f64 {
         if !self.does(PathFeatures::AIM) {
             return 1.0;

@@ -10,10 +10,10 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::world::Hit;
 
-/// Alpha-tested surfaces that a ray goes through at most.
+/// The maximum number of skipped surfaces along a ray.
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;
 
-/// Where a path meets a surface.
+/// A vertex of a path: a hit, with everything that shading needs.
 pub(in crate::render) struct PathVertex<'world> {
     pub(super) at: Interaction,
     pub(super) point: MaterialPoint<'world>,
@@ -54,7 +54,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         None
     }
 
-    /// What a material needs to know of a surface.
+    /// The surface details that a material needs.
     pub(super) fn asked(&self, material: usize) -> Asked {
         if self.knows_all {
             Asked::ALL
@@ -75,7 +75,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         MaterialPoint::new(material, details)
     }
 
-    /// The probability that a ray meets the surface at a point.
+    /// The opacity at a point: the probability that the alpha test keeps the hit.
     pub(super) fn opacity(&mut self, point: &MaterialPoint<'_>) -> f64 {
         if !Self::can(PathFeatures::ALPHA) || point.material.alpha == Alpha::Opaque {
             return 1.0;
@@ -85,7 +85,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-/// Whether a ray of the camera meets the back of what is seen from one side.
+/// Whether a camera ray hits the back of a single-sided material.
 fn skips_back(state: &PathState, at: &Interaction, material: &StandardMaterial) -> bool {
     state.bounces == 0 && state.ray.direction.dot(at.normal) > 0.0 && material.is_seen_from_one_side
 }

@@ -1,4 +1,4 @@
-//! What stands between a vertex and a light.
+//! Visibility between a vertex and a light.
 
 use super::PathTracer;
 use super::vertex::{MAX_SKIPPED, PathVertex};
@@ -9,13 +9,13 @@ use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::{Hit, World, segment};
 
-/// Which surfaces of a world a ray may go through.
+/// The alpha-tested surfaces of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AlphaTested {
     None,
-    /// Triangles that stand in the world one by one.
+    /// Only flattened triangles.
     Triangles,
-    /// Others as well.
+    /// Other surfaces as well.
     Solids,
 }
 
@@ -34,7 +34,7 @@ impl AlphaTested {
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    /// The fraction of light that arrives from a place, or from infinitely far away.
+    /// The transmittance to a point, or to infinity.
     pub(super) fn visibility(
         &mut self,
         vertex: &PathVertex<'world>,
@@ -63,7 +63,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// Where a ray meets a surface, and the fraction of light that the surface lets through there.
+    /// The interaction of a hit, and the transmittance of the surface there.
     fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
         let surface = &self.world.surfaces[hit.surface];
         if self.world.standards[surface.material].alpha == Alpha::Opaque {
@@ -91,7 +91,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Some(None) => return transmittance,
                 Some(Some(to_place)) => to_place,
             };
-            // Nothing stands before the light.
+            // Stop if the rest of the segment is clear.
             if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
                 return transmittance;
             }
