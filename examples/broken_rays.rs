@@ -57,7 +57,7 @@ fn ray(k: u32, values: &[f64]) -> Ray {
 #[inline(never)]
 fn trace(world: &World, rays: &[Ray]) -> usize {
     rays.iter()
-        .filter(|ray| world.nearest(ray).is_some())
+        .filter(|ray| world.closest_hit(ray).is_some())
         .count()
 }
 

@@ -14,7 +14,7 @@ use crate::ir::{Lowered, Origins, Scene};
 use crate::math::BasisFault;
 use crate::passes::Stage;
 use crate::plan::Plan;
-use crate::render::{self, AnyWorld, Aov, Crop, Fault, Film, Job, Proceed};
+use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof};
@@ -82,17 +82,17 @@ fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
         .filter(|_| !has_assets);
     for (noun, name) in parts.chain([("camera", camera)]) {
         let Some(name) = name else { continue };
-        let fault = Diagnostic::new(
+        let mismatch = Diagnostic::new(
             &codes::GLTF_CHOSEN,
             format!("the scene has no {noun} called `{}`", clip(name)),
         );
-        sink.push(fault.hint(format!("only a glTF asset has {noun}s to choose from")));
+        sink.push(mismatch.hint(format!("only a glTF asset has {noun}s to choose from")));
     }
 }
 
 /// Puts view and light into a scene that was read, and what has no light into the studio.
 pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
-    let fault = match stage.apply(lowered) {
+    let mismatch = match stage.apply(lowered) {
         Ok(false) => return,
         Ok(true) => {
             let note = Diagnostic::new(
@@ -116,7 +116,7 @@ pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
             "the upward direction asked for is along the view",
         ),
     };
-    sink.push(Diagnostic::new(fault.0, fault.1));
+    sink.push(Diagnostic::new(mismatch.0, mismatch.1));
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.
@@ -159,12 +159,12 @@ impl Renderer {
         Vec::<u8>::new().try_reserve_exact(bytes).is_ok()
     }
 
-    /// Renders a picture. `None` if `proceed` said stop.
+    /// Renders a picture. `None` if `on_pixel` said stop.
     ///
-    /// `proceed` is called from all threads, after each pixel and within long ones.
+    /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
-        self.pool.install(|| self.world.render(job, proceed))
+    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+        self.pool.install(|| self.world.render(job, on_pixel))
     }
 
     /// Renders the scene that it was made of until a goal is reached.
@@ -181,16 +181,16 @@ impl Renderer {
         pool.install(|| study::approach(world, scene, order, watch))
     }
 
-    /// Renders layers of a part of the picture. `None` if `proceed` said stop.
+    /// Renders layers of a part of the picture. `None` if `on_pixel` said stop.
     #[must_use]
     pub fn layers(
         &self,
         wanted: &[Aov],
         crop: Crop,
-        proceed: &(dyn Fn() -> bool + Sync),
+        on_pixel: &(dyn Fn() -> bool + Sync),
     ) -> Option<Layers> {
         self.pool
-            .install(|| self.world.layers(wanted, crop, &|_| proceed()))
+            .install(|| self.world.layers(wanted, crop, &|_| on_pixel()))
     }
 }
 
@@ -203,9 +203,9 @@ pub fn render(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Result<Option<Film>, ThreadPoolBuildError> {
-    Ok(Renderer::new(scene, plan, threads)?.render(job, proceed))
+    Ok(Renderer::new(scene, plan, threads)?.render(job, on_pixel))
 }
 
 /// Renders on `threads` threads as planned and once more with everything that was left out, and
@@ -218,9 +218,9 @@ pub fn verify(
     plan: &Plan,
     job: &Job,
     threads: usize,
-    proceed: &Proceed<'_>,
-) -> Result<Option<Result<Film, Fault>>, ThreadPoolBuildError> {
-    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, proceed)))
+    on_pixel: &OnPixel<'_>,
+) -> Result<Option<Result<Film, Mismatch>>, ThreadPoolBuildError> {
+    Ok(pool(threads)?.install(|| render::verify(scene, plan, job, on_pixel)))
 }
 
 /// So many threads, 0 for one per core.

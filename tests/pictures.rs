@@ -5,7 +5,7 @@
 
 use rtc::diag::Sink;
 use rtc::ir::{self, Lowered, Scene};
-use rtc::math::{Double, Vec3, view_basis};
+use rtc::math::{DoubleDouble, Vec3, view_basis};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Geometry, Job, Shape, World, camera_ray, image_point};
@@ -100,13 +100,14 @@ fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
     for (x, y) in (0..400).flat_map(|y| (0..400).map(move |x| (x, y))) {
         let ray = camera_ray(camera.eye, image_point(camera, [x, y], [0.5; 2]));
         // b² − a·c in twice the precision: c cancels 4 of its 32 digits.
-        let dot = |a: [Double; 3], b: [Double; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-        let f = [0, 1, 2].map(|k| Double::difference(ray.origin[k], sphere.center[k]));
-        let d = [0, 1, 2].map(|k| Double::from(ray.direction[k]));
-        let radius = Double::from(sphere.radius.get());
+        let dot =
+            |a: [DoubleDouble; 3], b: [DoubleDouble; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], sphere.center[k]));
+        let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
+        let radius = DoubleDouble::from(sphere.radius.get());
         let (a, b, c) = (dot(d, d), dot(f, d), dot(f, f) - radius * radius);
-        let wanted = (b * b - a * c).rounded() >= 0.0;
-        assert_eq!(world.nearest(&ray).is_some(), wanted, "pixel {x}, {y}");
+        let wanted = (b * b - a * c).to_f64() >= 0.0;
+        assert_eq!(world.closest_hit(&ray).is_some(), wanted, "pixel {x}, {y}");
         seen += u32::from(wanted);
     }
     assert!(
@@ -124,12 +125,12 @@ fn the_day_side_of_a_far_planet_is_lit_all_over() {
     let mut lit = 0;
     for (x, y) in (0..400).flat_map(|y| (0..400).map(move |x| (x, y))) {
         let ray = camera_ray(camera.eye, image_point(camera, [x, y], [0.5; 2]));
-        let Some(hit) = world.nearest(&ray) else {
+        let Some(hit) = world.closest_hit(&ray) else {
             continue;
         };
         let at = world.surfaces[hit.surface]
             .shape
-            .interaction(&ray, hit.t, hit.part);
+            .interaction(&ray, hit.t, hit.prim_id);
         let to_sun = -at.point.normalize();
         let wanted = 0.2 + 0.7 * at.normal.dot(to_sun).max(0.0);
         let value = film.image.pixels[(y * 400 + x) as usize][0];

@@ -193,7 +193,7 @@ fn cheap_study(path: &str) -> String {
         .scene;
     let traced = AtomicU64::new(0);
     let clock = || Duration::from_micros(traced.load(Relaxed));
-    let proceed = |step: Step| {
+    let on_pixel = |step: Step| {
         traced.fetch_add(step.rays, Relaxed);
         true
     };
@@ -203,7 +203,7 @@ fn cheap_study(path: &str) -> String {
             cpu: &clock,
             wall: &clock,
         },
-        &proceed,
+        &on_pixel,
     )
     .unwrap();
     study::table(&study::study(&scene, About::default(), EFFORT, 0, &bench).unwrap())

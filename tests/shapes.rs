@@ -136,12 +136,12 @@ proptest! {
         let target = a.lerp(b, u).lerp(d.lerp(c, u), v);
         let ray = Ray { origin: ray.origin, direction: target - ray.origin };
         let quad = Quad::new(corners);
-        let Some((t, part)) = quad.intersect(&ray, &Shear::new(&ray)) else {
+        let Some((t, prim_id)) = quad.intersect(&ray, &Shear::new(&ray)) else {
             return Err(TestCaseError::fail("missed"));
         };
         prop_assert!(t <= 1.0 + 1e-9, "found at {}", t);
         let at = ray.origin + ray.direction * t;
-        prop_assert!(quad.interaction(&ray, t, part).point.distance(at) < 1e-9);
+        prop_assert!(quad.interaction(&ray, t, prim_id).point.distance(at) < 1e-9);
     }
 
     /// A flat quadrilateral is its two triangles, whichever way it is cut.

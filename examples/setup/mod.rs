@@ -9,8 +9,8 @@
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Camera, Emitter, Environment, Lens, Light, Lowered, Mode, Path as Paths, Projection, Punctual,
-    Scene,
+    Camera, Emitter, Environment, Lens, Light, Lowered, Mode, PathSettings as Paths, Projection,
+    Punctual, Scene,
 };
 use rtc::math::{Vec3, camera_basis};
 use rtc::pipeline::{self, Options};

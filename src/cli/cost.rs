@@ -63,14 +63,14 @@ fn measure(
     let start = Instant::now();
     let cpu = || ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
     let wall = || start.elapsed();
-    let proceed = |_| !interrupt.is_raised();
+    let on_pixel = |_| !interrupt.is_raised();
     let bench = Bench::new(
         args.threads.map_or(0, usize::from),
         Clock {
             cpu: &cpu,
             wall: &wall,
         },
-        &proceed,
+        &on_pixel,
     );
     let bench = bench.map_err(|error| Failure::Trouble(format!("can't start threads: {error}")))?;
     study::study(scene, about, args.effort.into(), args.seed, &bench)

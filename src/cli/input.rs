@@ -6,7 +6,7 @@ use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::pixels;
 use crate::ir::{Lowered, Scene};
-use crate::passes::{Stage, Surroundings, View};
+use crate::passes::{EnvironmentOverride, Stage, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
 use crate::valid::Proof;
@@ -113,7 +113,7 @@ impl Input {
         let mut input = Self::read(path, reading);
         let picture = match env {
             Some(path) => input.environment(path)?,
-            None => env_color.map(Surroundings::Color),
+            None => env_color.map(EnvironmentOverride::Color),
         };
         input.stage = Some(Stage {
             view: View {
@@ -123,7 +123,7 @@ impl Input {
                 yfov: *yfov,
             },
             integrator: integrator.map(Into::into),
-            surroundings: picture,
+            environment: picture,
             suns: sun.clone(),
             without_lights: *no_scene_lights,
         });
@@ -131,7 +131,7 @@ impl Input {
     }
 
     /// The surroundings in a file; what is wrong in it is a finding.
-    fn environment(&mut self, path: &Path) -> Result<Option<Surroundings>, Failure> {
+    fn environment(&mut self, path: &Path) -> Result<Option<EnvironmentOverride>, Failure> {
         let name = path.display().to_string();
         let bytes = Loader.bytes(path, MAX_ENVIRONMENT, &self.map);
         let bytes =
@@ -141,7 +141,7 @@ impl Input {
         let picture = pixels::environment(&file, &bytes, self.map.budget());
         Ok(picture
             .map_err(|fault| self.push(pixels::no_environment(&fault, &name)))
-            .map(Surroundings::Picture)
+            .map(EnvironmentOverride::Picture)
             .ok())
     }
 

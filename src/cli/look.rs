@@ -3,8 +3,8 @@
 use super::Failure;
 use super::args::{self, Bits};
 use crate::color::Tone;
-use crate::image::{self, Association, Backdrop, Image, Lost, Origin, Picture};
-use crate::render::{Aov, Behind, Values};
+use crate::image::{self, Association, BackgroundFill, Image, Lost, Origin, Picture};
+use crate::render::{Aov, Background, Values};
 use crate::valid::Mode;
 use std::path::Path;
 
@@ -13,7 +13,7 @@ pub(super) struct Look {
     kind: Kind,
     tone: Option<Tone>,
     stops: f64,
-    backdrop: Backdrop,
+    background: BackgroundFill,
     /// The layers wanted, each once.
     pub(super) aovs: Vec<Aov>,
 }
@@ -50,7 +50,7 @@ impl Look {
             kind,
             tone,
             stops: args.exposure,
-            backdrop: args.background,
+            background: args.background,
             aovs,
         })
     }
@@ -70,23 +70,23 @@ impl Look {
     }
 
     /// What the film must show behind all surfaces.
-    pub(super) fn behind(&self) -> Behind {
-        if self.backdrop == Backdrop::Film {
-            Behind::Surroundings
+    pub(super) fn background(&self) -> Background {
+        if self.background == BackgroundFill::Film {
+            Background::Environment
         } else {
-            Behind::Nothing
+            Background::Nothing
         }
     }
 
-    /// What the origin of a picture says of its look: what is not as always.
+    /// Adds the settings of the look that differ from the default to the origin of a picture.
     pub(super) fn describe(&self, settings: &mut serde_json::Value) {
         if self.stops != 0.0 {
             settings["exposure"] = self.stops.into();
         }
-        match self.backdrop {
-            Backdrop::Film => {}
-            Backdrop::Transparent => settings["background"] = "transparent".into(),
-            Backdrop::Color(color) => settings["background"] = color.to_vec().into(),
+        match self.background {
+            BackgroundFill::Film => {}
+            BackgroundFill::Transparent => settings["background"] = "transparent".into(),
+            BackgroundFill::Color(color) => settings["background"] = color.to_vec().into(),
         }
     }
 
@@ -111,7 +111,7 @@ impl Look {
         image::Look {
             stops: self.stops,
             tone,
-            backdrop: self.backdrop,
+            background: self.background,
         }
         .develop(film, coverage, association)
     }
@@ -136,9 +136,9 @@ impl Look {
         origin: impl FnOnce() -> Origin,
     ) -> Result<Vec<u8>, Failure> {
         let form = match self.kind {
-            Kind::Png8 => image::Form::Png8,
-            Kind::Png16 => image::Form::Png16,
-            Kind::Exr => image::Form::Exr(origin()),
+            Kind::Png8 => image::FileFormat::Png8,
+            Kind::Png16 => image::FileFormat::Png16,
+            Kind::Exr => image::FileFormat::Exr(origin()),
         };
         picture
             .encode(&form)

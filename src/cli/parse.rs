@@ -1,6 +1,6 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
-use crate::image::Backdrop;
+use crate::image::BackgroundFill;
 use crate::passes::Sun;
 use crate::plan::Rule;
 use crate::render::Crop;
@@ -162,7 +162,7 @@ pub(super) fn stops(text: &str) -> Result<f64, String> {
     stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
 }
 
-pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
+pub(super) fn backdrop(text: &str) -> Result<BackgroundFill, String> {
     let numbers = || {
         text.split(',').map(|part| {
             part.trim()
@@ -172,10 +172,10 @@ pub(super) fn backdrop(text: &str) -> Result<Backdrop, String> {
         })
     };
     match text {
-        "env" => Ok(Backdrop::Film),
-        "transparent" => Ok(Backdrop::Transparent),
+        "env" => Ok(BackgroundFill::Film),
+        "transparent" => Ok(BackgroundFill::Transparent),
         _ => match numbers().collect::<Option<Vec<_>>>().as_deref() {
-            Some(&[r, g, b]) => Ok(Backdrop::Color([r, g, b])),
+            Some(&[r, g, b]) => Ok(BackgroundFill::Color([r, g, b])),
             _ => Err("expected `env`, `transparent`, or red, green and blue, as 1,1,1".to_owned()),
         },
     }
@@ -259,7 +259,10 @@ mod tests {
             &["1,2", "1,2,x", "1,2,inf", "1,2,3,4", ""]
         ));
         assert!(are_refused(color, &["-1", "1,2", "1,2,nan"]));
-        assert_eq!(backdrop("0.5,1, 2"), Ok(Backdrop::Color([0.5, 1.0, 2.0])));
+        assert_eq!(
+            backdrop("0.5,1, 2"),
+            Ok(BackgroundFill::Color([0.5, 1.0, 2.0]))
+        );
         assert!(are_refused(
             backdrop,
             &["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]

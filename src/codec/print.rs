@@ -25,7 +25,7 @@ struct Document<'s> {
 /// there is to write.
 pub(super) fn document(scene: &Scene, out: &mut impl Write) -> Result<(), NotFinite> {
     let mut serializer = Serializer::with_formatter(&mut *out, Layout::default());
-    // What fails is the layout, and that at numbers that are none.
+    // Only the layout can fail, at numbers that are not finite.
     Document {
         ir_version: VERSION,
         scene,

@@ -39,14 +39,14 @@ fn pbr_neutral(linear: [f64; 3]) -> [f64; 3] {
     const KD: f64 = 0.15;
     let linear = linear.map(|v| if v > 0.0 { v.min(f64::MAX) } else { 0.0 });
     // The reflection of a dielectric in white light is taken off, less of it in the dark.
-    let x = least(linear);
+    let x = min(linear);
     let f = if x <= 2.0 * F90 {
         x - x * x / (4.0 * F90)
     } else {
         F90
     };
     let base = linear.map(|v| v - f);
-    let p = greatest(base);
+    let p = max(base);
     if p <= KS {
         return base;
     }
@@ -98,11 +98,11 @@ fn sigmoid(v: f64, pivot: f64) -> f64 {
     0.5 + SLOPE * d / bend
 }
 
-fn least(v: [f64; 3]) -> f64 {
+fn min(v: [f64; 3]) -> f64 {
     v[0].min(v[1]).min(v[2])
 }
 
-fn greatest(v: [f64; 3]) -> f64 {
+fn max(v: [f64; 3]) -> f64 {
     v[0].max(v[1]).max(v[2])
 }
 

@@ -93,14 +93,14 @@ fn charge(cost: Cost, budget: &Budget) -> Result<(), Refused> {
     let Cost {
         pixels,
         memory,
-        passing,
+        scratch,
     } = cost;
     budget
         .charge(Resource::Pixels, pixels)
         .map_err(Refused::Limit)?;
     // What is given back at once only has to be there.
     budget
-        .has(Resource::Memory, memory.saturating_add(passing))
+        .has(Resource::Memory, memory.saturating_add(scratch))
         .map_err(Refused::Limit)?;
     budget
         .charge(Resource::Memory, memory)

@@ -85,11 +85,11 @@ fn text(words: &str) -> Text {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Form, Image, Layers};
+    use super::super::{FileFormat, Image, Layers};
     use super::*;
     use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
 
-    fn bright() -> (Picture, Form) {
+    fn bright() -> (Picture, FileFormat) {
         let pixels = vec![
             [0.0, 0.5, 1.0],
             [2.5, -1.0, 1e30],
@@ -107,7 +107,7 @@ mod tests {
                 height: 2,
                 pixels,
             }),
-            Form::Exr(origin),
+            FileFormat::Exr(origin),
         )
     }
 

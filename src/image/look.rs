@@ -6,7 +6,7 @@ use crate::color::Tone;
 
 /// What is behind all surfaces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Backdrop {
+pub enum BackgroundFill {
     /// What the film shows there.
     #[default]
     Film,
@@ -32,9 +32,9 @@ pub struct Look {
     pub stops: f64,
     /// The tone map.
     pub tone: Tone,
-    /// What is behind; but for [`Backdrop::Film`], the film must have been made with nothing
+    /// What is behind; but for [`BackgroundFill::Film`], the film must have been made with nothing
     /// behind its surfaces.
-    pub backdrop: Backdrop,
+    pub background: BackgroundFill,
 }
 
 impl Look {
@@ -47,25 +47,28 @@ impl Look {
         association: Association,
     ) -> Picture {
         let exposure = libm::exp2(self.stops.clamp(-64.0, 64.0));
-        for (pixel, share) in film.pixels.iter_mut().zip(&coverage) {
-            let share = f64::from(*share);
-            let weight = if self.backdrop == Backdrop::Film {
+        for (pixel, fraction) in film.pixels.iter_mut().zip(&coverage) {
+            let fraction = f64::from(*fraction);
+            let weight = if self.background == BackgroundFill::Film {
                 1.0
             } else {
-                share
+                fraction
             };
             // What covers the pixel in part is toned as if it covered it whole.
             let scale = if weight > 0.0 { exposure / weight } else { 0.0 };
             let shown = self.tone.display(pixel.map(|v| v * scale));
-            *pixel = match (self.backdrop, association) {
-                (Backdrop::Film, _) | (Backdrop::Transparent, Association::Straight) => shown,
-                (Backdrop::Transparent, Association::Associated) => shown.map(|v| v * share),
-                (Backdrop::Color(color), _) => {
-                    [0, 1, 2].map(|k| shown[k] * share + color[k] * (1.0 - share))
+            *pixel = match (self.background, association) {
+                (BackgroundFill::Film, _)
+                | (BackgroundFill::Transparent, Association::Straight) => shown,
+                (BackgroundFill::Transparent, Association::Associated) => {
+                    shown.map(|v| v * fraction)
+                }
+                (BackgroundFill::Color(color), _) => {
+                    [0, 1, 2].map(|k| shown[k] * fraction + color[k] * (1.0 - fraction))
                 }
             };
         }
-        let alpha = (self.backdrop == Backdrop::Transparent).then_some(coverage);
+        let alpha = (self.background == BackgroundFill::Transparent).then_some(coverage);
         Picture {
             image: film,
             alpha,
@@ -83,7 +86,7 @@ mod tests {
         let coverage = vec![0.0, 0.25, 1.0];
         let pixels = coverage
             .iter()
-            .map(|share| [0.5, 0.0, 2.0].map(|v| v * f64::from(*share)))
+            .map(|fraction| [0.5, 0.0, 2.0].map(|v| v * f64::from(*fraction)))
             .collect();
         (
             Image {
@@ -95,25 +98,35 @@ mod tests {
         )
     }
 
-    fn develop(stops: f64, tone: Tone, backdrop: Backdrop, association: Association) -> Picture {
+    fn develop(
+        stops: f64,
+        tone: Tone,
+        background: BackgroundFill,
+        association: Association,
+    ) -> Picture {
         let (image, coverage) = film();
         Look {
             stops,
             tone,
-            backdrop,
+            background,
         }
         .develop(image, coverage, association)
     }
 
     #[test]
     fn without_a_look_a_film_is_its_picture() {
-        let picture = develop(0.0, Tone::None, Backdrop::Film, Association::Straight);
+        let picture = develop(0.0, Tone::None, BackgroundFill::Film, Association::Straight);
         assert_eq!((picture.image, picture.alpha), (film().0, None));
     }
 
     #[test]
     fn a_stop_is_a_factor_of_two_before_the_tone_map() {
-        let picture = develop(-1.0, Tone::Srgb, Backdrop::Film, Association::Straight);
+        let picture = develop(
+            -1.0,
+            Tone::Srgb,
+            BackgroundFill::Film,
+            Association::Straight,
+        );
         assert_eq!(
             picture.image.pixels[2],
             Tone::Srgb.display([0.25, 0.0, 1.0])
@@ -122,14 +135,19 @@ mod tests {
 
     #[test]
     fn straight_colours_do_not_fade_with_their_opacity_and_associated_ones_do() {
-        let straight = develop(1.0, Tone::Agx, Backdrop::Transparent, Association::Straight);
+        let straight = develop(
+            1.0,
+            Tone::Agx,
+            BackgroundFill::Transparent,
+            Association::Straight,
+        );
         let whole = Tone::Agx.display([1.0, 0.0, 4.0]);
         assert_eq!(straight.image.pixels[1..], [whole; 2]);
         assert_eq!(straight.alpha, Some(film().1));
         let linear = develop(
             1.0,
             Tone::None,
-            Backdrop::Transparent,
+            BackgroundFill::Transparent,
             Association::Associated,
         );
         assert_eq!(
@@ -144,7 +162,7 @@ mod tests {
         let picture = develop(
             0.0,
             Tone::Srgb,
-            Backdrop::Color(color),
+            BackgroundFill::Color(color),
             Association::Straight,
         );
         let whole = Tone::Srgb.display([0.5, 0.0, 2.0]);

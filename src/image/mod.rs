@@ -11,7 +11,7 @@ mod range;
 mod texels;
 
 pub use decode::{Cost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
-pub use look::{Association, Backdrop, Look};
+pub use look::{Association, BackgroundFill, Look};
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 pub use texels::{Texel, Texels};
@@ -52,7 +52,7 @@ pub struct Layers {
 
 /// A form of pixel file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum FileFormat {
     /// PNG with ⌊255·v⌋ per channel, no gamma.
     Png8,
     /// PNG with ⌊65535·v⌋ per channel, no gamma.
@@ -98,7 +98,7 @@ impl Picture {
     ///
     /// # Errors
     /// If the picture is empty or larger than the format can hold.
-    pub fn encode(&self, form: &Form) -> Result<Vec<u8>, EncodeError> {
+    pub fn encode(&self, form: &FileFormat) -> Result<Vec<u8>, EncodeError> {
         let Image { width, height, .. } = self.image;
         if width == 0 || height == 0 {
             return Err(EncodeError(format!(
@@ -106,9 +106,9 @@ impl Picture {
             )));
         }
         match form {
-            Form::Png8 => png::eight_bit(self),
-            Form::Png16 => png::sixteen_bit(self),
-            Form::Exr(origin) => exr::encode(self, origin),
+            FileFormat::Png8 => png::eight_bit(self),
+            FileFormat::Png16 => png::sixteen_bit(self),
+            FileFormat::Exr(origin) => exr::encode(self, origin),
         }
     }
 }
@@ -124,7 +124,11 @@ mod tests {
             height: 3,
             pixels: Vec::new(),
         });
-        for form in [Form::Png8, Form::Png16, Form::Exr(Origin::default())] {
+        for form in [
+            FileFormat::Png8,
+            FileFormat::Png16,
+            FileFormat::Exr(Origin::default()),
+        ] {
             assert!(empty.encode(&form).is_err());
         }
     }

@@ -60,7 +60,7 @@ fn encode(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Form, Image};
+    use super::super::{FileFormat, Image};
     use super::*;
 
     fn ramp() -> Picture {
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn eight_bits_come_back() {
-        let read = ::image::load_from_memory(&ramp().encode(&Form::Png8).unwrap()).unwrap();
+        let read = ::image::load_from_memory(&ramp().encode(&FileFormat::Png8).unwrap()).unwrap();
         let expected: Vec<u8> = ramp()
             .image
             .pixels
@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn sixteen_bits_come_back() {
-        let read = ::image::load_from_memory(&ramp().encode(&Form::Png16).unwrap()).unwrap();
+        let read = ::image::load_from_memory(&ramp().encode(&FileFormat::Png16).unwrap()).unwrap();
         let expected: Vec<u16> = ramp()
             .image
             .pixels
@@ -120,23 +120,26 @@ mod tests {
             .into_iter()
             .flat_map(|alpha| [255, 127, 0, alpha])
             .collect();
-        assert_eq!(read(Form::Png8).as_rgba8().unwrap().as_raw(), &eight);
+        assert_eq!(read(FileFormat::Png8).as_rgba8().unwrap().as_raw(), &eight);
         let sixteen: Vec<u16> = [0, 32767, 65535]
             .into_iter()
             .flat_map(|alpha| [65535, 32767, 0, alpha])
             .collect();
-        assert_eq!(read(Form::Png16).as_rgba16().unwrap().as_raw(), &sixteen);
+        assert_eq!(
+            read(FileFormat::Png16).as_rgba16().unwrap().as_raw(),
+            &sixteen
+        );
     }
 
     #[test]
     fn only_the_three_chunks_that_are_needed() {
-        let bytes = ramp().encode(&Form::Png8).unwrap();
+        let bytes = ramp().encode(&FileFormat::Png8).unwrap();
         for chunk in ["gAMA", "sRGB", "iCCP", "tIME", "tEXt"] {
             assert!(
                 !bytes.windows(4).any(|window| window == chunk.as_bytes()),
                 "{chunk}"
             );
         }
-        assert_eq!(bytes, ramp().encode(&Form::Png8).unwrap());
+        assert_eq!(bytes, ramp().encode(&FileFormat::Png8).unwrap());
     }
 }

@@ -62,7 +62,7 @@ impl<'a> RadianceFile<'a> {
         Cost {
             pixels,
             memory: pixels.saturating_mul(PIXEL as u64 + 8),
-            passing: self.block,
+            scratch: self.block,
         }
     }
 
@@ -138,7 +138,7 @@ fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
         largest = largest
             .filter(|largest| largest.pixels() >= size.pixels())
             .or(Some(size));
-        block += passing(header);
+        block += scratch(header);
     }
     let size = largest.ok_or_else(|| DecodeError::Damaged("it has no layers".to_owned()))?;
     Ok(RadianceFile {
@@ -149,7 +149,7 @@ fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
 }
 
 /// The table of the blocks of a layer, and a block packed and unpacked.
-fn passing(header: &Header) -> u64 {
+fn scratch(header: &Header) -> u64 {
     (header.chunk_count as u64)
         .saturating_mul(16)
         .saturating_add((header.max_block_byte_size() as u64).saturating_mul(3))
@@ -192,7 +192,7 @@ fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<Size, DecodeError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Form, Image, Origin, Picture};
+    use super::super::{FileFormat, Image, Origin, Picture};
     use super::*;
     use ::exr::prelude::{SpecificChannels, WritableImage};
 
@@ -226,7 +226,7 @@ mod tests {
         assert_eq!(
             read(
                 &Picture::opaque(image)
-                    .encode(&Form::Exr(Origin::default()))
+                    .encode(&FileFormat::Exr(Origin::default()))
                     .unwrap()
             )
             .unwrap(),

@@ -27,7 +27,7 @@ pub use light::{Emitter, Light, PointLight, Punctual};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
-pub use settings::{Gooch, Mode, Path, Pattern, Settings};
+pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };

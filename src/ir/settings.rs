@@ -76,13 +76,14 @@ pub enum Mode {
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
     /// The light that arrives along all paths, from the materials and lights in physical units.
-    Path(Path),
+    Path(PathSettings),
 }
 
 /// How paths are traced.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub struct Path {
+#[schemars(rename = "Path")]
+pub struct PathSettings {
     /// Paths a pixel, at least 1.
     #[schemars(range(min = 1))]
     pub samples: u32,
@@ -90,12 +91,12 @@ pub struct Path {
     pub multiple_scattering: bool,
 }
 
-impl Path {
+impl PathSettings {
     /// Bounces of a path, where nobody says how many.
     pub const DEPTH: u32 = 16;
 }
 
-impl Default for Path {
+impl Default for PathSettings {
     /// What is good for a look.
     fn default() -> Self {
         Self {

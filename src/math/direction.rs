@@ -88,7 +88,8 @@ mod tests {
 
     /// A component of any size, or none.
     fn component() -> impl Strategy<Value = f64> {
-        let sized = (-1.0..1.0, -60..60_i32).prop_map(|(share, exponent)| ldexp(share, exponent));
+        let sized =
+            (-1.0..1.0, -60..60_i32).prop_map(|(fraction, exponent)| ldexp(fraction, exponent));
         prop_oneof![4 => -10.0..10.0, 2 => sized, 1 => Just(0.0), 1 => Just(1.0)]
     }
 

@@ -10,12 +10,12 @@ use std::ops::{Add, Div, Mul, Sub};
 /// building blocks of double-word arithmetic", ACM TOMS 44 (2017): algorithms 6, 12 and 18, each
 /// with a relative error of a few u².
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Double {
+pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
 
-impl Double {
+impl DoubleDouble {
     /// `a − b` exactly.
     #[must_use]
     pub fn difference(a: f64, b: f64) -> Self {
@@ -25,7 +25,7 @@ impl Double {
 
     /// The nearest f64.
     #[must_use]
-    pub fn rounded(self) -> f64 {
+    pub fn to_f64(self) -> f64 {
         self.high
     }
 
@@ -43,21 +43,21 @@ impl Double {
     }
 }
 
-fn normalized(a: f64, b: f64) -> Double {
+fn normalized(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
-    Double {
+    DoubleDouble {
         high,
         low: b - (high - a),
     }
 }
 
-impl From<f64> for Double {
+impl From<f64> for DoubleDouble {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 }
 
-impl Add for Double {
+impl Add for DoubleDouble {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -68,7 +68,7 @@ impl Add for Double {
     }
 }
 
-impl Sub for Double {
+impl Sub for DoubleDouble {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -79,7 +79,7 @@ impl Sub for Double {
     }
 }
 
-impl Mul for Double {
+impl Mul for DoubleDouble {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -88,7 +88,7 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl Div for DoubleDouble {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
@@ -104,20 +104,20 @@ mod tests {
 
     #[test]
     fn a_third_times_three_is_one_to_a_hundred_bits() {
-        let third = Double::from(1.0) / Double::from(3.0);
-        let rest = third * Double::from(3.0) - Double::from(1.0);
-        assert!(rest.rounded().abs() < 1e-31, "{rest:?}");
+        let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
+        let rest = third * DoubleDouble::from(3.0) - DoubleDouble::from(1.0);
+        assert!(rest.to_f64().abs() < 1e-31, "{rest:?}");
     }
 
     #[test]
     fn the_root_of_two_squares_to_two() {
-        let root = Double::from(2.0).sqrt();
-        assert!((root * root - Double::from(2.0)).rounded().abs() < 1e-31);
+        let root = DoubleDouble::from(2.0).sqrt();
+        assert!((root * root - DoubleDouble::from(2.0)).to_f64().abs() < 1e-31);
     }
 
     #[test]
     fn what_one_double_swallows_is_kept() {
-        let sum = Double::difference(1e20, -1.0) - Double::from(1e20);
-        assert_eq!(sum.rounded(), 1.0);
+        let sum = DoubleDouble::difference(1e20, -1.0) - DoubleDouble::from(1e20);
+        assert_eq!(sum.to_f64(), 1.0);
     }
 }

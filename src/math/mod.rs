@@ -17,7 +17,7 @@ mod turns;
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
 pub use column::{Column, Shared};
 pub use direction::{length, unit, unit_scale};
-pub use double::Double;
+pub use double::DoubleDouble;
 pub use exact::{cross, difference_of_products, dot, two_difference, two_product, two_sum};
 pub use flat::is_flat;
 pub use func::{acos, atan2, cos, exp, ldexp, ln, pow, sin};

@@ -64,8 +64,8 @@ impl NonNegative {
 }
 
 impl From<UnitInterval> for NonNegative {
-    fn from(share: UnitInterval) -> Self {
-        Self(share.0)
+    fn from(fraction: UnitInterval) -> Self {
+        Self(fraction.0)
     }
 }
 
@@ -130,14 +130,14 @@ mod tests {
 
     #[test]
     fn what_is_out_of_range_saturates_at_the_ends() {
-        for (value, share, number) in [
+        for (value, fraction, number) in [
             (-1.0, 0.0, 0.0),
             (0.25, 0.25, 0.25),
             (7.0, 1.0, 7.0),
             (f64::INFINITY, 1.0, f64::MAX),
             (f64::NAN, 0.0, 0.0),
         ] {
-            assert_eq!(UnitInterval::saturating(value).get(), share, "{value}");
+            assert_eq!(UnitInterval::saturating(value).get(), fraction, "{value}");
             assert_eq!(NonNegative::saturating(value).get(), number, "{value}");
         }
         assert!(UnitInterval::new(1.0 + f64::EPSILON).is_none());

@@ -9,4 +9,4 @@ mod studio;
 
 pub use overrides::Overrides;
 pub use settings::set;
-pub use stage::{Integrator, Stage, Sun, Surroundings, View};
+pub use stage::{EnvironmentOverride, Integrator, Stage, Sun, View};

@@ -62,11 +62,11 @@ pub fn set(settings: &mut Settings, name: &str, value: &str) -> Result<(), Strin
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ir::{Mode, Path, Pattern};
+    use crate::ir::{Mode, PathSettings, Pattern};
 
     fn paths() -> Settings {
         Settings {
-            mode: Mode::Path(Path {
+            mode: Mode::Path(PathSettings {
                 samples: 64,
                 multiple_scattering: true,
             }),
@@ -94,7 +94,7 @@ mod tests {
         for (name, value) in values {
             set(&mut settings, name, value).unwrap();
         }
-        let mode = Mode::Path(Path {
+        let mode = Mode::Path(PathSettings {
             samples: 9,
             multiple_scattering: false,
         });

@@ -3,8 +3,8 @@
 
 use super::{lit, studio};
 use crate::ir::{
-    Ball, Emitter, Environment, Image, Light, Lowered, Mode, Noun, Path, PointLight, Projection,
-    Punctual, Scene,
+    Ball, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings, PointLight,
+    Projection, Punctual, Scene,
 };
 use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
@@ -17,7 +17,7 @@ pub struct Stage {
     /// By which integrator.
     pub integrator: Option<Integrator>,
     /// What surrounds it.
-    pub surroundings: Option<Surroundings>,
+    pub environment: Option<EnvironmentOverride>,
     /// The suns that are added.
     pub suns: Vec<Sun>,
     /// The lights of the scene are left out.
@@ -48,7 +48,7 @@ pub enum Integrator {
 
 /// What surrounds the scene.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Surroundings {
+pub enum EnvironmentOverride {
     /// The same radiance from every direction.
     Color([f64; 3]),
     /// A picture of all directions, of linear floats.
@@ -64,8 +64,7 @@ pub struct Sun {
     pub irradiance: [f64; 3],
 }
 
-/// So many times as far as the scene is large stands a sun for those to whom it must stand
-/// somewhere.
+/// Distance of a sun, in scene radii, for integrators that need a position.
 const FAR: f64 = 1e4;
 
 impl Stage {
@@ -84,11 +83,11 @@ impl Stage {
             origins.forget(Noun::Light);
         }
         scene.lights.extend(self.suns.iter().map(Sun::light));
-        if let Some(surroundings) = &self.surroundings {
-            scene.environment = Some(surroundings.environment(scene));
+        if let Some(environment) = &self.environment {
+            scene.environment = Some(environment.environment(scene));
             origins.forget(Noun::Environment);
         }
-        let adds_light = !self.suns.is_empty() || self.surroundings.is_some();
+        let adds_light = !self.suns.is_empty() || self.environment.is_some();
         match self.integrator {
             Some(Integrator::Path) => trace_paths(scene),
             Some(Integrator::Whitted) => leave_paths(scene),
@@ -168,7 +167,7 @@ impl Sun {
     }
 }
 
-impl Surroundings {
+impl EnvironmentOverride {
     fn environment(&self, scene: &mut Scene) -> Environment {
         let (radiance, image) = match self {
             Self::Color(radiance) => (*radiance, None),
@@ -185,8 +184,8 @@ impl Surroundings {
 /// Has all paths traced, if they are not.
 fn trace_paths(scene: &mut Scene) {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
-        scene.settings.mode = Mode::Path(Path::default());
-        scene.settings.max_depth = Path::DEPTH;
+        scene.settings.mode = Mode::Path(PathSettings::default());
+        scene.settings.max_depth = PathSettings::DEPTH;
         scene.settings.supersampling = 1;
     }
 }

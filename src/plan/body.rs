@@ -1,7 +1,7 @@
 //! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is
 //! a convex solid.
 
-use super::space::{Flat, ROOM, Sides, Space};
+use super::space::{Flat, MARGIN, Sides, Space};
 use crate::math::{Vec3, cross, unit};
 use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Proof, Quad, Shape, Sphere, Torus};
 use std::sync::Arc;
@@ -21,12 +21,12 @@ pub(in crate::plan) enum Extent {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) struct Body {
     pub(in crate::plan) extent: Extent,
-    pub(in crate::plan) form: Form,
+    pub(in crate::plan) form: BodyForm,
 }
 
 /// A form with a property that rules rest on.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::plan) enum Form {
+pub(in crate::plan) enum BodyForm {
     /// A bounded piece of a plane.
     Flat(Flat),
     /// A ball.
@@ -44,7 +44,7 @@ impl Body {
                 let radius = radius.get();
                 Self::within(
                     Space::around(*center, Vec3::splat(radius)),
-                    Form::Ball(*center, radius),
+                    BodyForm::Ball(*center, radius),
                 )
             }
             Shape::Plane(plane) => {
@@ -54,7 +54,7 @@ impl Body {
                 });
                 Self {
                     extent: flat.map_or(Extent::Anywhere, Extent::Plane),
-                    form: Form::Other,
+                    form: BodyForm::Other,
                 }
             }
             Shape::Triangle(triangle) => {
@@ -66,8 +66,8 @@ impl Body {
                 normal,
                 radius,
             }) => {
-                let form = unit(*normal).map_or(Form::Other, |normal| {
-                    Form::Flat(Flat {
+                let form = unit(*normal).map_or(BodyForm::Other, |normal| {
+                    BodyForm::Flat(Flat {
                         point: *center,
                         normal,
                     })
@@ -82,25 +82,28 @@ impl Body {
             }) => {
                 let top = *base + unit(*axis).unwrap_or(Vec3::ZERO) * height.get();
                 let rim = |center| ring(center, *axis, radius.get(), 0.0);
-                Self::within(rim(*base).union(rim(top)), Form::Convex)
+                Self::within(rim(*base).union(rim(top)), BodyForm::Convex)
             }
             Shape::Cone(Cone { base, up, radius }) => Self::within(
                 ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])),
-                Form::Convex,
+                BodyForm::Convex,
             ),
             Shape::Torus(Torus {
                 center,
                 axis,
                 major,
                 minor,
-            }) => Self::within(ring(*center, *axis, major.get(), minor.get()), Form::Other),
+            }) => Self::within(
+                ring(*center, *axis, major.get(), minor.get()),
+                BodyForm::Other,
+            ),
             Shape::Instance(instance) => {
-                Self::within(placed(instance, &meshes[instance.mesh]), Form::Other)
+                Self::within(placed(instance, &meshes[instance.mesh]), BodyForm::Other)
             }
         }
     }
 
-    fn within(space: Space, form: Form) -> Self {
+    fn within(space: Space, form: BodyForm) -> Self {
         Self {
             extent: Extent::Within(space),
             form,
@@ -113,25 +116,25 @@ impl Body {
         if !quad.is_flat() {
             return Self {
                 extent: Extent::Anywhere,
-                form: Form::Other,
+                form: BodyForm::Other,
             };
         }
         let form = match face([a, b, c]) {
-            Form::Flat(flat) => Form::Flat(flat),
-            Form::Ball(..) | Form::Convex | Form::Other => face([a, c, d]),
+            BodyForm::Flat(flat) => BodyForm::Flat(flat),
+            BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => face([a, c, d]),
         };
         Self::within(Space::of(quad.vertices), form)
     }
 
-    /// Makes room for points that are off by `blur`. Where that is no small part of the thickness,
+    /// Grows the body by the error of its points. Where that is no small part of the thickness,
     /// they may be anywhere on the surface, and its form says nothing of them.
-    fn blur(&mut self, blur: f64, thickness: f64) {
+    fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(space) = &mut self.extent {
-            *space = space.grown(blur);
+            *space = space.grown(error_bound);
         }
-        if blur > SMALL * thickness {
-            self.form = Form::Other;
+        if error_bound > SMALL * thickness {
+            self.form = BodyForm::Other;
         }
     }
 
@@ -147,9 +150,9 @@ impl Body {
     pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
-            Form::Flat(flat) => flat.sides(from),
-            Form::Ball(..) | Form::Convex if self.is_clear_of(from) => Sides::FRONT,
-            Form::Ball(..) | Form::Convex | Form::Other => Sides::BOTH,
+            BodyForm::Flat(flat) => flat.sides(from),
+            BodyForm::Ball(..) | BodyForm::Convex if self.is_clear_of(from) => Sides::FRONT,
+            BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => Sides::BOTH,
         }
     }
 
@@ -159,10 +162,10 @@ impl Body {
             return false;
         };
         match self.form {
-            Form::Ball(center, radius) => {
-                other.distance(center) > radius + 4.0 * ROOM * (space.size() + other.size())
+            BodyForm::Ball(center, radius) => {
+                other.distance(center) > radius + 4.0 * MARGIN * (space.size() + other.size())
             }
-            Form::Flat(_) | Form::Convex | Form::Other => space.is_apart_from(other),
+            BodyForm::Flat(_) | BodyForm::Convex | BodyForm::Other => space.is_apart_from(other),
         }
     }
 }
@@ -183,7 +186,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
         .map(Space::size)
         .fold(eye, f64::max);
     for (body, shape) in bodies.iter_mut().zip(surfaces()) {
-        body.blur(ROOM * farthest, thickness(shape));
+        body.grow(MARGIN * farthest, thickness(shape));
     }
     bodies
 }
@@ -210,7 +213,7 @@ fn thickness(shape: &Shape) -> f64 {
 
 /// The plane of a triangle, unless its corners are so nearly in line that rounding moves its
 /// normal.
-fn face([a, b, c]: [Vec3; 3]) -> Form {
+fn face([a, b, c]: [Vec3; 3]) -> BodyForm {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
@@ -218,13 +221,15 @@ fn face([a, b, c]: [Vec3; 3]) -> Form {
         let normal = cross(first, second);
         (normal.length() > SLIVER).then(|| normal.normalize())
     };
-    normal().map_or(Form::Other, |normal| Form::Flat(Flat { point: a, normal }))
+    normal().map_or(BodyForm::Other, |normal| {
+        BodyForm::Flat(Flat { point: a, normal })
+    })
 }
 
 /// The box of a circle around an axis, with a tube around it.
 fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
-    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + ROOM * (radius + tube);
+    let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
     Space::around(
         center,
         Vec3::new(reach(axis.x), reach(axis.y), reach(axis.z)),
@@ -241,7 +246,7 @@ fn placed(instance: &Instance, mesh: &Space) -> Space {
     let space = Space::of(mesh.corners().map(to_world));
     let terms = x.abs() + y.abs() + z.abs();
     let size = terms.max_element() * mesh.size() + origin.abs().max_element();
-    space.grown(ROOM * size / volume)
+    space.grown(MARGIN * size / volume)
 }
 
 #[cfg(test)]
@@ -269,7 +274,11 @@ mod tests {
             2.0,
             0.5,
         );
-        is_grown(found, span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]), 2.5 * ROOM);
+        is_grown(
+            found,
+            span([-1.5, -0.1, -2.7], [3.5, 4.1, 0.7]),
+            2.5 * MARGIN,
+        );
     }
 
     #[test]
@@ -288,25 +297,28 @@ mod tests {
         is_grown(
             found,
             span([5.0, -26.0, -22.0], [15.0, -5.0, 51.0]),
-            (9.0 * 6.0 + 20.0) / 0.6 * ROOM,
+            (9.0 * 6.0 + 20.0) / 0.6 * MARGIN,
         );
     }
 
     #[test]
     fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
         let center = Vec3::X * 3.0;
-        let ball = Body::within(Space::around(center, Vec3::ONE), Form::Ball(center, 1.0));
+        let ball = Body::within(
+            Space::around(center, Vec3::ONE),
+            BodyForm::Ball(center, 1.0),
+        );
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
-        has_margin(4.0 * 13.0 * ROOM, |gap| ball.is_clear_of(&before(gap)));
+        has_margin(4.0 * 13.0 * MARGIN, |gap| ball.is_clear_of(&before(gap)));
         assert!(
-            !ball.is_clear_of(&before(4.0 * 13.0 * ROOM)),
+            !ball.is_clear_of(&before(4.0 * 13.0 * MARGIN)),
             "in doubt it is not"
         );
         let solid = Body {
-            form: Form::Convex,
+            form: BodyForm::Convex,
             ..ball
         };
-        has_margin(13.0 * ROOM, |gap| solid.is_clear_of(&before(gap)));
+        has_margin(13.0 * MARGIN, |gap| solid.is_clear_of(&before(gap)));
         let corner = span([3.8, 0.8, 0.8], [9.0, 1.0, 1.0]);
         assert!(
             ball.is_clear_of(&corner) && !solid.is_clear_of(&corner),
@@ -318,16 +330,16 @@ mod tests {
     fn a_triangle_has_a_plane_unless_it_is_a_sliver() {
         let corners = |sine: f64| [Vec3::ZERO, Vec3::X * 3.0, Vec3::new(2.0, 2.0 * sine, 0.0)];
         has_margin(1.0 / 65536.0, |sine| {
-            matches!(face(corners(sine)), Form::Flat(_))
+            matches!(face(corners(sine)), BodyForm::Flat(_))
         });
         // Of a sine of just 2⁻¹⁶.
         let slim = [
             Vec3::ZERO,
             Vec3::X * 3.0,
-            Vec3::new((1.0 - ROOM).sqrt(), 1.0 / 65536.0, 0.0),
+            Vec3::new((1.0 - MARGIN).sqrt(), 1.0 / 65536.0, 0.0),
         ];
-        assert!(matches!(face(slim), Form::Other), "in doubt it is");
-        let Form::Flat(flat) = face(corners(1.0)) else {
+        assert!(matches!(face(slim), BodyForm::Other), "in doubt it is");
+        let BodyForm::Flat(flat) = face(corners(1.0)) else {
             panic!("no sliver")
         };
         assert_eq!(

@@ -2,10 +2,10 @@
 
 use super::body::{Body, bodies};
 use super::light::Lights;
-use super::look::{Look, constants};
-use super::reach::Reach;
 use super::rules::{Rule, Rules};
-use super::{Features, facts, look};
+use super::summary::{MaterialSummary, constants};
+use super::visibility::Visibility;
+use super::{Features, facts, summary};
 use crate::math::Vec3;
 use crate::valid::{CourseLight, Mode, Pattern, Phong, Proof, Shape, Surface};
 
@@ -20,7 +20,7 @@ pub(super) struct Facts<'scene> {
     /// Per surface, where it is.
     pub(super) bodies: Vec<Body>,
     /// Per surface, what it shows.
-    pub(super) looks: Vec<Look>,
+    pub(super) summaries: Vec<MaterialSummary>,
     /// Per texture, its value if it has only one.
     pub(super) constants: Vec<Option<Vec3>>,
     /// Per mesh, whether no triangle has several shading normals.
@@ -39,13 +39,14 @@ impl<'scene> Facts<'scene> {
             .iter()
             .map(facts::material::phong)
             .collect::<Vec<_>>();
-        let look =
-            |surface: &Surface| Look::of(surface, &materials[surface.material], scene, &constants);
-        let looks = scene.surfaces().iter().map(look).collect();
+        let summary = |surface: &Surface| {
+            MaterialSummary::of(surface, &materials[surface.material], scene, &constants)
+        };
+        let summaries = scene.surfaces().iter().map(summary).collect();
         let even = scene
             .meshes()
             .iter()
-            .map(|mesh| look::is_even(mesh))
+            .map(|mesh| summary::is_even(mesh))
             .collect();
         Self {
             scene,
@@ -53,7 +54,7 @@ impl<'scene> Facts<'scene> {
             sources: facts::light::course(scene.lights()),
             materials,
             bodies: bodies(scene),
-            looks,
+            summaries,
             constants,
             even,
         }
@@ -85,7 +86,7 @@ impl<'scene> Facts<'scene> {
 /// What the rules found.
 pub(super) struct Findings<'scene> {
     pub(super) facts: Facts<'scene>,
-    pub(super) reach: Reach,
+    pub(super) visibility: Visibility,
     pub(super) lights: Lights,
     /// Bounces planned.
     pub(super) max_depth: u32,
@@ -100,13 +101,13 @@ impl Findings<'_> {
 
     /// The surfaces that are looked at, directly or in a mirror.
     pub(super) fn reached(&self) -> impl Iterator<Item = usize> {
-        (0..self.facts.bodies.len()).filter(|surface| self.reach.reached[*surface])
+        (0..self.facts.bodies.len()).filter(|surface| self.visibility.reached[*surface])
     }
 
     /// Whether any surface that is looked at shows something.
-    pub(super) fn any(&self, shows: impl Fn(&Look) -> bool) -> bool {
+    pub(super) fn any(&self, shows: impl Fn(&MaterialSummary) -> bool) -> bool {
         self.reached()
-            .any(|surface| shows(&self.facts.looks[surface]))
+            .any(|surface| shows(&self.facts.summaries[surface]))
     }
 
     pub(super) fn is_shaded(&self) -> bool {
@@ -118,34 +119,34 @@ impl Findings<'_> {
     }
 
     /// Whether a light adds more than its ambient term to a surface.
-    pub(super) fn is_lit(&self, look: &Look) -> bool {
-        look.is_lit() && self.lights.plans.iter().any(|light| light.direct)
+    pub(super) fn is_lit(&self, summary: &MaterialSummary) -> bool {
+        summary.is_lit() && self.lights.plans.iter().any(|light| light.direct)
     }
 
     /// Whether the picture depends on the shading normal of a surface.
-    pub(super) fn shows_normal(&self, look: &Look) -> bool {
+    pub(super) fn shows_normal(&self, summary: &MaterialSummary) -> bool {
         match self.mode() {
             Mode::Zbuffer => false,
             Mode::Normal | Mode::Path(_) => true,
             Mode::Gooch(_) => !self.lights.plans.is_empty(),
-            Mode::Phong => self.is_lit(look) || (look.mirrors() && self.max_depth > 0),
+            Mode::Phong => self.is_lit(summary) || (summary.mirrors() && self.max_depth > 0),
         }
     }
 
     /// Whether the picture depends on what the texture of a surface's colour shows.
-    pub(super) fn shows_color_map(&self, look: &Look) -> bool {
-        let is_constant = look
+    pub(super) fn shows_color_map(&self, summary: &MaterialSummary) -> bool {
+        let is_constant = summary
             .color_map
             .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && (look.ambient || look.diffuse)
+        self.is_shaded() && !is_constant && (summary.ambient || summary.diffuse)
     }
 
     /// Whether the picture depends on what the texture of a surface's ks shows.
-    pub(super) fn shows_specular_map(&self, look: &Look) -> bool {
-        let is_constant = look
+    pub(super) fn shows_specular_map(&self, summary: &MaterialSummary) -> bool {
+        let is_constant = summary
             .specular_map
             .is_none_or(|map| self.facts.constants[map].is_some());
-        self.is_shaded() && !is_constant && look.shines
+        self.is_shaded() && !is_constant && summary.shines
     }
 
     /// Whether shadow rays are needed.
@@ -165,7 +166,7 @@ impl Findings<'_> {
 
     /// Whether a lobe is sampled.
     pub(super) fn is_glossy(&self) -> bool {
-        self.max_depth > 0 && self.any(|look| look.glossy && look.mirrors())
+        self.max_depth > 0 && self.any(|summary| summary.glossy && summary.mirrors())
     }
 
     /// Whether a pixel takes several rays, or rays that are not through its middle.
@@ -178,16 +179,16 @@ impl Findings<'_> {
     /// The smallest set of features that makes the picture.
     pub(super) fn features(&self) -> Features {
         let rules = self.facts.rules;
-        let bends = |look: &Look| {
-            look.is_bent() && (self.shows_normal(look) || !rules.contains(Rule::NormalFlat))
+        let bends = |summary: &MaterialSummary| {
+            summary.is_bent() && (self.shows_normal(summary) || !rules.contains(Rule::NormalFlat))
         };
-        let colors = |look: &Look| {
-            let unseen = look.color_map.is_some() || look.specular_map.is_some();
-            let shows = self.shows_color_map(look) || self.shows_specular_map(look);
+        let colors = |summary: &MaterialSummary| {
+            let unseen = summary.color_map.is_some() || summary.specular_map.is_some();
+            let shows = self.shows_color_map(summary) || self.shows_specular_map(summary);
             shows || (unseen && !rules.contains(Rule::TextureUnseen))
         };
-        let shines = |look: &Look| look.shines && self.is_lit(look);
-        let lit = self.any(|look| self.is_lit(look)) || !rules.contains(Rule::LightUnreached);
+        let shines = |summary: &MaterialSummary| summary.shines && self.is_lit(summary);
+        let lit = self.any(|summary| self.is_lit(summary)) || !rules.contains(Rule::LightUnreached);
         let mut features = Features::NONE;
         let mut add = |feature, condition: bool| {
             features = if condition {
@@ -200,7 +201,10 @@ impl Findings<'_> {
             Features::CAMERA,
             self.is_sampled() || !self.facts.is_pinhole(),
         );
-        add(Features::MAPS, self.any(|look| bends(look) || colors(look)));
+        add(
+            Features::MAPS,
+            self.any(|summary| bends(summary) || colors(summary)),
+        );
         add(Features::LIGHT, self.is_phong() && lit);
         add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
         add(Features::GOOCH, matches!(self.mode(), Mode::Gooch(_)));

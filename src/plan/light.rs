@@ -1,9 +1,9 @@
 //! What each light adds, and what may stand between it and each surface.
 
-use super::body::{Body, Extent, Form};
-use super::reach::Reach;
+use super::body::{Body, BodyForm, Extent};
 use super::rules::Rule;
-use super::space::{Flat, ROOM, Sides, Space};
+use super::space::{Flat, MARGIN, Sides, Space};
+use super::visibility::Visibility;
 use super::{Facts, LightPlan, MAX_PAIRS};
 use crate::math::Vec3;
 use crate::valid::{CourseLight, Mode};
@@ -33,9 +33,12 @@ pub(super) struct Shadow {
 }
 
 impl Lights {
-    pub(super) fn new(facts: &Facts<'_>, reach: &Reach) -> Self {
+    pub(super) fn new(facts: &Facts<'_>, visibility: &Visibility) -> Self {
         let lights = &facts.sources;
-        let (plans, rules) = lights.iter().map(|light| facts.light(light, reach)).unzip();
+        let (plans, rules) = lights
+            .iter()
+            .map(|light| facts.light(light, visibility))
+            .unzip();
         let casts = vec![false; facts.bodies.len()];
         let mut all = Self {
             plans,
@@ -46,15 +49,16 @@ impl Lights {
             capped: false,
         };
         if facts.scene.settings().shadows && matches!(facts.scene.settings().mode, Mode::Phong) {
-            all.find_shadows(facts, reach);
+            all.find_shadows(facts, visibility);
         }
         all
     }
 
     /// Asks for each light and each surface it may reach what may stand between.
-    fn find_shadows(&mut self, facts: &Facts<'_>, reach: &Reach) {
+    fn find_shadows(&mut self, facts: &Facts<'_>, visibility: &Visibility) {
         let count = facts.bodies.len();
-        let receives = |surface: &usize| reach.reached[*surface] && facts.looks[*surface].is_lit();
+        let receives =
+            |surface: &usize| visibility.reached[*surface] && facts.summaries[*surface].is_lit();
         let receivers = (0..count).filter(receives).collect::<Vec<_>>();
         let lights = (0..self.plans.len())
             .filter(|light| self.plans[*light].direct)
@@ -80,7 +84,8 @@ impl Lights {
         self.alone = count == 1;
         for light in lights {
             let source = &facts.sources[light];
-            let is_dark = |surface: usize| facts.is_dark(surface, reach.sides[surface], source);
+            let is_dark =
+                |surface: usize| facts.is_dark(surface, visibility.sides[surface], source);
             for receiver in &receivers {
                 let is_behind = facts.rules.contains(Rule::LightBehind) && is_dark(*receiver);
                 let pair = Pair {
@@ -89,13 +94,13 @@ impl Lights {
                     receiver: *receiver,
                 };
                 self.plans[light].shadowed[*receiver] =
-                    !is_behind && self.find_casters(facts, reach, &pair);
+                    !is_behind && self.find_casters(facts, visibility, &pair);
             }
         }
     }
 
     /// Whether anything may stand between a light and a surface; remembers what.
-    fn find_casters(&mut self, facts: &Facts<'_>, reach: &Reach, pair: &Pair) -> bool {
+    fn find_casters(&mut self, facts: &Facts<'_>, visibility: &Visibility, pair: &Pair) -> bool {
         let Pair {
             light,
             source,
@@ -104,7 +109,7 @@ impl Lights {
         let mut falls = false;
         for caster in 0..facts.bodies.len() {
             let may_cast = if caster == receiver {
-                !facts.spares_itself(receiver, reach.sides[receiver], &source)
+                !facts.spares_itself(receiver, visibility.sides[receiver], &source)
             } else {
                 !facts.rules.contains(Rule::ShadowPair)
                     || facts.bodies[receiver].may_be_hidden_by(&facts.bodies[caster], &source)
@@ -137,8 +142,8 @@ fn extent(light: &CourseLight) -> Space {
 
 impl Facts<'_> {
     /// What is left of a light, and why no more.
-    fn light(&self, light: &CourseLight, reach: &Reach) -> (LightPlan, Option<Rule>) {
-        let surfaces = || (0..self.bodies.len()).filter(|surface| reach.reached[*surface]);
+    fn light(&self, light: &CourseLight, visibility: &Visibility) -> (LightPlan, Option<Rule>) {
+        let surfaces = || (0..self.bodies.len()).filter(|surface| visibility.reached[*surface]);
         let shadowed = vec![true; self.bodies.len()];
         let rule = match self.scene.settings().mode {
             Mode::Gooch(_) | Mode::Path(_) => None,
@@ -146,17 +151,18 @@ impl Facts<'_> {
             Mode::Phong if light.color == Vec3::ZERO && self.rules.contains(Rule::LightBlack) => {
                 Some(Rule::LightBlack)
             }
-            Mode::Phong if surfaces().all(|surface| !self.looks[surface].is_lit()) => {
+            Mode::Phong if surfaces().all(|surface| !self.summaries[surface].is_lit()) => {
                 self.allowed(Rule::LightUnreached)
             }
             Mode::Phong
-                if surfaces().all(|surface| self.is_dark(surface, reach.sides[surface], light)) =>
+                if surfaces()
+                    .all(|surface| self.is_dark(surface, visibility.sides[surface], light)) =>
             {
                 self.allowed(Rule::LightBehind)
             }
             Mode::Phong => None,
         };
-        let ambient = surfaces().any(|surface| self.looks[surface].ambient);
+        let ambient = surfaces().any(|surface| self.summaries[surface].ambient);
         let kept = match rule {
             None => true,
             Some(Rule::LightBlack | Rule::Mode) => false,
@@ -174,29 +180,29 @@ impl Facts<'_> {
 
     /// Whether a light adds no direct term to a surface: none shows, or the light is behind it.
     ///
-    /// The light and all that looks at the surface are off its plane by [`super::space::ROOM`] of
+    /// The light and all that looks at the surface are off its plane by [`super::space::MARGIN`] of
     /// all coordinates, so N·L < −2⁻³³, far beyond its rounding.
     pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &CourseLight) -> bool {
-        let (body, look) = (&self.bodies[surface], &self.looks[surface]);
-        let gated = self.scene.settings().shadows || !look.shines;
+        let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
+        let gated = self.scene.settings().shadows || !summary.shines;
         let behind = || match body.form {
-            Form::Flat(flat) if gated && !look.is_bent() && seen_from != Sides::BOTH => {
+            BodyForm::Flat(flat) if gated && !summary.is_bent() && seen_from != Sides::BOTH => {
                 flat.sides(&extent(light)) == seen_from.opposite()
             }
-            Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other => false,
+            BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => false,
         };
-        !look.is_lit() || behind()
+        !summary.is_lit() || behind()
     }
 
     /// Whether a surface surely does not stand between itself and a light on which N·L > 0.
     fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
-        let (body, look) = (&self.bodies[surface], &self.looks[surface]);
+        let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let spares = match body.form {
-            Form::Flat(flat) => flat.sides(light) != Sides::BOTH,
-            Form::Ball(..) | Form::Convex => {
-                seen_from == Sides::FRONT && !look.is_bent() && body.is_clear_of(light)
+            BodyForm::Flat(flat) => flat.sides(light) != Sides::BOTH,
+            BodyForm::Ball(..) | BodyForm::Convex => {
+                seen_from == Sides::FRONT && !summary.is_bent() && body.is_clear_of(light)
             }
-            Form::Other => false,
+            BodyForm::Other => false,
         };
         spares && self.rules.contains(Rule::ShadowConvex)
     }
@@ -226,8 +232,8 @@ struct Ball(Option<(Vec3, f64)>);
 impl Ball {
     fn of(body: &Body) -> Self {
         match body.form {
-            Form::Ball(center, radius) => Self(Some((center, radius))),
-            Form::Flat(_) | Form::Convex | Form::Other => Self(None),
+            BodyForm::Ball(center, radius) => Self(Some((center, radius))),
+            BodyForm::Flat(_) | BodyForm::Convex | BodyForm::Other => Self(None),
         }
     }
 
@@ -241,8 +247,8 @@ impl Ball {
 
     /// Whether a segment from this ball to `end` may meet `other`.
     ///
-    /// At the share τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c +
-    /// τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
+    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c
+    /// + τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
     /// ≤ 0`.
     fn may_see_through(self, end: &Self, other: &Self) -> bool {
         let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else {
@@ -250,12 +256,12 @@ impl Ball {
         };
         let size = (c.abs() + l.abs() + o.abs()).element_sum() + r + rho + big;
         let (f, d) = (c - o, l - c);
-        let (sum, growth) = (big + r + 8.0 * ROOM * size, rho - r);
+        let (sum, growth) = (big + r + 8.0 * MARGIN * size, rho - r);
         let square = d.dot(d) - growth * growth;
         let linear = f.dot(d) - sum * growth;
         let start = f.dot(f) - sum * sum;
         let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
-        let slack = ROOM * size * size;
+        let slack = MARGIN * size * size;
         // Where Q is not convex its extremum is none of its least values: those are at the ends.
         let least = (-linear / square).clamp(0.0, 1.0);
         [0.0, least, 1.0].into_iter().any(|tau| value(tau) <= slack)
@@ -292,7 +298,7 @@ mod tests {
         let is_clear = |gap: f64| !start.may_see_through(&end, &ball(5.0, 3.0 + gap, 2.0));
         // All coordinates and radii sum up to 22: eightfold, and its square over twice the distance
         // of 3.
-        has_margin((8.0 * 22.0 + 22.0 * 22.0 / 6.0) * ROOM, is_clear);
+        has_margin((8.0 * 22.0 + 22.0 * 22.0 / 6.0) * MARGIN, is_clear);
     }
 
     #[test]
@@ -302,7 +308,7 @@ mod tests {
         let touching = (1.0 + 1.25) / 0.9775_f64.sqrt();
         for (start, end) in [(small, large), (large, small)] {
             let is_clear = |height: f64| !start.may_see_through(&end, &ball(5.0, height, 1.0));
-            assert!(!is_clear(touching) && is_clear(touching + 400.0 * ROOM));
+            assert!(!is_clear(touching) && is_clear(touching + 400.0 * MARGIN));
             let is_clear = |x: f64| !start.may_see_through(&end, &ball(x, 0.0, 1.0));
             assert!(!is_clear(13.0) && is_clear(13.0 + 1e-6), "past the end");
             assert!(!is_clear(-1.5) && is_clear(-1.5 - 1e-6), "before the start");

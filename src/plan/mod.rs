@@ -13,31 +13,31 @@ pub mod facts;
 mod features;
 mod findings;
 mod light;
-mod look;
 mod path;
 mod precision;
-mod reach;
 mod region;
 mod rules;
 mod space;
+mod summary;
 mod verdicts;
+mod visibility;
 mod window;
 
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, PathFeatures, Shapes};
 pub use path::{LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
-pub use region::{Region, Sight};
+pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};
 
 use crate::math::Vec3;
-use crate::valid::{Mode, Path, Projection, Proof, Shape};
+use crate::valid::{Mode, PathSettings, Projection, Proof, Shape};
 use findings::{Facts, Findings};
 use light::Lights;
-use look::Look;
 use path::Planned;
-use reach::Reach;
 use serde::{Deserialize, Serialize};
+use summary::MaterialSummary;
+use visibility::Visibility;
 use window::{Shown, Window};
 
 /// The most questions of whether one thing hides or shows another that a plan asks.
@@ -136,21 +136,21 @@ impl Plan {
         } else {
             &anywhere
         };
-        let reach = Reach::new(&facts, &window, seen, asked);
-        let lights = Lights::new(&facts, &reach);
+        let visibility = Visibility::new(&facts, &window, seen, asked);
+        let lights = Lights::new(&facts, &visibility);
         let needed = if rules.contains(Rule::MirrorKs) {
-            reach.depth
+            visibility.depth
         } else {
             asked
         };
-        let max_depth = reach::cut(&facts, needed, rules);
+        let max_depth = visibility::cut(&facts, needed, rules);
         let is_kept = |surface: usize| {
-            reach.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull)
+            visibility.reached[surface] || lights.casts[surface] || !rules.contains(Rule::Cull)
         };
         let surfaces = (0..shown.len()).map(is_kept).collect::<Vec<_>>();
         let findings = Findings {
             facts,
-            reach,
+            visibility,
             lights,
             max_depth,
             asked,
@@ -172,7 +172,7 @@ impl Plan {
     }
 
     /// Plans traced paths.
-    fn of_paths(scene: &Proof, path: Path, rules: Rules) -> Self {
+    fn of_paths(scene: &Proof, path: PathSettings, rules: Rules) -> Self {
         let Planned {
             plan,
             surfaces,

@@ -104,11 +104,11 @@ struct Measure {
     coordinates: f64,
     /// From the eye to the middle of the surface.
     distance: f64,
-    form: Form,
+    form: Formula,
 }
 
 /// What a surface is to a formula, with the sizes that divide its error.
-enum Form {
+enum Formula {
     /// Flat: t is one quotient. Of this size, or without an end.
     Flat(f64),
     /// A quadratic, of this radius.
@@ -124,25 +124,25 @@ impl Measure {
             corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max)
         };
         let (middle, form) = match &surface.shape {
-            Shape::Sphere(sphere) => (sphere.center, Form::Round(sphere.radius.get())),
+            Shape::Sphere(sphere) => (sphere.center, Formula::Round(sphere.radius.get())),
             Shape::Plane(plane) => (
                 nearest(plane.center, plane.normal, eye),
-                Form::Flat(f64::INFINITY),
+                Formula::Flat(f64::INFINITY),
             ),
             Shape::Triangle(triangle) => {
                 let [a, b, c] = triangle.vertices;
-                (a, Form::Flat(size(a, &[b, c])))
+                (a, Formula::Flat(size(a, &[b, c])))
             }
             Shape::Quad(quad) => (
                 quad.vertices[0],
-                Form::Flat(size(quad.vertices[0], &quad.vertices[1..])),
+                Formula::Flat(size(quad.vertices[0], &quad.vertices[1..])),
             ),
-            Shape::Disc(disc) => (disc.center, Form::Flat(disc.radius.get())),
-            Shape::Cylinder(cylinder) => (cylinder.base, Form::Round(cylinder.radius.get())),
-            Shape::Cone(cone) => (cone.base, Form::Round(cone.radius.get())),
+            Shape::Disc(disc) => (disc.center, Formula::Flat(disc.radius.get())),
+            Shape::Cylinder(cylinder) => (cylinder.base, Formula::Round(cylinder.radius.get())),
+            Shape::Cone(cone) => (cone.base, Formula::Round(cone.radius.get())),
             Shape::Torus(torus) => (
                 torus.center,
-                Form::Torus {
+                Formula::Torus {
                     major: torus.major.get(),
                     minor: torus.minor.get(),
                 },
@@ -159,7 +159,7 @@ impl Measure {
 
     fn size(&self) -> f64 {
         match self.form {
-            Form::Flat(size) | Form::Round(size) | Form::Torus { minor: size, .. } => size,
+            Formula::Flat(size) | Formula::Round(size) | Formula::Torus { minor: size, .. } => size,
         }
     }
 
@@ -168,12 +168,12 @@ impl Measure {
     fn error(&self, unit: f64) -> f64 {
         let distance = self.distance;
         let polynomial = match self.form {
-            Form::Flat(_) => distance,
+            Formula::Flat(_) => distance,
             // The discriminant is known to u·d², and its root is about the radius.
-            Form::Round(radius) => distance * (distance / radius).max(1.0),
+            Formula::Round(radius) => distance * (distance / radius).max(1.0),
             // The quartic is known to 16 u·d⁴, the sum of its terms' sizes; its slope is the
             // product of the distances to the other roots.
-            Form::Torus { major, minor } => {
+            Formula::Torus { major, minor } => {
                 let other = distance / (2.0 * (major + minor));
                 16.0 * distance
                     * other.max(1.0)
@@ -188,7 +188,7 @@ impl Measure {
     fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
             Symptom::SelfHit if sends_rays => self.error(unit) / NEAREST,
-            Symptom::Shape if !matches!(self.form, Form::Flat(_)) => {
+            Symptom::Shape if !matches!(self.form, Formula::Flat(_)) => {
                 self.error(unit) / (VISIBLE * self.size())
             }
             Symptom::Skipped if sends_rays => NEAREST / (SKIPPED * self.size()),
@@ -204,7 +204,7 @@ fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
 }
 
 /// The first corner of a placed mesh, and how far it extends.
-fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Form) {
+fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Formula) {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let mut corners = scene.meshes()[instance.mesh]
@@ -215,7 +215,7 @@ fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Form) {
     let first = corners.next().unwrap_or(origin);
     (
         first,
-        Form::Flat(
+        Formula::Flat(
             corners
                 .map(|corner| corner.distance(first))
                 .fold(0.0, f64::max),

@@ -4,7 +4,7 @@
 //! of pixels so many that they stay cheap. What no rectangle overlaps shows nothing, whatever the
 //! order or shape of the surfaces.
 
-use super::body::Form;
+use super::body::BodyForm;
 use super::rules::Rule;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
@@ -20,7 +20,7 @@ const MARGIN: f64 = 1.0;
 
 /// What the rays through a pixel may meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sight {
+pub enum PixelClass {
     /// Nothing.
     Nothing,
     /// All of them the same flat surface, which shows the same value everywhere.
@@ -86,22 +86,22 @@ impl Region {
 
     /// What the rays through a pixel may meet.
     #[must_use]
-    pub fn sight(&self, [x, y]: [u32; 2]) -> Sight {
+    pub fn class_of(&self, [x, y]: [u32; 2]) -> PixelClass {
         if self.columns == 0 {
-            return Sight::Anything;
+            return PixelClass::Anything;
         }
         match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
-            Cell::Nothing if self.misses => Sight::Nothing,
+            Cell::Nothing if self.misses => PixelClass::Nothing,
             Cell::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
-                Sight::Uniform
+                PixelClass::Uniform
             }
-            Cell::Nothing | Cell::One(_) | Cell::Anything => Sight::Anything,
+            Cell::Nothing | Cell::One(_) | Cell::Anything => PixelClass::Anything,
         }
     }
 
-    /// The share of the picture that surely shows nothing, in [0, 1].
+    /// The fraction of the picture that surely shows nothing, in [0, 1].
     #[must_use]
-    pub fn empty_share(&self) -> f64 {
+    pub fn empty_fraction(&self) -> f64 {
         let empty = self
             .cells
             .iter()
@@ -130,26 +130,28 @@ impl Findings<'_> {
     /// The outline in the picture of a convex polygon within a surface, if that is flat and shows
     /// one value.
     fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
-        let Form::Flat(flat) = self.facts.bodies[surface].form else {
+        let BodyForm::Flat(flat) = self.facts.bodies[surface].form else {
             return None;
         };
         let shape = &self.facts.scene.surfaces()[surface].shape;
-        let look = &self.facts.looks[surface];
+        let summary = &self.facts.summaries[surface];
         let shows_one_value = match self.mode() {
             // The two halves of a quad may differ in the last bit of their normals.
             Mode::Normal => {
-                !look.is_bent()
+                !summary.is_bent()
                     && !matches!(shape, Shape::Quad(_))
-                    && self.reach.sides[surface] != Sides::BOTH
+                    && self.visibility.sides[surface] != Sides::BOTH
             }
             Mode::Phong => {
                 let lights = self.facts.sources.iter().zip(&self.lights.plans);
                 let mut direct = lights.filter(|(_, plan)| plan.direct);
                 let is_dark = direct.all(|(light, _)| {
                     self.facts
-                        .is_dark(surface, self.reach.sides[surface], light)
+                        .is_dark(surface, self.visibility.sides[surface], light)
                 });
-                is_dark && !self.shows_color_map(look) && (self.max_depth == 0 || !look.mirrors())
+                is_dark
+                    && !self.shows_color_map(summary)
+                    && (self.max_depth == 0 || !summary.mirrors())
             }
             Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
         };

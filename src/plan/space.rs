@@ -2,13 +2,13 @@
 //! with a margin.
 //!
 //! Rays meet shapes to within some 10² units of rounding of the coordinates involved. The rules
-//! keep [`ROOM`], 2²¹ units, so that what they find apart is apart for the arithmetic of rays as
+//! keep [`MARGIN`], 2²¹ units, so what they find apart is apart for the arithmetic of rays as
 //! well.
 
 use crate::math::Vec3;
 
-/// The margin, as a share of the coordinates it is for: 2⁻³².
-pub(in crate::plan) const ROOM: f64 = 1.0 / 4_294_967_296.0;
+/// The margin, as a fraction of the coordinates it is for: 2⁻³².
+pub(in crate::plan) const MARGIN: f64 = 1.0 / 4_294_967_296.0;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,10 +19,10 @@ pub(in crate::plan) struct Space {
 
 impl Space {
     /// The box that reaches so far from a point along each axis.
-    pub(in crate::plan) fn around(center: Vec3, reach: Vec3) -> Self {
+    pub(in crate::plan) fn around(center: Vec3, half_extent: Vec3) -> Self {
         Self {
-            min: center - reach,
-            max: center + reach,
+            min: center - half_extent,
+            max: center + half_extent,
         }
     }
 
@@ -73,11 +73,11 @@ impl Space {
 
     /// Whether the two surely have no point in common.
     pub(in crate::plan) fn is_apart_from(&self, other: &Self) -> bool {
-        let room = ROOM * (self.size() + other.size());
+        let margin = MARGIN * (self.size() + other.size());
         (self.min - other.max)
             .max(other.min - self.max)
             .max_element()
-            > room
+            > margin
     }
 
     /// The distance from a point to the nearest of the box.
@@ -90,15 +90,15 @@ impl Space {
 
     /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
     ///
-    /// At the share τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face of
-    /// `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
+    /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
+    /// of `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
     pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
-        const SLACK: f64 = ROOM;
-        let near = ROOM * (self.size() + other.size());
+        const SLACK: f64 = MARGIN;
+        let near = MARGIN * (self.size() + other.size());
         let (start, end) = (
             self.grown(near),
-            end.grown(ROOM * (end.size() + self.size())),
+            end.grown(MARGIN * (end.size() + self.size())),
         );
         let other = other.grown(near);
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
@@ -174,15 +174,15 @@ impl Sides {
 impl Flat {
     /// On which sides of the plane a box lies; both if that is in doubt.
     pub(in crate::plan) fn sides(&self, space: &Space) -> Sides {
-        let room = 4.0 * ROOM * (space.size() + self.point.abs().max_element());
+        let margin = 4.0 * MARGIN * (space.size() + self.point.abs().max_element());
         let heights = space
             .corners()
             .map(|corner| (corner - self.point).dot(self.normal));
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if low > room {
+        if low > margin {
             Sides::FRONT
-        } else if high < -room {
+        } else if high < -margin {
             Sides::BACK
         } else {
             Sides::BOTH
@@ -313,10 +313,10 @@ pub(in crate::plan) mod tests {
     fn boxes_are_apart_by_room_of_both() {
         let small = span([2.0, -1.0, -1.0], [3.0, 1.0, 1.0]);
         let boxes = |gap| [small, small, span([3.0 + gap, -2.0, -2.0], [8.0, 2.0, 2.0])];
-        have_margin(11.0 * ROOM, boxes, |[small, _, large]| {
+        have_margin(11.0 * MARGIN, boxes, |[small, _, large]| {
             small.is_apart_from(&large)
         });
-        let [_, _, large] = boxes(11.0 * ROOM);
+        let [_, _, large] = boxes(11.0 * MARGIN);
         assert!(!small.is_apart_from(&large), "in doubt they are not");
     }
 
@@ -329,13 +329,13 @@ pub(in crate::plan) mod tests {
         let boxes = |gap| [near, far, span([-7.0, 1.0 + gap, -7.0], [7.0, 2.0, 7.0])];
         let hides = |[start, end, other]: [Space; 3]| start.may_see_through(&end, &other);
         // Of the start and the other: 3 and 7, twice, as both grow.
-        have_margin(20.0 * ROOM, boxes, |boxes| !hides(boxes));
+        have_margin(20.0 * MARGIN, boxes, |boxes| !hides(boxes));
         // Of the end and the start, 3 and 10, and of the start and the other, 10 and 7.
-        have_margin(30.0 * ROOM, boxes, |[start, end, other]| {
+        have_margin(30.0 * MARGIN, boxes, |[start, end, other]| {
             !hides([end, start, other])
         });
         let [[start, end, _], [_, _, at_start], [_, _, at_end]] =
-            [0.0, 20.0 * ROOM, 30.0 * ROOM].map(boxes);
+            [0.0, 20.0 * MARGIN, 30.0 * MARGIN].map(boxes);
         assert!(
             hides([start, end, at_start]) && hides([end, start, at_end]),
             "in doubt it does"
@@ -352,8 +352,8 @@ pub(in crate::plan) mod tests {
                 span([0.5 + gap, -2.0, -1.0], [3.0, 0.5, 1.0]),
             ]
         };
-        // Of size 3, the other takes room thrice, the end once, the share of the way once.
-        have_margin(11.0 * ROOM, boxes, |[start, end, other]| {
+        // Of size 3, the other takes room thrice, the end once, the fraction of the way once.
+        have_margin(11.0 * MARGIN, boxes, |[start, end, other]| {
             !start.may_see_through(&end, &other)
         });
     }
@@ -366,10 +366,10 @@ pub(in crate::plan) mod tests {
         };
         let above = |gap: f64| span([-2.0, -6.0, gap - 3.0], [2.0, 1.0, -1.0]);
         let below = |gap: f64| span([-2.0, -6.0, -5.0], [2.0, 1.0, -3.0 - gap]);
-        has_margin(44.0 * ROOM, |gap| flat.sides(&above(gap)) == Sides::FRONT);
-        has_margin(44.0 * ROOM, |gap| flat.sides(&below(gap)) == Sides::BACK);
+        has_margin(44.0 * MARGIN, |gap| flat.sides(&above(gap)) == Sides::FRONT);
+        has_margin(44.0 * MARGIN, |gap| flat.sides(&below(gap)) == Sides::BACK);
         assert_eq!(
-            [above(44.0 * ROOM), below(44.0 * ROOM)].map(|space| flat.sides(&space)),
+            [above(44.0 * MARGIN), below(44.0 * MARGIN)].map(|space| flat.sides(&space)),
             [Sides::BOTH; 2],
             "in doubt"
         );

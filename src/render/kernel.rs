@@ -1,12 +1,12 @@
 //! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
 
 use crate::plan::{Features, PathFeatures};
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::{Film, Job};
 use crate::render::integrator::path::Strategy;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Path};
+use crate::valid::{Mode, PathSettings};
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,32 +139,32 @@ pub(super) use dispatch_paths;
 impl<S: Geometry> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Mis, job, proceed);
+            return self.render_paths(path, Strategy::Mis, job, on_pixel);
         }
-        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.render_with(job, proceed))
+        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.render_with(job, on_pixel))
     }
 
     /// As [`Self::render`], by one of the [`FEW`] integrators.
     #[must_use]
-    pub fn render_by_few(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    pub fn render_by_few(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Mis, job, proceed);
+            return self.render_paths(path, Strategy::Mis, job, on_pixel);
         }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.render_with(job, proceed))
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.render_with(job, on_pixel))
     }
 
-    /// Renders by tracing paths; `None` if `proceed` said stop.
+    /// Renders by tracing paths; `None` if `on_pixel` said stop.
     #[must_use]
     pub fn render_paths(
         &self,
-        path: Path,
+        path: PathSettings,
         strategy: Strategy,
         job: &Job,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> Option<Film> {
-        dispatch_paths!(self.render_paths_with(path, strategy, job, proceed))
+        dispatch_paths!(self.render_paths_with(path, strategy, job, on_pixel))
     }
 }
 

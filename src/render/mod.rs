@@ -19,13 +19,14 @@ mod world;
 pub use accel::bounds::Bounds;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::{
-    Anisotropy, Bsdf, Clearcoat, Evaluation, Iridescence, Lobes, Sample, Sheen, Standard, dispersed,
+    Anisotropy, Bsdf, BsdfSample, Clearcoat, Evaluation, Iridescence, Lobes, Sheen,
+    StandardParameters, dispersed,
 };
 pub use camera::{camera_ray, image_point, vogel};
-pub use film::heartbeat::{Proceed, Step};
-pub use film::progressive::{ProgressiveFilm, Strands};
-pub use film::{Behind, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
-pub use frame::verify::{Fault, verify};
+pub use film::heartbeat::{OnPixel, Step};
+pub use film::progressive::{ProgressiveFilm, Replicates};
+pub use film::{Background, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
+pub use frame::verify::{Mismatch, verify};
 pub use integrator::aov::Aov;
 pub use integrator::path::Strategy;
 pub use kernel::{KERNELS, Kernel, PATH_KERNELS, PathKernel, choose, choose_for_paths};

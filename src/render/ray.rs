@@ -1,4 +1,4 @@
-//! Rays, and what is known of the point where one meets a surface.
+//! Rays, and interactions of rays with surfaces.
 
 use crate::math::{U, Vec3, ldexp, unit_scale};
 
@@ -9,21 +9,21 @@ const OFFSET: f64 = 8.0;
 /// A half-line; `t` counts in lengths of `direction`, which need not be a unit vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
-    /// Where it starts.
+    /// The origin.
     pub origin: Vec3,
-    /// Where it goes.
+    /// The direction.
     pub direction: Vec3,
 }
 
 impl Ray {
-    /// The ray with a direction whose square can be computed, and what one `t` of it is worth in
-    /// `t` of `self`.
+    /// The ray with its direction rescaled so that its square does not overflow, and the factor
+    /// from its `t` to the `t` of `self`.
     ///
-    /// Lengths from about 2^−64 to 2^64 stay as they are; others are brought to about 1 by a power
-    /// of two, which rounds nothing.
+    /// Lengths from about 2^−64 to 2^64 stay as they are; others are scaled to about 1 by a power
+    /// of two, which is exact.
     #[must_use]
     #[inline]
-    pub fn tamed(self) -> (Self, f64) {
+    pub fn rescaled(self) -> (Self, f64) {
         const MOST: f64 = 18_446_744_073_709_551_616.0;
         let size = self.direction.abs().max_element();
         if (1.0 / MOST..=MOST).contains(&size) {
@@ -47,7 +47,7 @@ impl Ray {
 /// A point of a surface, with a bound on how far rounding may have moved it.
 #[derive(Clone, Copy, Debug)]
 pub struct Interaction {
-    /// The point, on the surface to within `error` along `normal`.
+    /// The point, on the surface to within the rounding error that `offset` covers, along `normal`.
     pub point: Vec3,
     /// The geometric unit normal: outward for closed shapes, else as declared.
     pub normal: Vec3,

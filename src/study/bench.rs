@@ -1,6 +1,6 @@
 //! What a study runs on: threads, a clock, and someone who may say stop.
 
-use crate::render::{Proceed, Step};
+use crate::render::{OnPixel, Step};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Duration;
 
@@ -56,7 +56,7 @@ impl Clock<'_> {
 /// Threads, a clock, and someone who may say stop.
 pub struct Bench<'a> {
     clock: Clock<'a>,
-    proceed: &'a Proceed<'a>,
+    on_pixel: &'a OnPixel<'a>,
     /// All threads, for what is not timed.
     wide: ThreadPool,
     /// One thread, for what is: its processor time is the work, however busy the machine.
@@ -64,7 +64,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// A bench with `threads` threads, 0 for one per core. `proceed` is asked from all of them
+    /// A bench with `threads` threads, 0 for one per core. `on_pixel` is asked from all of them
     /// after each pixel and within long ones.
     ///
     /// # Errors
@@ -72,12 +72,12 @@ impl<'a> Bench<'a> {
     pub fn new(
         threads: usize,
         clock: Clock<'a>,
-        proceed: &'a Proceed<'a>,
+        on_pixel: &'a OnPixel<'a>,
     ) -> Result<Self, ThreadPoolBuildError> {
         let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
         Ok(Self {
             clock,
-            proceed,
+            on_pixel,
             wide: pool(threads)?,
             narrow: pool(1)?,
         })
@@ -85,7 +85,7 @@ impl<'a> Bench<'a> {
 
     /// Whether to go on after a step of a render.
     pub(super) fn goes_on(&self, step: Step) -> bool {
-        (self.proceed)(step)
+        (self.on_pixel)(step)
     }
 
     /// Does a piece of work with all threads.

@@ -5,7 +5,7 @@ use super::metrics::rmse;
 use super::outcome::Rays;
 use super::race::{Runner, race};
 use super::setting::Setting;
-use super::statistics::{Chance, Estimate};
+use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
 use crate::ir::{Light, Material, Mode, Phong, Scene};
 use serde::{Deserialize, Serialize};
@@ -68,7 +68,7 @@ pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
     budget: u64,
-    chance: &mut Chance,
+    rng: &mut Rng,
 ) -> Result<Vec<EffectCost>, Stopped> {
     if !matches!(subject.scene.settings.mode, Mode::Phong) {
         return Ok(Vec::new());
@@ -97,7 +97,7 @@ pub(super) fn costs(
     if names.is_empty() {
         return Ok(Vec::new());
     }
-    let race = race(&runners, budget, chance)?;
+    let race = race(&runners, budget, rng)?;
     let (with, without) = race
         .runs
         .split_first()

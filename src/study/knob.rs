@@ -100,7 +100,7 @@ impl Knob {
     }
 
     /// The values to try, from the least work up. Depth ends where the scene does.
-    pub fn ladder(self) -> impl Iterator<Item = u32> {
+    pub fn levels(self) -> impl Iterator<Item = u32> {
         const DEPTHS: u32 = MAX_DEPTH + 1;
         let (count, step): (u32, fn(u32) -> u32) = match self {
             Self::Supersampling => (10, |i| [1, 2, 3, 4, 6, 8, 12, 16, 24, 32][i as usize]),
@@ -114,7 +114,7 @@ impl Knob {
 
     /// The value with the least work.
     #[must_use]
-    pub fn least(self) -> u32 {
+    pub fn lowest(self) -> u32 {
         u32::from(self.samples_pixels())
     }
 
@@ -268,9 +268,9 @@ mod tests {
     #[test]
     fn ladders_rise_from_the_least() {
         for knob in Knob::ALL {
-            let values: Vec<_> = knob.ladder().collect();
+            let values: Vec<_> = knob.levels().collect();
             assert!(
-                values[0] == knob.least() && values.is_sorted_by(|a, b| a < b),
+                values[0] == knob.lowest() && values.is_sorted_by(|a, b| a < b),
                 "{knob:?}: {values:?}"
             );
         }

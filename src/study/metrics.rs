@@ -15,23 +15,24 @@ pub const LEVELS: f64 = 255.0;
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
-    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a share of
+    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a fraction of
     /// it: 0 if all of the picture was looked at.
     pub rmse_uncertainty: f64,
     /// The mean of `(x − r)²/(r² + 0.01)`, which weighs dark places more.
     pub relative_mse: f64,
     /// The largest difference of a channel, in grey levels.
     pub max: f64,
-    /// The share of pixels with a channel off by more than one grey level.
+    /// The fraction of pixels with a channel off by more than one grey level.
     pub visible: f64,
     /// The mean of FLIP, from 0 to 1.
     pub flip: f64,
 }
 
 impl Errors {
-    /// The errors of parts of a picture that are `share` of it, each a picture of its own for FLIP.
+    /// The errors of parts of a picture that are `fraction` of it, each a picture of its own for
+    /// FLIP.
     #[must_use]
-    pub fn of(test: &[Image], reference: &[Image], share: f64) -> Self {
+    pub fn of(test: &[Image], reference: &[Image], fraction: f64) -> Self {
         let pairs = || test.iter().zip(reference);
         let squares: Vec<f64> = pairs()
             .map(|(test, reference)| mean_square(test, reference))
@@ -51,7 +52,7 @@ impl Errors {
         Self {
             rmse: rmse(test, reference),
             // The root halves a relative error.
-            rmse_uncertainty: 0.5 * relative_error_of_mean(&squares, share),
+            rmse_uncertainty: 0.5 * relative_error_of_mean(&squares, fraction),
             relative_mse: channels().map(relative).sum::<f64>() / (3.0 * pixels),
             max: channels().map(|(x, r)| (x - r).abs()).fold(0.0, f64::max) * LEVELS,
             visible: off.count() as f64 / pixels,
@@ -159,7 +160,7 @@ mod tests {
     #[test]
     fn a_part_knows_how_little_it_knows() {
         let (reference, test) = ([row(&[0.0]), row(&[0.0])], [row(&[0.1]), row(&[0.3])]);
-        let uncertainty = |share| Errors::of(&test, &reference, share).rmse_uncertainty;
+        let uncertainty = |fraction| Errors::of(&test, &reference, fraction).rmse_uncertainty;
         assert!(uncertainty(0.1) > uncertainty(0.9) && uncertainty(1.0) == 0.0);
     }
 }

@@ -9,11 +9,11 @@ mod advice;
 mod bench;
 mod effects;
 mod flip;
-mod front;
 mod knob;
 mod metrics;
 mod noise;
 mod outcome;
+mod pareto;
 mod precision;
 mod race;
 mod reference;
@@ -29,12 +29,12 @@ pub use effects::EffectCost;
 pub use flip::{PIXELS_PER_DEGREE, flip};
 pub use knob::{Knob, idle};
 pub use metrics::{Errors, LEVELS, rmse};
-pub use outcome::{About, KnobReport, Part, Rays, ReferenceReport, Row, Study};
+pub use outcome::{About, KnobReport, Rays, ReferenceReport, Row, Study, StudyArea};
 pub use precision::PrecisionCost;
-pub use reference::{DepthEnd, Rung};
+pub use reference::{DepthEnd, Level};
 pub use report::{csv, html, json, table};
 pub use setting::Setting;
-pub use statistics::{Chance, Estimate, PowerLaw, median};
+pub use statistics::{Estimate, PowerLaw, Rng, median};
 pub use subject::Stopped;
 pub use target::{Goal, Order, Progress, Reached, Samples, Watch, approach};
 
@@ -68,7 +68,7 @@ const FOR_ROWS: u64 = 30;
 const FOR_EFFECTS: u64 = 6;
 const FOR_PRECISION: u64 = 4;
 
-/// A reference may be off by this share of an error that it judges.
+/// A reference may be off by this fraction of an error that it judges.
 const JUDGE: f64 = 0.2;
 
 /// Studies a proven scene.
@@ -84,30 +84,25 @@ pub fn study(
 ) -> Result<Study, Stopped> {
     let scope = Scope::new(scene, effort);
     let subject = scope.part(&Subject::new(scene, seed, bench))?;
-    let mut grounds = scope.grounds(&subject)?;
-    let mut chance = Chance::new(seed);
+    let mut context = scope.context(&subject)?;
+    let mut rng = Rng::new(seed);
     let precision = precision::costs(
         &subject,
         scope.own,
         scope.hundredths(FOR_PRECISION),
-        &mut chance,
+        &mut rng,
     )?;
     if scope.used.contains(&Knob::Precision) {
-        grounds.model.learn_precision(precision::ladder(&precision));
+        context.model.learn_precision(precision::levels(&precision));
     }
-    let (rows, wall_over_cpu) = scope.rows(&subject, &grounds, &mut chance)?;
-    let effects = effects::costs(
-        &subject,
-        scope.own,
-        scope.hundredths(FOR_EFFECTS),
-        &mut chance,
-    )?;
+    let (rows, wall_over_cpu) = scope.rows(&subject, &context, &mut rng)?;
+    let effects = effects::costs(&subject, scope.own, scope.hundredths(FOR_EFFECTS), &mut rng)?;
     let mut study = Study {
         schema: "rtc-cost/1".to_owned(),
         about,
         effort,
         seed,
-        part: Part {
+        part: StudyArea {
             size: scene.camera.size,
             tiles: if subject.is_whole() {
                 0
@@ -115,18 +110,18 @@ pub fn study(
                 subject.count()
             },
             pixels: subject.pixels(),
-            share: subject.share(),
+            fraction: subject.fraction(),
         },
-        reference: grounds.report(),
+        reference: context.report(),
         knobs: Knob::ALL
-            .map(|knob| grounds.model.report(knob, idle(knob, scene)))
+            .map(|knob| context.model.report(knob, idle(knob, scene)))
             .to_vec(),
         rows,
         effects,
         precision,
         wall_over_cpu,
         advice: Vec::new(),
-        truth: grounds.reference.tiles,
+        truth: context.reference.tiles,
     };
     study.advice = advice::advice(&study);
     Ok(study)
@@ -142,7 +137,7 @@ struct Scope {
 }
 
 /// What rows are judged by and chosen by.
-struct Grounds {
+struct Context {
     reference: Reference,
     depths: Option<Depths>,
     model: Model,
@@ -167,8 +162,8 @@ impl Scope {
         }
     }
 
-    fn hundredths(&self, share: u64) -> u64 {
-        self.effort.0 / 100 * share
+    fn hundredths(&self, fraction: u64) -> u64 {
+        self.effort.0 / 100 * fraction
     }
 
     /// The scene's own setting with all knobs that sample at a value.
@@ -195,9 +190,9 @@ impl Scope {
         let of_reference = self.hundredths(FOR_REFERENCE) as f64 / (3.0 * samples * rays);
         let of_own = self.hundredths(FOR_ROWS) as f64 / (6.0 * self.own.camera_rays() * rays);
         let pixels = of_reference.min(of_own);
-        let share = pixels / pilot.pixels() as f64 * pilot.count() as f64;
+        let fraction = pixels / pilot.pixels() as f64 * pilot.count() as f64;
         let enough = (0..subject.count())
-            .take_while(|count| (*count as f64) < share)
+            .take_while(|count| (*count as f64) < fraction)
             .count();
         Ok(if enough * 4 > subject.count() * 3 {
             subject.clone()
@@ -217,7 +212,7 @@ impl Scope {
         (1..=count).map(reference::independent).collect()
     }
 
-    fn grounds(&self, subject: &Subject<'_>) -> Result<Grounds, Stopped> {
+    fn context(&self, subject: &Subject<'_>) -> Result<Context, Stopped> {
         let depths = match self.used.contains(&Knob::Depth) {
             true => Some(reference::depths(
                 subject,
@@ -240,22 +235,22 @@ impl Scope {
             start
         };
         let fair = self.hundredths(FOR_SWEEPS) / self.sampling.len().max(1) as u64;
-        let ladders = self
+        let knobs = self
             .sampling
             .iter()
             .map(|knob| sweep(subject, &reference, (*knob, base), fair));
-        let ladders = ladders.collect::<Result<Vec<_>, _>>()?;
+        let knobs = knobs.collect::<Result<Vec<_>, _>>()?;
         let base_rays = subject
             .shoot(base, reference::independent(5))?
             .counts
             .rays();
-        let mut model = Model::new(ladders, depths.as_ref(), base, base_rays);
+        let mut model = Model::new(knobs, depths.as_ref(), base, base_rays);
         if self.used.contains(&Knob::Aperture) {
             let coarse = base.with(Knob::Supersampling, 1).with(Knob::Aperture, 1);
             let shot = subject.shoot(coarse, Seeds::NONE)?;
             model.learn_interplay(coarse, rmse(&shot.tiles, &reference.tiles));
         }
-        Ok(Grounds {
+        Ok(Context {
             reference,
             depths,
             model,
@@ -266,14 +261,14 @@ impl Scope {
     fn rows(
         &self,
         subject: &Subject<'_>,
-        grounds: &Grounds,
-        chance: &mut Chance,
+        context: &Context,
+        rng: &mut Rng,
     ) -> Result<(Vec<Row>, f64), Stopped> {
-        let Grounds {
+        let Context {
             reference,
             depths: _,
             model,
-        } = grounds;
+        } = context;
         let budget = self.hundredths(FOR_ROWS);
         let turned: Vec<_> = self
             .used
@@ -281,24 +276,24 @@ impl Scope {
             .copied()
             .filter(|knob| *knob != Knob::Precision)
             .collect();
-        let least = turned
+        let min = turned
             .iter()
-            .fold(self.own, |setting, knob| setting.with(*knob, knob.least()));
+            .fold(self.own, |setting, knob| setting.with(*knob, knob.lowest()));
         let least_error = (3.0 * reference.floor).max(reference::SMALLEST);
-        let best = front::candidates(model, least, &turned, budget as f64 / 10.0, least_error);
+        let best = pareto::candidates(model, min, &turned, budget as f64 / 10.0, least_error);
         let settings = std::iter::once(self.own)
             .chain(best.into_iter().filter(|setting| *setting != self.own));
         let settings = settings
-            .flat_map(|setting| std::iter::once(setting).chain(front::cheaper(model, setting)));
+            .flat_map(|setting| std::iter::once(setting).chain(pareto::cheaper(model, setting)));
         let runners: Vec<_> = settings
             .map(|setting| Runner {
                 subject: subject.clone(),
                 setting,
             })
             .collect();
-        let race = race(&runners, budget, chance)?;
+        let race = race(&runners, budget, rng)?;
         let row = |(runner, run): (&Runner<'_>, race::Run)| {
-            let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.share());
+            let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.fraction());
             Row {
                 setting: runner.setting,
                 own: runner.setting == self.own,
@@ -315,7 +310,7 @@ impl Scope {
         let rows: Vec<_> = runners.iter().zip(race.runs).map(row).collect();
         let points: Vec<_> = rows.iter().map(Row::point).collect();
         let mut rows: Vec<_> = rows.into_iter().map(Some).collect();
-        let ranked = front::ranking(&points).into_iter();
+        let ranked = pareto::ranking(&points).into_iter();
         let ranked = ranked.filter_map(|(place, front)| {
             Some(Row {
                 front,
@@ -326,7 +321,7 @@ impl Scope {
     }
 }
 
-impl Grounds {
+impl Context {
     fn report(&self) -> ReferenceReport {
         ReferenceReport {
             setting: self.reference.setting,
@@ -337,8 +332,8 @@ impl Grounds {
 }
 
 impl Row {
-    fn point(&self) -> front::Point {
-        front::Point {
+    fn point(&self) -> pareto::Point {
+        pareto::Point {
             seconds: [self.seconds.low, self.seconds.high],
             rays: self.rays.all(),
             error: self.errors.rmse,

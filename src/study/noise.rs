@@ -2,7 +2,7 @@
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
-use crate::render::{ProgressiveFilm, Strands};
+use crate::render::{ProgressiveFilm, Replicates};
 
 /// The noise of a whole film.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ impl Noise {
     pub(super) fn of(film: &ProgressiveFilm) -> Self {
         // The variance of the mean of two independent halves.
         let variance =
-            |pixel: &Strands| 0.25 * (pixel.variance_of_half(0) + pixel.variance_of_half(1));
+            |pixel: &Replicates| 0.25 * (pixel.variance_of_half(0) + pixel.variance_of_half(1));
         let (mut sum, mut squares) = (0.0, 0.0);
         for variance in film.pixels().map(variance) {
             sum += variance;
@@ -62,7 +62,7 @@ impl Noise {
     }
 }
 
-/// No strand grows longer.
+/// No replicate grows longer.
 const LONGEST: u32 = 1 << 24;
 
 /// What samples each half of each pixel deserves.
@@ -71,7 +71,7 @@ pub(super) struct Allotment {
     deviations: Vec<[f64; 2]>,
     /// The mean of all.
     mean: f64,
-    /// How much less the noise is than that of independent samples would be: strands are
+    /// How much less the noise is than that of independent samples would be: replicates are
     /// stratified.
     gain: f64,
 }
@@ -87,7 +87,7 @@ impl Allotment {
             .collect();
         let pixels = deviations.len().max(1) as f64;
         let mean = deviations.iter().flatten().sum::<f64>() / (2.0 * pixels);
-        let independent = |(pixel, [a, b]): (&Strands, &[f64; 2])| {
+        let independent = |(pixel, [a, b]): (&Replicates, &[f64; 2])| {
             0.125 * (a * a / f64::from(pixel.count(0)) + b * b / f64::from(pixel.count(1)))
         };
         let square = film.pixels().zip(&deviations).map(independent).sum::<f64>() / pixels;
@@ -102,10 +102,10 @@ impl Allotment {
         }
     }
 
-    /// How many samples a strand of each half of pixel `index` is to have so that the mean square
-    /// error becomes `square`: the least work is samples in proportion to the deviation
+    /// How many samples a replicate of each half of pixel `index` is to have so that the mean
+    /// square error becomes `square`: the least work is samples in proportion to the deviation
     /// (Neyman, Journal of the Royal Statistical Society 97 (1934)). At most twice as many as
-    /// there are; a power of two, of which strands are stratified.
+    /// there are; a power of two, of which replicates are stratified.
     pub(super) fn wanted(&self, film: &ProgressiveFilm, index: usize, square: f64) -> [u32; 2] {
         let scale = self.gain * self.mean / (4.0 * square);
         [0, 1].map(|half: usize| {

@@ -2,7 +2,7 @@
 
 use super::knob::Knob;
 use super::metrics::Errors;
-use super::reference::{DepthEnd, Rung};
+use super::reference::{DepthEnd, Level};
 use super::setting::Setting;
 use super::statistics::{Estimate, PowerLaw};
 use super::{EffectCost, Effort, PrecisionCost};
@@ -29,15 +29,16 @@ pub struct About {
 /// The part of the picture that was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Part {
+pub struct StudyArea {
     /// Width and height of the whole picture.
     pub size: [u32; 2],
     /// Tiles looked at, or 0 for the whole.
     pub tiles: usize,
     /// Pixels looked at.
     pub pixels: u64,
-    /// Their share of the picture.
-    pub share: f64,
+    /// Their fraction of the picture.
+    #[serde(rename = "share")]
+    pub fraction: f64,
 }
 
 /// The reference of a study.
@@ -61,7 +62,8 @@ pub struct KnobReport {
     /// Why it is not turned in this scene, if so.
     pub idle: Option<String>,
     /// Its values, all others as good as the reference.
-    pub rungs: Vec<Rung>,
+    #[serde(rename = "rungs")]
+    pub levels: Vec<Level>,
     /// The law of its error in samples, if there is one.
     pub law: Option<PowerLaw>,
 }
@@ -147,7 +149,7 @@ pub struct Study {
     /// The seed of its chances.
     pub seed: u64,
     /// The part of the picture that was looked at.
-    pub part: Part,
+    pub part: StudyArea,
     /// What errors are measured against.
     pub reference: ReferenceReport,
     /// Each knob alone.

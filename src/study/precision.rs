@@ -4,11 +4,11 @@ use super::knob::{Knob, bears, place};
 use super::metrics::Errors;
 use super::outcome::Rays;
 use super::race::{Run, Runner, race};
-use super::reference::Rung;
+use super::reference::Level;
 use super::setting::Setting;
-use super::statistics::{Chance, Estimate};
+use super::statistics::{Estimate, Rng};
 use super::subject::{Stopped, Subject};
-use super::sweep::Ladder;
+use super::sweep::Levels;
 use crate::plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
@@ -45,7 +45,7 @@ pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
     budget: u64,
-    chance: &mut Chance,
+    rng: &mut Rng,
 ) -> Result<Vec<PrecisionCost>, Stopped> {
     let runner = |precision| Runner {
         subject: subject.clone(),
@@ -54,14 +54,14 @@ pub(super) fn costs(
             ..setting
         },
     };
-    let race = race(&Arithmetic::ALL.map(runner), budget, chance)?;
+    let race = race(&Arithmetic::ALL.map(runner), budget, rng)?;
     let robust = &race.runs[0].shot.tiles;
     let cost = |(arithmetic, run): (Arithmetic, &Run)| PrecisionCost {
         arithmetic,
         borne: bears(&subject.scene, arithmetic),
         rays: run.shot.counts.into(),
         ratio: run.ratio,
-        difference: Errors::of(&run.shot.tiles, robust, subject.share()),
+        difference: Errors::of(&run.shot.tiles, robust, subject.fraction()),
     };
     Ok(Arithmetic::ALL
         .into_iter()
@@ -72,22 +72,22 @@ pub(super) fn costs(
 
 /// The precision as a knob alone, of the arithmetics that rows may be of. It samples nothing, so no
 /// noise hides its error.
-pub(super) fn ladder(costs: &[PrecisionCost]) -> Ladder {
-    let rung = |cost: &PrecisionCost| Rung {
+pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
+    let level = |cost: &PrecisionCost| Level {
         value: place(cost.arithmetic),
         error: cost.difference.rmse,
         resolved: true,
         rays: cost.rays.all(),
     };
-    let rungs = costs
+    let levels = costs
         .iter()
         .rev()
         .filter(|cost| cost.borne)
-        .map(rung)
+        .map(level)
         .collect();
-    Ladder {
+    Levels {
         knob: Knob::Precision,
-        rungs,
+        levels,
         law: None,
     }
 }

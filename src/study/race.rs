@@ -4,7 +4,7 @@
 
 use super::bench::Time;
 use super::setting::Setting;
-use super::statistics::{Chance, Estimate, median};
+use super::statistics::{Estimate, Rng, median};
 use super::subject::{Shot, Stopped, Subject};
 
 /// What takes part.
@@ -32,17 +32,13 @@ pub(super) struct Race {
 const FEWEST_ROUNDS: u64 = 3;
 const MOST_ROUNDS: u64 = 9;
 
-/// Renders of a runner in a round: what is over in a few milliseconds says little of a machine
-/// whose speed changes as fast.
+/// At most so many renders of a runner in a round. Renders of a few milliseconds are too short to
+/// time on a noisy machine.
 const MOST_REPEATS: u64 = 8;
 
 /// Times all runners in at least three rounds, those that take few rays in more and several times
 /// in each, of about `budget` rays in all.
-pub(super) fn race(
-    runners: &[Runner<'_>],
-    budget: u64,
-    chance: &mut Chance,
-) -> Result<Race, Stopped> {
+pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result<Race, Stopped> {
     let mut shots: Vec<Option<Shot>> = runners.iter().map(|_| None).collect();
     let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
     let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
@@ -53,7 +49,7 @@ pub(super) fn race(
         if round >= FEWEST_ROUNDS && order.len() < 2 {
             break;
         }
-        chance.shuffle(&mut order);
+        rng.shuffle(&mut order);
         times.iter_mut().for_each(|times| times.push(None));
         for index in order {
             let Runner { subject, setting } = &runners[index];
@@ -74,7 +70,7 @@ pub(super) fn race(
     let wholes: Vec<Vec<Option<f64>>> = runners
         .iter()
         .zip(&times)
-        .map(|(runner, times)| whole_picture(runner, times, chance))
+        .map(|(runner, times)| whole_picture(runner, times, rng))
         .collect();
     let runs = shots
         .into_iter()
@@ -89,8 +85,8 @@ pub(super) fn race(
             let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
             Run {
                 shot,
-                seconds: median(&seconds, chance),
-                ratio: median(&ratios, chance),
+                seconds: median(&seconds, rng),
+                ratio: median(&ratios, rng),
             }
         });
     let runs = runs.collect();
@@ -103,11 +99,7 @@ pub(super) fn race(
 
 /// The seconds that the whole picture would take, from those of its part: preparing the scene takes
 /// the same for both, and passing over the rest of the pixels is no work of a picture.
-fn whole_picture(
-    runner: &Runner<'_>,
-    times: &[Option<Time>],
-    chance: &mut Chance,
-) -> Vec<Option<f64>> {
+fn whole_picture(runner: &Runner<'_>, times: &[Option<Time>], rng: &mut Rng) -> Vec<Option<f64>> {
     const ROUNDS: usize = 5;
     let Runner { subject, setting } = runner;
     if subject.is_whole() {
@@ -123,10 +115,10 @@ fn whole_picture(
                 .iter()
                 .map(|round| round[which])
                 .collect::<Vec<_>>(),
-            chance,
+            rng,
         )
         .value
     });
-    let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / subject.share();
+    let whole = |time: &Time| prepare + (time.cpu - prepare - pass).max(0.0) / subject.fraction();
     times.iter().map(|time| time.as_ref().map(whole)).collect()
 }

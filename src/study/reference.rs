@@ -18,7 +18,7 @@ const STILL: f64 = SMALLEST / 10.0;
 
 /// A value of a knob alone, and what it does.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rung {
+pub struct Level {
     /// The value.
     pub value: u32,
     /// The error it leaves if all other knobs leave none, in grey levels.
@@ -42,7 +42,7 @@ pub(super) struct Depths {
     /// From this depth on the picture is still.
     pub(super) enough: u32,
     /// The error of each depth up to there.
-    pub(super) rungs: Vec<Rung>,
+    pub(super) levels: Vec<Level>,
     /// How the search ended.
     pub(super) end: DepthEnd,
 }
@@ -69,9 +69,9 @@ pub(super) fn independent(number: u64) -> Seeds {
 }
 
 /// A depth, sampled once or more.
-struct Sounding(Vec<Shot>);
+struct DepthProbe(Vec<Shot>);
 
-impl Sounding {
+impl DepthProbe {
     fn rays(&self) -> u64 {
         self.0.iter().map(|shot| shot.counts.rays()).sum()
     }
@@ -100,7 +100,7 @@ pub(super) fn depths(
         let shots = seeds
             .iter()
             .map(|seeds| subject.shoot(start.with(Knob::Depth, depth), *seeds));
-        shots.collect::<Result<_, _>>().map(Sounding)
+        shots.collect::<Result<_, _>>().map(DepthProbe)
     };
     let mut shots = vec![shoot(0)?];
     let mut spent = shots[0].rays();
@@ -125,19 +125,19 @@ pub(super) fn depths(
         spent += shots[shots.len() - 1].rays();
     };
     let last = &shots[shots.len() - 1];
-    let rung = |(value, shot): (u32, &Sounding)| {
+    let level = |(value, shot): (u32, &DepthProbe)| {
         let error = shot.error(last);
-        Rung {
+        Level {
             value,
             error,
             resolved: error > 0.0,
             rays: shot.rays(),
         }
     };
-    let rungs: Vec<_> = (0..).zip(&shots).map(rung).collect();
+    let levels: Vec<_> = (0..).zip(&shots).map(level).collect();
     Ok(Depths {
-        enough: rungs.last().map_or(0, |rung| rung.value),
-        rungs,
+        enough: levels.last().map_or(0, |level| level.value),
+        levels,
         end,
     })
 }

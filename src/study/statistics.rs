@@ -26,7 +26,7 @@ impl Estimate {
         }
     }
 
-    /// Half the width of the interval, as a share of the value; 0 for a value of 0.
+    /// Half the width of the interval, as a fraction of the value; 0 for a value of 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
         if self.value == 0.0 {
@@ -50,9 +50,9 @@ impl Estimate {
 /// Repeatable chance: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
 /// generators", 2014).
 #[derive(Clone, Debug)]
-pub struct Chance(u64);
+pub struct Rng(u64);
 
-impl Chance {
+impl Rng {
     /// The sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
@@ -84,7 +84,7 @@ const DRAWS: usize = 999;
 ///
 /// NaN of nothing; the interval of fewer than 5 values is their range, for want of better.
 #[must_use]
-pub fn median(values: &[f64], chance: &mut Chance) -> Estimate {
+pub fn median(values: &[f64], rng: &mut Rng) -> Estimate {
     let mut sorted = values.to_vec();
     let value = middle(&mut sorted);
     let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else {
@@ -98,7 +98,7 @@ pub fn median(values: &[f64], chance: &mut Chance) -> Estimate {
         };
     }
     let mut draws: Vec<_> = (0..DRAWS)
-        .map(|_| middle(&mut resample(&sorted, chance)))
+        .map(|_| middle(&mut resample(&sorted, rng)))
         .collect();
     draws.sort_by(f64::total_cmp);
     Estimate {
@@ -108,10 +108,10 @@ pub fn median(values: &[f64], chance: &mut Chance) -> Estimate {
     }
 }
 
-fn resample(values: &[f64], chance: &mut Chance) -> Vec<f64> {
+fn resample(values: &[f64], rng: &mut Rng) -> Vec<f64> {
     values
         .iter()
-        .map(|_| values[chance.below(values.len())])
+        .map(|_| values[rng.below(values.len())])
         .collect()
 }
 
@@ -126,21 +126,22 @@ fn middle(values: &mut [f64]) -> f64 {
     }
 }
 
-/// How far a mean over `share` of a population may be off, with 95 % confidence, as a share of it.
+/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a fraction
+/// of it.
 ///
 /// The population is finite: the mean over all of it is exact.
 #[must_use]
-pub(super) fn relative_error_of_mean(values: &[f64], share: f64) -> f64 {
+pub(super) fn relative_error_of_mean(values: &[f64], fraction: f64) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
-    if mean == 0.0 || share >= 1.0 {
+    if mean == 0.0 || fraction >= 1.0 {
         return 0.0;
     }
     if values.len() < 2 {
         return f64::INFINITY;
     }
     let variance = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0);
-    student(values.len() - 1) * (variance / n * (1.0 - share)).sqrt() / mean
+    student(values.len() - 1) * (variance / n * (1.0 - fraction)).sqrt() / mean
 }
 
 /// A law of the form `y = c·x^−p`.
@@ -261,14 +262,14 @@ mod tests {
 
     #[test]
     fn the_interval_of_the_median_holds_it_as_often_as_it_says() {
-        let mut chance = Chance::new(7);
+        let mut rng = Rng::new(7);
         let mut held = 0;
         for _ in 0..200 {
             // Uniform in [0, 1): the median is 1/2.
             let values: Vec<_> = (0..15)
-                .map(|_| chance.below(1 << 30) as f64 / f64::from(1 << 30))
+                .map(|_| rng.below(1 << 30) as f64 / f64::from(1 << 30))
                 .collect();
-            let estimate = median(&values, &mut chance);
+            let estimate = median(&values, &mut rng);
             held += usize::from(estimate.low <= 0.5 && 0.5 <= estimate.high);
         }
         assert!((180..=199).contains(&held), "{held} of 200");
@@ -293,11 +294,11 @@ mod tests {
 
     #[test]
     fn medians_of_few_values() {
-        let mut chance = Chance::new(1);
-        assert!(median(&[], &mut chance).value.is_nan());
-        assert_eq!(median(&[3.0], &mut chance), Estimate::exact(3.0));
+        let mut rng = Rng::new(1);
+        assert!(median(&[], &mut rng).value.is_nan());
+        assert_eq!(median(&[3.0], &mut rng), Estimate::exact(3.0));
         assert_eq!(
-            median(&[4.0, 1.0], &mut chance),
+            median(&[4.0, 1.0], &mut rng),
             Estimate {
                 value: 2.5,
                 low: 1.0,
@@ -310,7 +311,7 @@ mod tests {
     fn the_mean_of_all_is_exact_and_of_one_is_unknown() {
         assert_eq!(relative_error_of_mean(&[1.0, 5.0], 1.0), 0.0);
         assert_eq!(relative_error_of_mean(&[1.0], 0.5), f64::INFINITY);
-        let of = |share| relative_error_of_mean(&[1.0, 2.0, 3.0], share);
+        let of = |fraction| relative_error_of_mean(&[1.0, 2.0, 3.0], fraction);
         assert!(
             (of(0.0) - 4.303 / 3.0_f64.sqrt() / 2.0).abs() < 1e-12 && of(0.75) < 0.51 * of(0.0)
         );
@@ -320,7 +321,7 @@ mod tests {
     fn a_shuffle_keeps_all_and_is_repeatable() {
         let shuffled = |seed| {
             let mut items: Vec<_> = (0..20).collect();
-            Chance::new(seed).shuffle(&mut items);
+            Rng::new(seed).shuffle(&mut items);
             items
         };
         assert!(shuffled(1) == shuffled(1) && shuffled(1) != shuffled(2));

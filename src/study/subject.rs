@@ -66,7 +66,7 @@ impl<'bench> Subject<'bench> {
 
     /// Whether all of the picture is looked at; then it is one tile.
     pub(super) fn is_whole(&self) -> bool {
-        self.share() >= 1.0
+        self.fraction() >= 1.0
     }
 
     /// How many tiles are looked at.
@@ -83,8 +83,8 @@ impl<'bench> Subject<'bench> {
             .sum()
     }
 
-    /// The share of the picture that is looked at.
-    pub(super) fn share(&self) -> f64 {
+    /// The fraction of the picture that is looked at.
+    pub(super) fn fraction(&self) -> f64 {
         let [width, height] = self.scene.camera.size;
         self.pixels() as f64 / (f64::from(width) * f64::from(height))
     }

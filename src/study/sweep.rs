@@ -4,7 +4,7 @@
 use super::knob::Knob;
 use super::metrics::{LEVELS, products};
 use super::outcome::KnobReport;
-use super::reference::{Depths, Reference, Rung, independent};
+use super::reference::{Depths, Level, Reference, independent};
 use super::setting::Setting;
 use super::statistics::PowerLaw;
 use super::subject::{Stopped, Subject};
@@ -13,9 +13,9 @@ use crate::math::{exp, ln};
 use crate::render::Seeds;
 
 /// A knob turned through its values, all others as good as the reference.
-pub(super) struct Ladder {
+pub(super) struct Levels {
     pub(super) knob: Knob,
-    pub(super) rungs: Vec<Rung>,
+    pub(super) levels: Vec<Level>,
     pub(super) law: Option<PowerLaw>,
 }
 
@@ -28,13 +28,13 @@ pub(super) fn sweep(
     reference: &Reference,
     (knob, base): (Knob, Setting),
     budget: u64,
-) -> Result<Ladder, Stopped> {
-    let mut rungs: Vec<Rung> = Vec::new();
+) -> Result<Levels, Stopped> {
+    let mut levels: Vec<Level> = Vec::new();
     let mut spent = 0;
-    for value in knob.ladder() {
-        if let Some(last) = rungs.last() {
+    for value in knob.levels() {
+        if let Some(last) = levels.last() {
             let expected = last.rays as f64 * knob.samples(value) / knob.samples(last.value);
-            if rungs.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
+            if levels.len() > 2 && spent as f64 + 2.0 * expected > budget as f64 {
                 break;
             }
         }
@@ -43,17 +43,17 @@ pub(super) fn sweep(
             subject.shoot(setting, others(knob, 3))?,
             subject.shoot(setting, others(knob, 4))?,
         );
-        let rung = rung(value, [&a.tiles, &b.tiles], reference, a.counts.rays());
+        let level = level(value, [&a.tiles, &b.tiles], reference, a.counts.rays());
         spent += a.counts.rays() + b.counts.rays();
-        rungs.push(rung);
-        if !rung.resolved {
+        levels.push(level);
+        if !level.resolved {
             break;
         }
     }
-    Ok(Ladder {
+    Ok(Levels {
         knob,
-        law: law(knob, &rungs),
-        rungs,
+        law: law(knob, &levels),
+        levels,
     })
 }
 
@@ -70,7 +70,7 @@ fn others(knob: Knob, number: u64) -> Seeds {
 }
 
 /// What two renders have in common against the reference, without what the reference itself is off.
-fn rung(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Rung {
+fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Level {
     /// The channels of a block of pixels that a tile has too.
     const BLOCK: usize = 3 * 256;
     let floor = reference.floor / LEVELS;
@@ -87,7 +87,7 @@ fn rung(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> 
         .sum::<f64>();
     let deviation = (squares / (blocks * (blocks - 1.0).max(1.0))).sqrt();
     let resolved = whole > 2.0 * deviation && whole > floor * floor;
-    Rung {
+    Level {
         value,
         error: whole.max(0.0).sqrt() * LEVELS,
         resolved,
@@ -97,21 +97,21 @@ fn rung(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> 
 
 /// The law of the rungs that stand out; a single point of a light or lobe is another picture, not a
 /// sample of it.
-fn law(knob: Knob, rungs: &[Rung]) -> Option<PowerLaw> {
-    let is_sample = |rung: &&Rung| {
-        rung.resolved && !(rung.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy))
+fn law(knob: Knob, levels: &[Level]) -> Option<PowerLaw> {
+    let is_sample = |level: &&Level| {
+        level.resolved && !(level.value == 1 && matches!(knob, Knob::Lights | Knob::Glossy))
     };
-    let points: Vec<_> = rungs
+    let points: Vec<_> = levels
         .iter()
         .filter(is_sample)
-        .map(|rung| (knob.samples(rung.value), rung.error))
+        .map(|level| (knob.samples(level.value), level.error))
         .collect();
     PowerLaw::fit(&points)
 }
 
 /// What errors and rays any setting should have.
 pub(super) struct Model {
-    ladders: Vec<Ladder>,
+    knobs: Vec<Levels>,
     base: Setting,
     base_rays: f64,
     /// The square of what sub-samples and points of the lens leave together beyond what each
@@ -122,18 +122,18 @@ pub(super) struct Model {
 impl Model {
     /// The model of ladders that were measured around `base`, which takes `base_rays`.
     pub(super) fn new(
-        mut ladders: Vec<Ladder>,
+        mut knobs: Vec<Levels>,
         depths: Option<&Depths>,
         base: Setting,
         base_rays: u64,
     ) -> Self {
-        ladders.extend(depths.map(|depths| Ladder {
+        knobs.extend(depths.map(|depths| Levels {
             knob: Knob::Depth,
-            rungs: depths.rungs.clone(),
+            levels: depths.levels.clone(),
             law: None,
         }));
         Self {
-            ladders,
+            knobs,
             base,
             base_rays: base_rays as f64,
             interplay: 0.0,
@@ -147,44 +147,44 @@ impl Model {
     }
 
     /// Learns what the arithmetics leave.
-    pub(super) fn learn_precision(&mut self, ladder: Ladder) {
-        self.ladders.push(ladder);
+    pub(super) fn learn_precision(&mut self, levels: Levels) {
+        self.knobs.push(levels);
     }
 
-    fn ladder(&self, knob: Knob) -> Option<&Ladder> {
-        self.ladders.iter().find(|ladder| ladder.knob == knob)
+    fn levels(&self, knob: Knob) -> Option<&Levels> {
+        self.knobs.iter().find(|levels| levels.knob == knob)
     }
 
     /// The values of a knob that were tried, from the least work up.
     pub(super) fn tried(&self, knob: Knob) -> impl Iterator<Item = u32> {
-        self.ladder(knob)
+        self.levels(knob)
             .into_iter()
-            .flat_map(|ladder| &ladder.rungs)
-            .map(|rung| rung.value)
+            .flat_map(|levels| &levels.levels)
+            .map(|level| level.value)
     }
 
     /// What is known of a knob, `idle` being why it is not turned if so.
     pub(super) fn report(&self, knob: Knob, idle: Option<String>) -> KnobReport {
-        let ladder = self.ladder(knob);
+        let levels = self.levels(knob);
         KnobReport {
             knob,
             idle,
-            rungs: ladder
-                .map(|ladder| ladder.rungs.clone())
+            levels: levels
+                .map(|levels| levels.levels.clone())
                 .unwrap_or_default(),
-            law: ladder.and_then(|ladder| ladder.law),
+            law: levels.and_then(|levels| levels.law),
         }
     }
 
     /// The error of a setting in grey levels.
     pub(super) fn error(&self, setting: Setting) -> f64 {
         let more = self.base.camera_rays() / setting.camera_rays();
-        let squares = self.ladders.iter().map(|ladder| {
-            let value = setting.get(ladder.knob);
-            let error = ladder.error(value);
+        let squares = self.knobs.iter().map(|levels| {
+            let value = setting.get(levels.knob);
+            let error = levels.error(value);
             // Lights and lobes are sampled anew for each camera ray; one point of them is the same
             // every time.
-            let is_anew = matches!(ladder.knob, Knob::Lights | Knob::Glossy) && value > 1;
+            let is_anew = matches!(levels.knob, Knob::Lights | Knob::Glossy) && value > 1;
             error * error * if is_anew { more } else { 1.0 }
         });
         // The edges of each point's picture are jagged in their own way: their mean is as smooth as
@@ -196,39 +196,39 @@ impl Model {
 
     /// The rays of a setting.
     pub(super) fn rays(&self, setting: Setting) -> f64 {
-        let factors = self.ladders.iter().map(|ladder| {
-            let rays = |value| ladder.rays(value);
-            rays(setting.get(ladder.knob)) / rays(self.base.get(ladder.knob))
+        let factors = self.knobs.iter().map(|levels| {
+            let rays = |value| levels.rays(value);
+            rays(setting.get(levels.knob)) / rays(self.base.get(levels.knob))
         });
         self.base_rays * factors.product::<f64>()
     }
 }
 
-impl Ladder {
+impl Levels {
     fn error(&self, value: u32) -> f64 {
         // The first rung leaves the most error; it counts even where the noise hides it.
-        let counts = |(index, rung): &(usize, &Rung)| {
-            *index == 0 || rung.resolved || self.knob == Knob::Depth
+        let counts = |(index, level): &(usize, &Level)| {
+            *index == 0 || level.resolved || self.knob == Knob::Depth
         };
         let clear: Vec<_> = self
-            .rungs
+            .levels
             .iter()
             .enumerate()
             .filter(counts)
-            .map(|(_, rung)| rung)
+            .map(|(_, level)| level)
             .collect();
-        if let Some(rung) = clear.iter().find(|rung| rung.value == value) {
-            return rung.error;
+        if let Some(level) = clear.iter().find(|level| level.value == value) {
+            return level.error;
         }
         let (Some(last), x) = (clear.last(), self.knob.samples(value)) else {
             return 0.0;
         };
         let above = clear
             .iter()
-            .position(|rung| rung.value > value)
+            .position(|level| level.value > value)
             .filter(|above| *above > 0);
         match above {
-            Some(above) => self.between([clear[above - 1], clear[above]], x, |rung| rung.error),
+            Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
             // Beyond the last rung: nothing more to gain in depth, the law elsewhere.
             None if self.knob == Knob::Depth => last.error,
             None => {
@@ -240,18 +240,18 @@ impl Ladder {
 
     /// In units of its own.
     fn rays(&self, value: u32) -> f64 {
-        let at = |rung: &Rung| rung.rays as f64;
-        if let Some(rung) = self.rungs.iter().find(|rung| rung.value == value) {
-            return at(rung);
+        let at = |level: &Level| level.rays as f64;
+        if let Some(level) = self.levels.iter().find(|level| level.value == value) {
+            return at(level);
         }
         let x = self.knob.samples(value);
         let above = self
-            .rungs
+            .levels
             .iter()
-            .position(|rung| rung.value > value)
+            .position(|level| level.value > value)
             .filter(|above| *above > 0);
-        match (above, self.rungs.last()) {
-            (Some(above), _) => self.between([&self.rungs[above - 1], &self.rungs[above]], x, at),
+        match (above, self.levels.last()) {
+            (Some(above), _) => self.between([&self.levels[above - 1], &self.levels[above]], x, at),
             (None, Some(last)) if self.knob == Knob::Depth => at(last),
             (None, Some(last)) => at(last) * x / self.knob.samples(last.value),
             (None, None) => 1.0,
@@ -259,13 +259,13 @@ impl Ladder {
     }
 
     /// On a straight line between two rungs, on logarithmic scales.
-    fn between(&self, [below, above]: [&Rung; 2], x: f64, of: impl Fn(&Rung) -> f64) -> f64 {
+    fn between(&self, [below, above]: [&Level; 2], x: f64, of: impl Fn(&Level) -> f64) -> f64 {
         let log = |x: f64| ln(x.max(f64::MIN_POSITIVE));
         let (from, to) = (
             log(self.knob.samples(below.value)),
             log(self.knob.samples(above.value)),
         );
-        let share = (log(x) - from) / (to - from);
-        exp(log(of(below)) * (1.0 - share) + log(of(above)) * share)
+        let fraction = (log(x) - from) / (to - from);
+        exp(log(of(below)) * (1.0 - fraction) + log(of(above)) * fraction)
     }
 }

@@ -13,7 +13,8 @@ use super::subject::{Stopped, prove};
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
-    AnyWorld, Behind, Counts, Crop, Film, Job, Proceed, ProgressiveFilm, Strands, Tiles, Values,
+    AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Replicates, Tiles,
+    Values,
 };
 use std::time::Duration;
 
@@ -35,7 +36,7 @@ pub struct Order {
     /// The part of the picture, within it.
     pub crop: Crop,
     /// What it shows behind all surfaces, where paths are traced.
-    pub behind: Behind,
+    pub background: Background,
     /// What the picture holds; errors are those of display values in any case.
     pub values: Values,
     /// Whether soft lights keep their number of points, which is chosen otherwise.
@@ -44,10 +45,10 @@ pub struct Order {
     pub seed: u64,
 }
 
-/// Who looks on.
+/// The observer of a render in progress.
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with the rays it took; false means stop.
-    pub proceed: &'a Proceed<'a>,
+    pub on_pixel: &'a OnPixel<'a>,
     /// Whether someone said stop, rather than that something has run out.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
     /// The time since the start.
@@ -69,7 +70,7 @@ pub struct Progress {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Samples {
     /// Of the pixel with the fewest.
-    pub least: u64,
+    pub min: u64,
     /// In the mean.
     pub mean: f64,
     /// Of the pixel with the most.
@@ -81,7 +82,7 @@ pub struct Samples {
 pub struct Reached {
     /// The picture.
     pub image: Image,
-    /// Of each pixel the share of the samples that met a surface.
+    /// Of each pixel the fraction of the samples that met a surface.
     pub coverage: Vec<f32>,
     /// Its rays, those of the choice of the setting too, but none of a round cut short.
     pub counts: Counts,
@@ -94,14 +95,14 @@ pub struct Reached {
     pub light_samples: u32,
 }
 
-/// The share of pictures that may be worse than promised.
+/// The fraction of pictures that may be worse than promised.
 const TAIL: f64 = 0.05;
 
-/// The samples that each of the four strands of all pixels have together in the first round, at
+/// The samples that each of the four replicates of all pixels have together in the first round, at
 /// least one each: so many that a handful of pixels is not judged by a handful of samples.
 const FIRST: usize = 1024;
 
-/// The least samples of a strand in the first round where paths are traced: what a code of sRGB
+/// The least samples of a replicate in the first round where paths are traced: what a code of sRGB
 /// makes of a mean of very few is no measure of what it makes of many.
 const FIRST_PATHS: usize = 4;
 
@@ -136,22 +137,22 @@ fn in_rounds(
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
     spread(world, scene, light_samples);
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
-    film.behind = order.behind;
+    film.background = order.background;
     (watch.round)(Progress {
         pixels: film.len() as u64,
         error: None,
     });
-    let least = if idle(Knob::Paths, scene).is_none() {
+    let min = if idle(Knob::Paths, scene).is_none() {
         FIRST_PATHS
     } else {
         1
     };
     let first = FIRST
         .div_ceil(film.len().max(1))
-        .max(least)
+        .max(min)
         .next_power_of_two();
     let first = u32::try_from(first).unwrap_or(1);
-    if !world.grow(&mut film, &|_| [first; 2], watch.proceed) {
+    if !world.grow(&mut film, &|_| [first; 2], watch.on_pixel) {
         return Err(Stopped);
     }
     for round in 1_u32.. {
@@ -177,7 +178,7 @@ fn in_rounds(
         });
         let is_late = || order.goal.time.is_some_and(|time| (watch.elapsed)() > time);
         if !world.grow(&mut film, &|index| wanted[index], &|step| {
-            (watch.proceed)(step) && !is_late()
+            (watch.on_pixel)(step) && !is_late()
         }) {
             // A round cut short has favoured pixels at the top: the picture before it stands, where
             // it was to be as good as can be.
@@ -196,12 +197,12 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached
     let job = Job {
         crop: Some(order.crop),
         values: order.values,
-        behind: order.behind,
+        background: order.background,
         ..Job::default()
     };
-    let film = world.render(&job, watch.proceed).ok_or(Stopped)?;
+    let film = world.render(&job, watch.on_pixel).ok_or(Stopped)?;
     let samples = Samples {
-        least: 1,
+        min: 1,
         mean: 1.0,
         most: 1,
     };
@@ -237,7 +238,7 @@ fn light_samples(
     order: &Order,
     watch: &Watch<'_>,
 ) -> Result<(u32, Counts), Stopped> {
-    /// Tiles, and samples of a strand in them.
+    /// Tiles, and samples of a replicate in them.
     const TILES: usize = 4;
     const LENGTH: u32 = 2;
     let own = scene.settings.light_samples;
@@ -276,7 +277,7 @@ fn light_samples(
             pixels: film.len() as u64,
             error: None,
         });
-        if !world.grow(&mut film, &|index| wanted[index], watch.proceed) {
+        if !world.grow(&mut film, &|index| wanted[index], watch.on_pixel) {
             return Err(Stopped);
         }
         tried = tried.plus(film.counts);
@@ -290,16 +291,16 @@ fn light_samples(
 }
 
 fn samples_of(film: &ProgressiveFilm) -> Samples {
-    let counts = || film.pixels().map(Strands::samples);
+    let counts = || film.pixels().map(Replicates::samples);
     Samples {
-        least: counts().min().unwrap_or(0),
+        min: counts().min().unwrap_or(0),
         mean: film.samples() as f64 / film.len().max(1) as f64,
         most: counts().max().unwrap_or(0),
     }
 }
 
-/// The length of all strands after the next round; none if the goal is reached, or no further round
-/// fits into the time.
+/// The length of all replicates after the next round; none if the goal is reached, or no further
+/// round fits into the time.
 fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,

@@ -54,7 +54,7 @@ pub(super) fn environment(
         && (x.length() - 1.0).abs() < ROTATION
         && x.dot(y).abs() < ROTATION;
     if !is_rotation {
-        let message = "the environment is turned by what is no rotation";
+        let message = "the environment's rotation is not a rotation matrix";
         check.report(at, "", Diagnostic::new(&codes::BAD_ROTATION, message));
     }
     let (radiance, image) = (radiance?, image?);

@@ -26,7 +26,7 @@ pub use light::{CourseLight, Falloff, Light, PointLight, Punctual, SpotLight, Su
 pub use material::Material;
 pub use mesh::Mesh;
 pub use phong::{Bump, Maps, Phong};
-pub use settings::{Gooch, Mode, Path, Pattern, Settings};
+pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
 pub use shape::{
     Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
 };

@@ -47,7 +47,7 @@ pub struct Maps {
 pub struct Bump {
     /// The texture: an index into [`super::Proof::textures`].
     pub texture: usize,
-    /// The height of white above black, as a share of the width of a texel.
+    /// The height of white above black, as a fraction of the width of a texel.
     pub height: f64,
 }
 

@@ -51,7 +51,7 @@ pub enum Mode {
     /// Gooch's cool-to-warm shading.
     Gooch(Gooch),
     /// The light along all paths.
-    Path(Path),
+    Path(PathSettings),
 }
 
 impl Mode {
@@ -68,7 +68,7 @@ impl Mode {
 
 /// How paths are traced.
 #[derive(Clone, Copy, Debug)]
-pub struct Path {
+pub struct PathSettings {
     /// Paths a pixel.
     pub samples: NonZeroU32,
     /// Whether rough surfaces keep the light that bounces between their facets.
@@ -82,9 +82,9 @@ pub struct Gooch {
     pub b: f64,
     /// The yellow of the warm colour.
     pub y: f64,
-    /// The share of the surface's colour in the cool tone.
+    /// The fraction of the surface's colour in the cool tone.
     pub alpha: f64,
-    /// The share of the surface's colour in the warm tone.
+    /// The fraction of the surface's colour in the warm tone.
     pub beta: f64,
 }
 
@@ -136,12 +136,12 @@ fn proven_mode(mode: &ir::Mode, check: &mut Check<'_>) -> Option<Mode> {
         ir::Mode::Zbuffer => Some(Mode::Zbuffer),
         ir::Mode::Normal => Some(Mode::Normal),
         ir::Mode::Gooch(parameters) => gooch(parameters, check),
-        ir::Mode::Path(ir::Path {
+        ir::Mode::Path(ir::PathSettings {
             samples,
             multiple_scattering,
         }) => {
             let samples = check.count(*samples, "samples", at(Field::Mode))?;
-            Some(Mode::Path(Path {
+            Some(Mode::Path(PathSettings {
                 samples,
                 multiple_scattering: *multiple_scattering,
             }))

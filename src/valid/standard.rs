@@ -37,10 +37,10 @@ macro_rules! parameters {
 }
 
 parameters! {
-    base_color: [UnitInterval; 4] = shares("baseColor");
+    base_color: [UnitInterval; 4] = fractions("baseColor");
     base_color_map: Option<Map> = map("baseColorMap");
-    metallic: UnitInterval = share("metallic");
-    roughness: UnitInterval = share("roughness");
+    metallic: UnitInterval = fraction("metallic");
+    roughness: UnitInterval = fraction("roughness");
     metallic_roughness_map: Option<Map> = map("metallicRoughnessMap");
     /// The reflectance at normal incidence and the glossiness (rgb, a), in place of metallic,
     /// roughness and ior.
@@ -58,33 +58,33 @@ parameters! {
     /// At least 1, or 0 for an infinite one.
     ior: NonNegative = ior("ior");
     dispersion: NonNegative = non_negative("dispersion");
-    specular: UnitInterval = share("specular");
+    specular: UnitInterval = fraction("specular");
     specular_map: Option<Map> = map("specularMap");
     specular_color: Vec3 = color("specularColor");
     specular_color_map: Option<Map> = map("specularColorMap");
-    transmission: UnitInterval = share("transmission");
+    transmission: UnitInterval = fraction("transmission");
     transmission_map: Option<Map> = map("transmissionMap");
     /// Above 0 the surface bounds a volume.
     thickness: NonNegative = non_negative("thickness");
     thickness_map: Option<Map> = map("thicknessMap");
     /// None for infinite.
     attenuation_distance: Option<Positive> = distance("attenuationDistance");
-    attenuation_color: Vec3 = share_color("attenuationColor");
-    clearcoat: UnitInterval = share("clearcoat");
+    attenuation_color: Vec3 = fraction_color("attenuationColor");
+    clearcoat: UnitInterval = fraction("clearcoat");
     clearcoat_map: Option<Map> = map("clearcoatMap");
-    clearcoat_roughness: UnitInterval = share("clearcoatRoughness");
+    clearcoat_roughness: UnitInterval = fraction("clearcoatRoughness");
     clearcoat_roughness_map: Option<Map> = map("clearcoatRoughnessMap");
     clearcoat_normal_map: Option<Map> = map("clearcoatNormalMap");
     clearcoat_normal_scale: f64 = number("clearcoatNormalScale");
-    sheen_color: Vec3 = share_color("sheenColor");
+    sheen_color: Vec3 = fraction_color("sheenColor");
     sheen_color_map: Option<Map> = map("sheenColorMap");
-    sheen_roughness: UnitInterval = share("sheenRoughness");
+    sheen_roughness: UnitInterval = fraction("sheenRoughness");
     sheen_roughness_map: Option<Map> = map("sheenRoughnessMap");
-    anisotropy: UnitInterval = share("anisotropy");
+    anisotropy: UnitInterval = fraction("anisotropy");
     /// In radians.
     anisotropy_rotation: f64 = number("anisotropyRotation");
     anisotropy_map: Option<Map> = map("anisotropyMap");
-    iridescence: UnitInterval = share("iridescence");
+    iridescence: UnitInterval = fraction("iridescence");
     iridescence_map: Option<Map> = map("iridescenceMap");
     /// At least 1.
     iridescence_ior: Positive = index_of_refraction("iridescenceIor");
@@ -134,7 +134,7 @@ pub enum Alpha {
     Opaque,
     /// Where alpha is at least the number given.
     Mask(NonNegative),
-    /// To the share alpha.
+    /// To the fraction alpha.
     Blend,
 }
 
@@ -192,7 +192,7 @@ impl Parameters<'_, '_> {
         self.within(*value, name, ANY)
     }
 
-    fn share(&mut self, value: &f64, name: &str) -> Option<UnitInterval> {
+    fn fraction(&mut self, value: &f64, name: &str) -> Option<UnitInterval> {
         self.within(*value, name, SHARE).and_then(UnitInterval::new)
     }
 
@@ -224,7 +224,7 @@ impl Parameters<'_, '_> {
         }
     }
 
-    fn shares(&mut self, values: &[f64; 4], name: &str) -> Option<[UnitInterval; 4]> {
+    fn fractions(&mut self, values: &[f64; 4], name: &str) -> Option<[UnitInterval; 4]> {
         self.all_within(values, name, SHARE)
             .map(|values| values.map(UnitInterval::saturating))
     }
@@ -235,7 +235,7 @@ impl Parameters<'_, '_> {
         name: &str,
     ) -> Option<Option<[UnitInterval; 4]>> {
         match values {
-            Some(values) => self.shares(values, name).map(Some),
+            Some(values) => self.fractions(values, name).map(Some),
             None => Some(None),
         }
     }
@@ -250,7 +250,7 @@ impl Parameters<'_, '_> {
             .map(Vec3::from_array)
     }
 
-    fn share_color(&mut self, values: &[f64; 3], name: &str) -> Option<Vec3> {
+    fn fraction_color(&mut self, values: &[f64; 3], name: &str) -> Option<Vec3> {
         self.all_within(values, name, SHARE).map(Vec3::from_array)
     }
 

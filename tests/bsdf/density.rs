@@ -3,7 +3,7 @@
 
 use crate::{lattice, variety, view};
 use rtc::math::Vec3;
-use rtc::render::{Bsdf, Standard};
+use rtc::render::{Bsdf, StandardParameters};
 use std::f64::consts::{PI, TAU};
 
 /// Bins over the sphere: along the cosine, and along the azimuth.
@@ -166,10 +166,10 @@ fn a_sample_carries_what_evaluation_gives() {
 
 #[test]
 fn a_diffuse_surface_samples_by_the_cosine() {
-    let lambert = Standard {
+    let lambert = StandardParameters {
         specular: 0.0,
         multiple_scattering: false,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let bsdf = Bsdf::new(&lambert, view(0.4));
     for k in 0..100 {

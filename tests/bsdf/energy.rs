@@ -2,7 +2,7 @@
 
 use crate::{albedo, lattice, variety, view};
 use rtc::math::Vec3;
-use rtc::render::{Bsdf, Clearcoat, Standard};
+use rtc::render::{Bsdf, Clearcoat, StandardParameters};
 
 #[test]
 fn a_white_surface_in_a_white_sky_is_white() {
@@ -10,10 +10,10 @@ fn a_white_surface_in_a_white_sky_is_white() {
         for r in 0..=10 {
             let (metallic, roughness) = (f64::from(m) / 2.0, f64::from(r) / 10.0);
             for cosine in [1.0, 0.8, 0.5, 0.3, 0.1, 0.03] {
-                let standard = Standard {
+                let standard = StandardParameters {
                     metallic,
                     roughness,
-                    ..Standard::default()
+                    ..StandardParameters::default()
                 };
                 let whole = albedo(&standard, view(cosine), 1 << 14);
                 let error = whole.max_element() - 1.0;
@@ -33,7 +33,7 @@ fn no_material_sends_out_more_than_it_gets() {
             normal: Vec3::Z,
             ..coat
         });
-        let white = Standard {
+        let white = StandardParameters {
             base_color: Vec3::ONE,
             multiple_scattering: true,
             clearcoat,
@@ -53,14 +53,14 @@ fn no_material_sends_out_more_than_it_gets() {
 #[test]
 fn smooth_glass_loses_nothing() {
     for (thin_walled, ior) in [(true, 1.5), (false, 1.5), (false, 2.4), (false, 1.0)] {
-        let glass = Standard {
+        let glass = StandardParameters {
             transmission: 1.0,
             roughness: 0.0,
             thin_walled,
             ior,
-            ..Standard::default()
+            ..StandardParameters::default()
         };
-        let glass = Standard {
+        let glass = StandardParameters {
             multiple_scattering: false,
             ..glass
         };
@@ -124,11 +124,11 @@ fn refraction_is_reciprocal_but_for_the_squeeze_of_angles() {
 
 #[test]
 fn a_black_surface_scatters_nothing() {
-    let black = Standard {
+    let black = StandardParameters {
         base_color: Vec3::ZERO,
         specular: 0.0,
         multiple_scattering: false,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     assert!((0..100).all(|k| Bsdf::new(&black, view(0.5)).sample(lattice(k)).is_none()));
 }
@@ -161,16 +161,16 @@ fn directions_on_the_horizon_give_numbers() {
 
 #[test]
 fn a_coat_with_its_back_to_the_viewer_is_not_seen() {
-    let bare = Standard {
+    let bare = StandardParameters {
         roughness: 0.5,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let coat = Clearcoat {
         factor: 1.0,
         roughness: 0.1,
         normal: Vec3::new(-1.0, 0.0, 0.1).normalize(),
     };
-    let coated = Standard {
+    let coated = StandardParameters {
         clearcoat: Some(coat),
         ..bare
     };

@@ -3,18 +3,18 @@
 
 use crate::{albedo, view};
 use rtc::math::Vec3;
-use rtc::render::{Bsdf, Standard};
+use rtc::render::{Bsdf, StandardParameters};
 use std::f64::consts::PI;
 
 #[test]
 fn without_specular_it_is_lambert() {
     let base_color = Vec3::new(0.9, 0.4, 0.2);
     for multiple_scattering in [false, true] {
-        let lambert = Standard {
+        let lambert = StandardParameters {
             base_color,
             specular: 0.0,
             multiple_scattering,
-            ..Standard::default()
+            ..StandardParameters::default()
         };
         for (o, i) in [(1.0, 1.0), (0.9, 0.1), (0.05, 0.6)] {
             let f = Bsdf::new(&lambert, view(o)).evaluate(view(i)).f;
@@ -29,11 +29,11 @@ fn without_specular_it_is_lambert() {
 #[test]
 fn a_mirror_of_metal_reflects_by_schlick() {
     let base_color = Vec3::new(0.9, 0.4, 0.2);
-    let mirror = Standard {
+    let mirror = StandardParameters {
         base_color,
         metallic: 1.0,
         roughness: 0.0,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let wo = view(0.3);
     let bsdf = Bsdf::new(&mirror, wo);
@@ -50,11 +50,11 @@ fn a_mirror_of_metal_reflects_by_schlick() {
 
 #[test]
 fn a_smooth_body_bends_light_by_snell_and_shuts_it_in_beyond_the_critical_angle() {
-    let glass = Standard {
+    let glass = StandardParameters {
         transmission: 1.0,
         roughness: 0.0,
         thin_walled: false,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let wo = view(0.5);
     let through = Bsdf::new(&glass, wo).sample([0.999_999, 0.5, 0.5]).unwrap();
@@ -72,10 +72,10 @@ fn a_smooth_body_bends_light_by_snell_and_shuts_it_in_beyond_the_critical_angle(
 
 #[test]
 fn a_thin_wall_lets_light_go_straight_on() {
-    let wall = Standard {
+    let wall = StandardParameters {
         transmission: 1.0,
         roughness: 0.0,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let wo = view(0.5);
     let through = Bsdf::new(&wall, wo).sample([0.999_999, 0.5, 0.5]).unwrap();
@@ -84,14 +84,14 @@ fn a_thin_wall_lets_light_go_straight_on() {
 
 #[test]
 fn a_body_of_the_index_of_air_is_not_there() {
-    let nothing = Standard {
+    let nothing = StandardParameters {
         transmission: 1.0,
         roughness: 0.7,
         ior: 1.0,
         thin_walled: false,
-        ..Standard::default()
+        ..StandardParameters::default()
     };
-    let nothing = Standard {
+    let nothing = StandardParameters {
         specular: 0.0,
         multiple_scattering: false,
         ..nothing
@@ -117,12 +117,12 @@ const APPENDIX_B: &[(f64, f64, [f64; 3], [f64; 3])] = &[
 #[test]
 fn single_scattering_is_that_of_appendix_b() {
     for (metallic, roughness, head_on, slanted) in APPENDIX_B {
-        let standard = Standard {
+        let standard = StandardParameters {
             base_color: Vec3::new(0.9, 0.4, 0.2),
             metallic: *metallic,
             roughness: *roughness,
             multiple_scattering: false,
-            ..Standard::default()
+            ..StandardParameters::default()
         };
         for (expected, cosine) in [(head_on, 1.0), (slanted, 0.5)] {
             let expected = Vec3::from_array(*expected);

@@ -11,7 +11,7 @@ mod energy;
 mod known;
 
 use rtc::math::Vec3;
-use rtc::render::{Anisotropy, Bsdf, Clearcoat, Iridescence, Sheen, Standard};
+use rtc::render::{Anisotropy, Bsdf, Clearcoat, Iridescence, Sheen, StandardParameters};
 
 /// A point of the unit cube out of a rank-1 lattice, by the inverse powers of the plastic number of
 /// three dimensions.
@@ -43,7 +43,7 @@ fn lattice_of(k: u32, n: u32) -> [f64; 3] {
 }
 
 /// How much of a uniform sky the material sends to a viewer, by sampling.
-fn albedo(standard: &Standard, wo: Vec3, samples: u32) -> Vec3 {
+fn albedo(standard: &StandardParameters, wo: Vec3, samples: u32) -> Vec3 {
     let bsdf = Bsdf::new(standard, wo);
     let value = |k: u32| {
         bsdf.sample(lattice_of(k, samples))
@@ -54,11 +54,11 @@ fn albedo(standard: &Standard, wo: Vec3, samples: u32) -> Vec3 {
 
 /// Materials that between them use every lobe.
 #[expect(clippy::too_many_lines, reason = "a table, one row a material")]
-fn variety() -> Vec<(&'static str, Standard)> {
-    let plain = Standard {
+fn variety() -> Vec<(&'static str, StandardParameters)> {
+    let plain = StandardParameters {
         roughness: 0.5,
         base_color: Vec3::new(0.9, 0.4, 0.2),
-        ..Standard::default()
+        ..StandardParameters::default()
     };
     let coat = Clearcoat {
         factor: 0.8,
@@ -79,7 +79,7 @@ fn variety() -> Vec<(&'static str, Standard)> {
         strength: 0.7,
         direction: [cosine, sine],
     };
-    let body = Standard {
+    let body = StandardParameters {
         transmission: 1.0,
         thin_walled: false,
         ..plain
@@ -88,21 +88,21 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ("plain", plain),
         (
             "single scatter",
-            Standard {
+            StandardParameters {
                 multiple_scattering: false,
                 ..plain
             },
         ),
         (
             "metal",
-            Standard {
+            StandardParameters {
                 metallic: 1.0,
                 ..plain
             },
         ),
         (
             "half metal",
-            Standard {
+            StandardParameters {
                 metallic: 0.5,
                 roughness: 0.8,
                 ..plain
@@ -110,7 +110,7 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ),
         (
             "specular",
-            Standard {
+            StandardParameters {
                 specular: 0.5,
                 specular_color: Vec3::new(1.0, 4.0, 0.2),
                 ..plain
@@ -118,7 +118,7 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ),
         (
             "brushed",
-            Standard {
+            StandardParameters {
                 metallic: 1.0,
                 anisotropy: Some(brushed),
                 ..plain
@@ -126,28 +126,28 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ),
         (
             "coated",
-            Standard {
+            StandardParameters {
                 clearcoat: Some(coat),
                 ..plain
             },
         ),
         (
             "cloth",
-            Standard {
+            StandardParameters {
                 sheen: Some(sheen),
                 ..plain
             },
         ),
         (
             "film",
-            Standard {
+            StandardParameters {
                 iridescence: Some(film),
                 ..plain
             },
         ),
         (
             "wall",
-            Standard {
+            StandardParameters {
                 transmission: 0.6,
                 ..plain
             },
@@ -155,7 +155,7 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ("body", body),
         (
             "diamond",
-            Standard {
+            StandardParameters {
                 ior: 2.4,
                 roughness: 0.6,
                 ..body
@@ -163,7 +163,7 @@ fn variety() -> Vec<(&'static str, Standard)> {
         ),
         (
             "all",
-            Standard {
+            StandardParameters {
                 metallic: 0.2,
                 transmission: 0.5,
                 anisotropy: Some(brushed),

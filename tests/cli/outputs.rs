@@ -51,11 +51,11 @@ fn a_signal_ends_a_pixel_that_would_last_for_years() {
     let folder = folder();
     fs::write(folder.path().join("soft.yaml"), SOFT).unwrap();
     // What mirrors must have something to show, or no lobe is followed.
-    let behind = "- {type: sphere, position: [0, 0, 90], radius: 20, material: {color: [0, 1, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
+    let background = "- {type: sphere, position: [0, 0, 90], radius: 20, material: {color: [0, 1, 0], ka: 1, kd: 0, ks: 0, n: 1}}\n";
     let glossy = SOFT
         .replace("glossySamples: 1", "glossySamples: 4000000000")
         .replace("4000000000\nMax", "1\nMax");
-    fs::write(folder.path().join("glossy.yaml"), glossy + behind).unwrap();
+    fs::write(folder.path().join("glossy.yaml"), glossy + background).unwrap();
     let before = names(folder.path());
     let cases: [&[&str]; 5] = [
         &["soft.yaml"],

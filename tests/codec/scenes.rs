@@ -3,9 +3,9 @@
 use proptest::prelude::*;
 use rtc::ir::{
     Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance,
-    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, Path, Pattern, Phong, Pixels,
-    Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape, Sphere, Standard,
-    Surface, Texture, TextureId, Triangle, Wrap,
+    Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern, Phong,
+    Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape, Sphere,
+    Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
@@ -143,7 +143,7 @@ fn settings() -> impl Strategy<Value = Settings> {
     let gooch = [number(), number(), number(), number()]
         .prop_map(|[b, y, alpha, beta]| Mode::Gooch(Gooch { b, y, alpha, beta }));
     let path = any::<u32>().prop_map(|samples| {
-        Mode::Path(Path {
+        Mode::Path(PathSettings {
             samples,
             multiple_scattering: samples % 2 == 0,
         })

@@ -141,7 +141,7 @@ fn what_is_left_out_of_the_depth_ends_where_paths_do() {
         .iter()
         .find(|report| report.knob == Knob::Depth)
         .unwrap();
-    let errors: Vec<_> = depth.rungs.iter().map(|rung| rung.error).collect();
+    let errors: Vec<_> = depth.levels.iter().map(|level| level.error).collect();
     assert!(
         errors.len() > 2 && errors.is_sorted_by(|a, b| a > b) && errors.last() == Some(&0.0),
         "{errors:?}"

@@ -68,7 +68,7 @@ fn study_by(
         Duration::from_secs_f64(read.1 * 1e-6)
     });
     let clock = || tick.lock().unwrap()(traced.load(Ordering::Relaxed));
-    let proceed = |step: Step| {
+    let on_pixel = |step: Step| {
         traced.fetch_add(step.rays, Ordering::Relaxed);
         true
     };
@@ -78,7 +78,7 @@ fn study_by(
             cpu: &clock,
             wall: &clock,
         },
-        &proceed,
+        &on_pixel,
     )
     .unwrap();
     let about = About {
@@ -148,7 +148,7 @@ fn time_is_told_as_the_clock_has_it() {
     }
     assert_eq!(WHOLE.own().unwrap().ratio.value, 1.0);
     for row in &PART.rows {
-        let ticks = row.rays.all() as f64 * 1e-6 / PART.part.share;
+        let ticks = row.rays.all() as f64 * 1e-6 / PART.part.fraction;
         assert!(
             (row.seconds.value / ticks - 1.0).abs() < 1e-9,
             "the time is that of the whole picture: {row:?}"

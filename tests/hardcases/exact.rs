@@ -5,27 +5,27 @@
 //! error below (1 + κ)·2⁻⁹⁰ of t.
 
 use rtc::ir;
-use rtc::math::{Double, Vec3};
+use rtc::math::{DoubleDouble, Vec3};
 use rtc::render::Ray;
 
-type Wide = [Double; 3];
+type Wide = [DoubleDouble; 3];
 
 /// The first hit, if any, and the condition number of its t:
 /// κ = (Σ|nₖ|(|oₖ| + |cₖ| + |t·dₖ|) + extent)/(|n·d|·|t|).
 pub(crate) struct Truth {
-    pub(crate) t: Option<Double>,
+    pub(crate) t: Option<DoubleDouble>,
     pub(crate) kappa: f64,
 }
 
-fn number(x: f64) -> Double {
-    Double::from(x)
+fn number(x: f64) -> DoubleDouble {
+    DoubleDouble::from(x)
 }
 
 fn wide(v: [f64; 3]) -> Wide {
     v.map(number)
 }
 
-fn dot(a: Wide, b: Wide) -> Double {
+fn dot(a: Wide, b: Wide) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -37,29 +37,29 @@ fn cross(a: Wide, b: Wide) -> Wide {
     ]
 }
 
-fn along(a: Wide, b: Wide, s: Double) -> Wide {
+fn along(a: Wide, b: Wide, s: DoubleDouble) -> Wide {
     [0, 1, 2].map(|k| a[k] + b[k] * s)
 }
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> Wide {
-    [0, 1, 2].map(|k| Double::difference(a[k], b[k]))
+    [0, 1, 2].map(|k| DoubleDouble::difference(a[k], b[k]))
 }
 
-fn is_negative(x: Double) -> bool {
-    x.rounded() < 0.0
+fn is_negative(x: DoubleDouble) -> bool {
+    x.to_f64() < 0.0
 }
 
 /// A ray seen from a point near it: `from + d·s` with `t = shift + s`.
 struct Line {
     from: Wide,
     d: Wide,
-    shift: Double,
+    shift: DoubleDouble,
 }
 
 impl Line {
     fn new(ray: &Ray, center: [f64; 3]) -> Self {
         let start = difference(ray.origin.to_array(), center);
-        let f = Vec3::from_array(start.map(Double::rounded));
+        let f = Vec3::from_array(start.map(DoubleDouble::to_f64));
         let shift = number(-f.dot(ray.direction) / ray.direction.length_squared());
         let d = wide(ray.direction.to_array());
         Self {
@@ -69,13 +69,13 @@ impl Line {
         }
     }
 
-    fn at(&self, s: Double) -> Wide {
+    fn at(&self, s: DoubleDouble) -> Wide {
         along(self.from, self.d, s)
     }
 }
 
 /// The real roots of `a·s² + 2·b·s + c`.
-fn roots(a: Double, b: Double, c: Double) -> Vec<Double> {
+fn roots(a: DoubleDouble, b: DoubleDouble, c: DoubleDouble) -> Vec<DoubleDouble> {
     let discriminant = b * b - a * c;
     if is_negative(discriminant) {
         return Vec::new();
@@ -88,17 +88,17 @@ fn roots(a: Double, b: Double, c: Double) -> Vec<Double> {
     };
     let quotients = [(q, a), (c, q)]
         .into_iter()
-        .filter(|(_, below)| below.rounded() != 0.0);
+        .filter(|(_, below)| below.to_f64() != 0.0);
     quotients.map(|(above, below)| above / below).collect()
 }
 
 /// The first candidate in front, with the normal there.
-fn nearest(line: &Line, candidates: Vec<(Double, Wide)>) -> Option<(Double, Wide)> {
+fn nearest(line: &Line, candidates: Vec<(DoubleDouble, Wide)>) -> Option<(DoubleDouble, Wide)> {
     let in_front = candidates
         .into_iter()
         .map(|(s, n)| (line.shift + s, n))
-        .filter(|(t, _)| t.rounded() > 0.0);
-    in_front.min_by(|a, b| (a.0 - b.0).rounded().total_cmp(&0.0))
+        .filter(|(t, _)| t.to_f64() > 0.0);
+    in_front.min_by(|a, b| (a.0 - b.0).to_f64().total_cmp(&0.0))
 }
 
 /// What is true of a ray and a shape; `None` for shapes that have no truth here.
@@ -118,25 +118,25 @@ pub(crate) fn truth(shape: &ir::Shape, ray: &Ray) -> Option<Truth> {
             kappa: 0.0,
         });
     };
-    let n = Vec3::from_array(normal.map(Double::rounded)).normalize();
-    let t_rounded = t.rounded();
+    let n = Vec3::from_array(normal.map(DoubleDouble::to_f64)).normalize();
+    let t_rounded = t.to_f64();
     let sizes =
         ray.origin.abs() + Vec3::from_array(anchor).abs() + (ray.direction * t_rounded).abs();
     let kappa = (n.abs().dot(sizes) + extent) / (n.dot(ray.direction) * t_rounded).abs();
     Some(Truth { t: Some(t), kappa })
 }
 
-fn sphere(s: &ir::Sphere, ray: &Ray) -> Option<(Double, Wide)> {
+fn sphere(s: &ir::Sphere, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let line = Line::new(ray, s.center);
     let (f, d, r) = (line.from, line.d, number(s.radius));
     let all = roots(dot(d, d), dot(f, d), dot(f, f) - r * r);
     nearest(&line, all.into_iter().map(|s| (s, line.at(s))).collect())
 }
 
-fn plane(center: [f64; 3], n: Wide, ray: &Ray) -> Option<(Double, Wide)> {
+fn plane(center: [f64; 3], n: Wide, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let slope = dot(n, wide(ray.direction.to_array()));
     let t = dot(n, difference(center, ray.origin.to_array())) / slope;
-    (slope.rounded() != 0.0 && t.rounded() > 0.0).then_some((t, n))
+    (slope.to_f64() != 0.0 && t.to_f64() > 0.0).then_some((t, n))
 }
 
 /// Which side of the three edges a ray passes, as volumes, each over the product of its lengths.
@@ -144,12 +144,12 @@ pub(crate) fn sides([a, b, c]: [[f64; 3]; 3], ray: &Ray) -> [f64; 3] {
     let (origin, d) = (ray.origin.to_array(), wide(ray.direction.to_array()));
     [(a, b), (b, c), (c, a)].map(|(from, to)| {
         let (p, q) = (difference(from, origin), difference(to, origin));
-        let size = |v: Wide| Vec3::from_array(v.map(Double::rounded)).length();
-        dot(d, cross(p, q)).rounded() / (size(p) * size(q) * size(d))
+        let size = |v: Wide| Vec3::from_array(v.map(DoubleDouble::to_f64)).length();
+        dot(d, cross(p, q)).to_f64() / (size(p) * size(q) * size(d))
     })
 }
 
-fn triangle(vertices: [[f64; 3]; 3], ray: &Ray) -> Option<(Double, Wide)> {
+fn triangle(vertices: [[f64; 3]; 3], ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let [a, b, c] = vertices;
     let sides = sides(vertices, ray);
     let inside = sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0);
@@ -159,17 +159,21 @@ fn triangle(vertices: [[f64; 3]; 3], ray: &Ray) -> Option<(Double, Wide)> {
 /// The candidates of a round side `a·s² + 2·b·s + c = 0`, with normals, and of the flat ends, all
 /// between those ends: `low ≤ above + rise·s ≤ high`.
 struct Capped {
-    side: [Double; 3],
-    above: Double,
-    rise: Double,
-    ends: [Double; 2],
+    side: [DoubleDouble; 3],
+    above: DoubleDouble,
+    rise: DoubleDouble,
+    ends: [DoubleDouble; 2],
 }
 
 impl Capped {
-    fn candidates(&self, axis: Wide, normal: impl Fn(Double) -> Wide) -> Vec<(Double, Wide)> {
+    fn candidates(
+        &self,
+        axis: Wide,
+        normal: impl Fn(DoubleDouble) -> Wide,
+    ) -> Vec<(DoubleDouble, Wide)> {
         let [a, b, c] = self.side;
-        let height = |s: Double| self.above + self.rise * s;
-        let between = |s: &Double| {
+        let height = |s: DoubleDouble| self.above + self.rise * s;
+        let between = |s: &DoubleDouble| {
             !is_negative(height(*s) - self.ends[0]) && !is_negative(self.ends[1] - height(*s))
         };
         let side = roots(a, b, c)
@@ -177,8 +181,8 @@ impl Capped {
             .filter(between)
             .map(|s| (s, normal(s)));
         let caps = self.ends.map(|end| (end - self.above) / self.rise);
-        let inside = |s: &Double| !is_negative(number(0.0) - ((a * *s + b + b) * *s + c));
-        let level = self.rise.rounded() == 0.0;
+        let inside = |s: &DoubleDouble| !is_negative(number(0.0) - ((a * *s + b + b) * *s + c));
+        let level = self.rise.to_f64() == 0.0;
         let caps = caps
             .into_iter()
             .filter(|s| !level && inside(s))
@@ -187,7 +191,7 @@ impl Capped {
     }
 }
 
-fn cylinder(s: &ir::Cylinder, ray: &Ray) -> Option<(Double, Wide)> {
+fn cylinder(s: &ir::Cylinder, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let line = Line::new(ray, s.base);
     let (axis, r) = (wide(s.axis), number(s.radius));
     let (w, x, a2) = (cross(line.from, axis), cross(line.d, axis), dot(axis, axis));
@@ -202,7 +206,7 @@ fn cylinder(s: &ir::Cylinder, ray: &Ray) -> Option<(Double, Wide)> {
 }
 
 /// With u the axis from base to apex: ‖p × u‖·‖u‖ ≤ r·(u·u − p·u) and p·u ≥ 0.
-fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
+fn cone(s: &ir::Cone, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let line = Line::new(ray, s.base);
     let (up, r2) = (wide(s.up), number(s.radius) * number(s.radius));
     let (w, x, h2) = (cross(line.from, up), cross(line.d, up), dot(up, up));
@@ -219,11 +223,11 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
         ends: [number(0.0), h2],
     };
     // u × (p × u) is the radial part of p times u·u.
-    let normal = |s: Double| {
+    let normal = |s: DoubleDouble| {
         let radial = cross(up, along(w, x, s));
         let length = dot(radial, radial).sqrt();
         [0, 1, 2].map(|k| {
-            radial[k] / length * h2.sqrt() + up[k] * number(r2.rounded().sqrt()) / h2.sqrt()
+            radial[k] / length * h2.sqrt() + up[k] * number(r2.to_f64().sqrt()) / h2.sqrt()
         })
     };
     nearest(&line, capped.candidates(up, normal))
@@ -231,7 +235,7 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(Double, Wide)> {
 
 /// The roots of ‖p‖² + R² − r² = 2R·ρ, squared: between two roots of a derivative there is at most
 /// one of the function.
-fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
+fn torus(s: &ir::Torus, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
     let line = Line::new(ray, s.center);
     let (axis, major, minor) = (wide(s.axis), number(s.major), number(s.minor));
     let [two, four, six] = [2.0, 4.0, 6.0].map(number);
@@ -239,27 +243,27 @@ fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
     let (b, c) = (dot(line.from, line.d), dot(line.d, line.d));
     let k0 = dot(line.from, line.from) + (major - minor) * (major + minor);
     let r4 = four * major * major;
-    let k = |s: Double| (c * s + two * b) * s + k0;
-    let value = |s: Double| {
+    let k = |s: DoubleDouble| (c * s + two * b) * s + k0;
+    let value = |s: DoubleDouble| {
         let from_axis = along(w, x, s);
         k(s) * k(s) * a2 - r4 * dot(from_axis, from_axis)
     };
     // Half of the derivative, and of the second.
-    let slope = |s: Double| k(s) * (b + c * s) * two * a2 - r4 * (dot(w, x) + dot(x, x) * s);
+    let slope = |s: DoubleDouble| k(s) * (b + c * s) * two * a2 - r4 * (dot(w, x) + dot(x, x) * s);
     let bend = [
         six * c * c * a2,
         six * b * c * a2,
         (four * b * b + two * c * k0) * a2 - r4 * dot(x, x),
     ];
     let reach = number(1.01 * (s.major + s.minor) / ray.direction.length());
-    let ends = |mut inner: Vec<Double>| {
+    let ends = |mut inner: Vec<DoubleDouble>| {
         inner.retain(|s| is_negative(*s - reach) && is_negative(number(0.0) - reach - *s));
         inner.extend([number(0.0) - reach, reach]);
-        inner.sort_by(|a, b| (*a - *b).rounded().total_cmp(&0.0));
+        inner.sort_by(|a, b| (*a - *b).to_f64().total_cmp(&0.0));
         inner
     };
     let critical = changes(&ends(roots(bend[0], bend[1], bend[2])), slope);
-    let normal = |s: Double| {
+    let normal = |s: DoubleDouble| {
         let p = line.at(s);
         let radial = cross(axis, cross(p, axis));
         let length = dot(radial, radial).sqrt();
@@ -275,12 +279,15 @@ fn torus(s: &ir::Torus, ray: &Ray) -> Option<(Double, Wide)> {
 }
 
 /// Where a function changes its sign between neighbours of the borders, by bisection.
-fn changes(borders: &[Double], value: impl Fn(Double) -> Double) -> Vec<Double> {
-    let sign = |s: Double| is_negative(value(s));
+fn changes(
+    borders: &[DoubleDouble],
+    value: impl Fn(DoubleDouble) -> DoubleDouble,
+) -> Vec<DoubleDouble> {
+    let sign = |s: DoubleDouble| is_negative(value(s));
     let changing = borders
         .windows(2)
         .filter(|pair| sign(pair[0]) != sign(pair[1]));
-    let bisect = |pair: &[Double]| {
+    let bisect = |pair: &[DoubleDouble]| {
         let (mut low, mut high) = (pair[0], pair[1]);
         for _ in 0..110 {
             let middle = (low + high) * number(0.5);

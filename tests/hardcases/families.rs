@@ -8,7 +8,7 @@ use super::scenes::{cone, cylinder, plane, sphere, torus, triangle, world};
 use super::truth::{Report, Table, tables};
 use rayon::prelude::*;
 use rtc::ir;
-use rtc::math::{Double, U, Vec3};
+use rtc::math::{DoubleDouble, U, Vec3};
 use rtc::render::Ray;
 
 /// Spheres and planes are right to this many u whatever κ.
@@ -35,10 +35,11 @@ impl Outcome {
             rows: 1,
             ..Self::default()
         };
-        match (world([shape]).nearest(ray), truth.t) {
+        match (world([shape]).closest_hit(ray), truth.t) {
             (Some(hit), Some(exact)) => {
                 assert!(hit.t > 0.0 && hit.t.is_finite(), "{ray:?}: {hit:?}");
-                let error = (Double::from(hit.t) - exact).rounded().abs() / (U * exact.rounded());
+                let error =
+                    (DoubleDouble::from(hit.t) - exact).to_f64().abs() / (U * exact.to_f64());
                 (outcome.worst, outcome.worst_of_kappa) = (error, error / (1.0 + truth.kappa));
             }
             (None, Some(_)) => outcome.missed = u64::from(truth.kappa < DOUBT),
@@ -158,11 +159,11 @@ fn families_of_the_table() {
                 origin: Vec3::from_slice(&row[0..3]),
                 direction: Vec3::from_slice(&row[3..6]),
             };
-            let t = (hit == 1.0).then(|| Double::from(high) + Double::from(low));
+            let t = (hit == 1.0).then(|| DoubleDouble::from(high) + DoubleDouble::from(low));
             let ours = truth(&shape(kind, &row), &ray).unwrap().t;
             assert_eq!(ours.is_some(), t.is_some(), "{id}: {ray:?}");
             if let (Some(ours), Some(t)) = (ours, t) {
-                apart = apart.max(((ours - t) / t).rounded().abs() / (1.0 + kappa));
+                apart = apart.max(((ours - t) / t).to_f64().abs() / (1.0 + kappa));
             }
             outcome = outcome.plus(Outcome::of(shape(kind, &row), &ray, &Truth { t, kappa }));
         }

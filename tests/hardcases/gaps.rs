@@ -35,14 +35,14 @@ fn chunk(kind: Kind, mesh: &Arc<PreparedMesh>, index: u64) -> (u64, u64) {
         if cosine.abs() < 0.2 || !from_front {
             continue;
         }
-        let behind = if kind.is_solid() || cosine < 0.0 {
+        let background = if kind.is_solid() || cosine < 0.0 {
             ray.direction
         } else {
             -ray.direction
         };
         asked += 1;
-        let slack = 32.0 * GAP * size / behind.length();
-        bad += u64::from(hit(&inner, &at.ray(behind)).is_none_or(|(t, _)| t > slack));
+        let slack = 32.0 * GAP * size / background.length();
+        bad += u64::from(hit(&inner, &at.ray(background)).is_none_or(|(t, _)| t > slack));
     }
     (asked, bad)
 }

@@ -32,7 +32,7 @@ fn intersections() {
 
 fn intersection(case: &Value, world: &World) -> (bool, String) {
     let (expect, tolerance, ray) = (&case["expect"], &case["tol"], ray(&case["input"]["ray"]));
-    let hit = world.nearest(&ray);
+    let hit = world.closest_hit(&ray);
     let wanted = expect["hit"].as_bool().unwrap();
     if hit.is_some() != wanted {
         return (
@@ -46,7 +46,7 @@ fn intersection(case: &Value, world: &World) -> (bool, String) {
     let t_error = relative_error(hit.t, &expect["t"]);
     let interaction = world.surfaces[hit.surface]
         .shape
-        .interaction(&ray, hit.t, hit.part);
+        .interaction(&ray, hit.t, hit.prim_id);
     let flip = |n: Vec3| vector_error(n, &expect["n"]);
     let n_error = match tolerance["n_sign"].as_str().unwrap() {
         "either" => flip(interaction.normal).min(flip(-interaction.normal)),
@@ -67,10 +67,10 @@ fn chains() {
     for case in cases("chain") {
         let world = shapes_of(&case["input"]["shapes"]);
         let first = ray(&case["input"]["ray"]);
-        let hit = world.nearest(&first).unwrap();
+        let hit = world.closest_hit(&first).unwrap();
         let interaction = world.surfaces[hit.surface]
             .shape
-            .interaction(&first, hit.t, hit.part);
+            .interaction(&first, hit.t, hit.prim_id);
         let tolerance = number(&case["tol"]["t2_abs_u"]) * U;
         let directions = case["input"]["secondary_dirs"].as_array().unwrap();
         for (k, (direction, expect)) in directions
@@ -79,7 +79,7 @@ fn chains() {
             .enumerate()
         {
             let direction = vector(direction);
-            let next = world.nearest(&interaction.ray(direction));
+            let next = world.closest_hit(&interaction.ray(direction));
             let wanted = expect["hit"].as_bool().unwrap();
             let passed = match next {
                 Some(next) if wanted => {

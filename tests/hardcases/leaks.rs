@@ -38,7 +38,7 @@ fn leaks(name: &str, world: &World, mesh: &Mesh, center: Vec3, scale: f64) -> u6
         Ray { origin, direction }
     };
     tally("leaks", name, rays(CONFIGURATIONS.len()), |index| {
-        (1, u64::from(world.nearest(&ray(index)).is_none()))
+        (1, u64::from(world.closest_hit(&ray(index)).is_none()))
     })
     .bad
 }

@@ -126,12 +126,12 @@ fn a_light_on_a_surface_is_not_hidden_by_it() {
             origin,
             direction: center + random.cube() * (0.3 * size) - origin,
         };
-        let Some(hit) = world.nearest(&ray) else {
+        let Some(hit) = world.closest_hit(&ray) else {
             continue;
         };
         let light = world.surfaces[hit.surface]
             .shape
-            .interaction(&ray, hit.t, hit.part);
+            .interaction(&ray, hit.t, hit.prim_id);
         let back = -ray.direction.normalize();
         if light.normal.dot(back).abs() < 0.3 {
             continue;

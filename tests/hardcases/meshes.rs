@@ -20,7 +20,7 @@ fn rays_through_shared_edges_hit() {
         let triangles = case["input"]["triangles"].as_array().unwrap();
         let world = world(triangles.iter().map(|t| triangle(corners(t))));
         for (k, ray) in case["input"]["rays"].as_array().unwrap().iter().enumerate() {
-            let hit = world.nearest(&Ray {
+            let hit = world.closest_hit(&Ray {
                 origin: vector(&ray["o"]),
                 direction: vector(&ray["d"]),
             });
@@ -51,7 +51,11 @@ fn brute_force(world: &World, ray: &Ray) -> Option<Hit> {
         .filter_map(|(surface, s)| {
             s.shape
                 .intersect(ray, &shear, f64::INFINITY)
-                .map(|(t, part)| Hit { t, surface, part })
+                .map(|(t, prim_id)| Hit {
+                    t,
+                    surface,
+                    prim_id,
+                })
         });
     hits.reduce(|best, hit| if hit.t < best.t { hit } else { best })
 }
@@ -101,7 +105,7 @@ fn the_hierarchy_finds_what_brute_force_finds() {
             }
             let ray = Ray { origin, direction };
             assert_eq!(
-                world.nearest(&ray),
+                world.closest_hit(&ray),
                 brute_force(&world, &ray),
                 "{name}, ray {k}: {ray:?}"
             );

@@ -77,13 +77,14 @@ fn a_mirror_box_keeps_its_rays() {
             .max()
             .unwrap();
         for bounce in 1..=last {
-            let Some(hit) = world.nearest(&ray) else {
+            let Some(hit) = world.closest_hit(&ray) else {
                 report.line(id(&case), false, &format!("escaped at bounce {bounce}"));
                 break;
             };
-            let interaction = world.surfaces[hit.surface]
-                .shape
-                .interaction(&ray, hit.t, hit.part);
+            let interaction =
+                world.surfaces[hit.surface]
+                    .shape
+                    .interaction(&ray, hit.t, hit.prim_id);
             if let Some(expect) = expected
                 .iter()
                 .find(|expect| number(&expect["bounce"]) as u64 == bounce)

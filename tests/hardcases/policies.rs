@@ -234,7 +234,7 @@ fn triangles_with_one_centroid_are_all_found() {
             origin: Vec3::new(0.0, 2.0 * size(k) - 1.0, -1.0),
             direction: Vec3::Z,
         };
-        let hit = world.nearest(&ray).unwrap();
+        let hit = world.closest_hit(&ray).unwrap();
         assert_eq!(hit.surface, k as usize);
     }
 }
@@ -262,14 +262,14 @@ fn rays_that_are_none_miss() {
             let mut broken = Vec3::new(0.1, 0.2, 0.3);
             broken[axis] = bad;
             assert_eq!(
-                world.nearest(&Ray {
+                world.closest_hit(&Ray {
                     origin: broken,
                     direction: Vec3::Z
                 }),
                 None
             );
             assert_eq!(
-                world.nearest(&Ray {
+                world.closest_hit(&Ray {
                     origin: Vec3::ONE,
                     direction: broken
                 }),
@@ -278,7 +278,7 @@ fn rays_that_are_none_miss() {
         }
     }
     assert_eq!(
-        world.nearest(&Ray {
+        world.closest_hit(&Ray {
             origin: Vec3::ONE,
             direction: Vec3::ZERO
         }),
@@ -293,6 +293,9 @@ fn worlds_of_none_and_of_one() {
         origin: Vec3::Z * 5.0,
         direction: -Vec3::Z,
     };
-    assert_eq!(world([]).nearest(&ray), None);
-    assert_eq!(world([sphere([0.0; 3], 1.0)]).nearest(&ray).unwrap().t, 4.0);
+    assert_eq!(world([]).closest_hit(&ray), None);
+    assert_eq!(
+        world([sphere([0.0; 3], 1.0)]).closest_hit(&ray).unwrap().t,
+        4.0
+    );
 }

@@ -34,7 +34,7 @@ fn on(threads: usize, work: impl FnOnce() -> Reached + Send) -> Reached {
 fn with_clock(scene: &Scene, goal: Goal) -> Reached {
     let rays = AtomicU64::new(0);
     let watch = Watch {
-        proceed: &|step| {
+        on_pixel: &|step| {
             rays.fetch_add(step.rays, Relaxed);
             true
         },
@@ -79,7 +79,7 @@ fn threads_change_no_bit() {
 fn samples_go_where_the_noise_is() {
     let samples = render(&scene(8, SIZE), 1.0, 0).samples;
     assert!(
-        2.0 * samples.least as f64 <= samples.mean && samples.most as f64 >= 2.0 * samples.mean,
+        2.0 * samples.min as f64 <= samples.mean && samples.most as f64 >= 2.0 * samples.mean,
         "{samples:?}"
     );
 }
@@ -107,7 +107,7 @@ fn a_crop_of_a_first_round_is_a_part_of_the_whole() {
             ..order(&scene, goal, 0)
         };
         let watch = Watch {
-            proceed: &|_| true,
+            on_pixel: &|_| true,
             is_stopped: &|| false,
             elapsed: &|| Duration::ZERO,
             round: &|_| {},
@@ -176,7 +176,7 @@ fn a_time_is_kept_and_more_of_it_is_less_error() {
 fn stop_means_stop() {
     let (scene, rays) = (scene(3, SIZE), AtomicU64::new(0));
     let watch = Watch {
-        proceed: &|step| rays.fetch_add(step.rays, Relaxed) < 50_000,
+        on_pixel: &|step| rays.fetch_add(step.rays, Relaxed) < 50_000,
         is_stopped: &|| true,
         elapsed: &|| Duration::ZERO,
         round: &|_| {},

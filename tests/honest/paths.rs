@@ -28,7 +28,7 @@ fn the_error_said_is_kept_by_paths() {
             reached.error
         );
         assert!(
-            reached.samples.most > reached.samples.least,
+            reached.samples.most > reached.samples.min,
             "samples go where the noise is: {:?}",
             reached.samples
         );

@@ -6,9 +6,9 @@ use rtc::image::Image;
 use rtc::ir::{Lowered, Origins, Scene};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{AnyWorld, Behind, Crop, Values};
+use rtc::render::{AnyWorld, Background, Crop, Values};
 use rtc::source::SourceMap;
-use rtc::study::{Chance, Goal, LEVELS, Order, Reached, Watch, approach};
+use rtc::study::{Goal, LEVELS, Order, Reached, Rng, Watch, approach};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
@@ -35,9 +35,9 @@ fn has(number: u64, bit: u64) -> bool {
 }
 
 fn text(number: u64, [width, height]: [u32; 2]) -> String {
-    let mut chance = Chance::new(number);
+    let mut rng = Rng::new(number);
     let mut within =
-        |from: f64, to: f64| from + (to - from) * chance.below(1 << 20) as f64 / f64::from(1 << 20);
+        |from: f64, to: f64| from + (to - from) * rng.below(1 << 20) as f64 / f64::from(1 << 20);
     let mut text = format!(
         "Camera: {{eye: [{:.3}, 4, 12], center: [0, 1, 0], up: [0, {}, 0], viewSize: [{width}, {height}]",
         within(-4.0, 4.0),
@@ -113,7 +113,7 @@ pub(crate) fn render(scene: &Scene, error: f64, seed: u64) -> Reached {
         time: None,
     };
     let watch = Watch {
-        proceed: &|_| true,
+        on_pixel: &|_| true,
         is_stopped: &|| false,
         elapsed: &|| Duration::ZERO,
         round: &|_| {},
@@ -144,7 +144,7 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
     Order {
         goal,
         crop,
-        behind: Behind::Surroundings,
+        background: Background::Environment,
         values: Values::Display,
         keep_lights: false,
         seed,

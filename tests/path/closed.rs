@@ -1,7 +1,7 @@
 //! Scenes whose radiance is known in closed form.
 
 use crate::{add_light, add_sphere, add_square, lambert, mean, middle, render, scene, sky};
-use rtc::ir::{Emitter, Mode, Path, Punctual, Standard};
+use rtc::ir::{Emitter, Mode, PathSettings, Punctual, Standard};
 use rtc::math::Vec3;
 use std::f64::consts::PI;
 
@@ -193,7 +193,7 @@ fn what_is_inside_a_body_fades_with_the_way() {
 fn a_white_metal_of_any_roughness_vanishes_in_a_white_furnace() {
     let seen = |roughness: f64, multiple_scattering: bool| {
         let mut scene = scene(64);
-        scene.settings.mode = Mode::Path(Path {
+        scene.settings.mode = Mode::Path(PathSettings {
             samples: 64,
             multiple_scattering,
         });

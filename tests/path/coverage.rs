@@ -2,9 +2,9 @@
 
 use super::*;
 
-fn film(scene: &Scene, behind: Behind) -> Film {
+fn film(scene: &Scene, background: Background) -> Film {
     let proof = prove(scene);
-    let job = Job { behind, ..JOB };
+    let job = Job { background, ..JOB };
     rtc::render::render(&proof, &Plan::new(&proof, Rules::ALL), &job, &|_| true).unwrap()
 }
 
@@ -19,7 +19,7 @@ fn an_edge_through_pixels_covers_the_share_on_its_side() {
     // The square ends in the middle of the fourth pixel from each edge.
     add_square(&mut scene, 0.0, 0.5625, unlit);
     scene.environment = sky(7.0);
-    let film = film(&scene, Behind::Nothing);
+    let film = film(&scene, Background::Nothing);
     let at = |x: usize, y: usize| film.coverage[y * 16 + x];
     // 64 points of the sequence are 32 in each half, and 16 in each quarter.
     assert_eq!(
@@ -40,7 +40,7 @@ fn a_veil_covers_by_its_opacity() {
         ..lambert([1.0; 3])
     };
     add_square(&mut scene, 0.0, 1.5, veil);
-    let covered = film(&scene, Behind::Nothing).coverage;
+    let covered = film(&scene, Background::Nothing).coverage;
     let mean = covered.iter().sum::<f32>() / covered.len() as f32;
     // 2¹⁸ independent rays: five standard deviations are 0.0042.
     assert!((mean - 0.25).abs() < 0.0042, "{mean}");
@@ -62,8 +62,8 @@ fn what_is_behind_is_seen_past_surfaces_alone() {
     );
     scene.environment = sky(0.75);
     let (shown, hidden) = (
-        film(&scene, Behind::Surroundings),
-        film(&scene, Behind::Nothing),
+        film(&scene, Background::Environment),
+        film(&scene, Background::Nothing),
     );
     assert_eq!(shown.coverage, hidden.coverage);
     for ((shown, hidden), share) in shown
@@ -73,9 +73,9 @@ fn what_is_behind_is_seen_past_surfaces_alone() {
         .zip(&hidden.image.pixels)
         .zip(&shown.coverage)
     {
-        let behind = 0.75 * (1.0 - f64::from(*share));
+        let background = 0.75 * (1.0 - f64::from(*share));
         assert!(
-            (0..3).all(|k| (shown[k] - hidden[k] - behind).abs() < 1e-12),
+            (0..3).all(|k| (shown[k] - hidden[k] - background).abs() < 1e-12),
             "{shown:?} {hidden:?} {share}"
         );
     }

@@ -58,8 +58,12 @@ fn one_by_one(world: &World<Prepared>, ray: &Ray) -> Option<Hit> {
         .iter()
         .enumerate()
         .filter_map(|(surface, found)| {
-            let (t, part) = found.shape.intersect(ray, &shear, f64::INFINITY)?;
-            Some(Hit { t, surface, part })
+            let (t, prim_id) = found.shape.intersect(ray, &shear, f64::INFINITY)?;
+            Some(Hit {
+                t,
+                surface,
+                prim_id,
+            })
         });
     hits.min_by(|a, b| a.t.total_cmp(&b.t))
 }
@@ -106,7 +110,7 @@ fn the_world_finds_what_its_surfaces_find() {
             origin,
             direction: target - origin,
         };
-        let (found, expected) = (world.nearest(&ray), one_by_one(&world, &ray));
+        let (found, expected) = (world.closest_hit(&ray), one_by_one(&world, &ray));
         assert_eq!(found, expected, "{ray:?}");
         hits += u32::from(found.is_some());
         ties += u32::from(found.is_some_and(|hit| hit.surface == 1));

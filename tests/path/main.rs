@@ -13,20 +13,20 @@ mod surfaces;
 
 use rtc::diag::Sink;
 use rtc::ir::{
-    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins, Path,
-    Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard, Surface,
-    Triangle,
+    Alpha, Camera, Emitter, Environment, Lens, Light, Material, MaterialId, Mode, Origins,
+    PathSettings, Pattern, Phong, Projection, Punctual, Scene, Settings, Shape, Sphere, Standard,
+    Surface, Triangle,
 };
 use rtc::math::Vec3;
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Basic, Behind, Film, Job, Seeds, Strategy, Stride, Values, World};
+use rtc::render::{Background, Basic, Film, Job, Seeds, Strategy, Stride, Values, World};
 use rtc::valid::{self, Proof};
 
 /// A scene of paths: 16 × 16 pixels that look down −z from (0, 0, 4) and see a square of side 2 at
 /// the origin.
 fn scene(samples: u32) -> Scene {
     let settings = Settings {
-        mode: Mode::Path(Path {
+        mode: Mode::Path(PathSettings {
             samples,
             multiple_scattering: false,
         }),
@@ -144,7 +144,7 @@ const JOB: Job = Job {
     tiles: None,
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
-    behind: Behind::Surroundings,
+    background: Background::Environment,
     samples: None,
 };
 

@@ -65,7 +65,7 @@ fn coverage_and_layers_go_by_what_is_seen() {
     add_back(&mut scene, 0.0, flat(RED));
     let proof = prove(&scene);
     let job = Job {
-        behind: Behind::Nothing,
+        background: Background::Nothing,
         ..JOB
     };
     let film =
@@ -171,7 +171,7 @@ fn a_mirror_shows_the_back() {
 }
 
 #[test]
-fn what_transmits_is_seen_from_behind() {
+fn what_transmits_is_seen_from_background() {
     let pane = Standard {
         transmission: 1.0,
         metallic: 0.0,

@@ -70,7 +70,7 @@ fn line(seed: u64) -> String {
     all += &format!(
         "{:?}",
         pixels
-            .map(|pixel| plan.region.sight(pixel))
+            .map(|pixel| plan.region.class_of(pixel))
             .collect::<Vec<_>>()
     );
     let mut line = format!("{seed:3} {:016x}", xxh3_64(all.as_bytes()));

@@ -3,7 +3,7 @@
 use super::stage::{ball, matt, shiny, with};
 use super::verdict;
 use rtc::ir::Scene;
-use rtc::plan::{Effect, Plan, Rules, Sight};
+use rtc::plan::{Effect, PixelClass, Plan, Rules};
 
 /// Small balls side by side before a wide camera, the first of them mirrors.
 fn many(count: u32, mirrors: u32) -> Scene {
@@ -61,14 +61,14 @@ fn a_large_picture_is_looked_at_in_coarse_cells() {
         ([2400, 2000], [2.5e-3, 0.0, 0.0], [0.0, 2.5e-3, 0.0]);
     let region = Plan::new(&super::proven(&scene), Rules::ALL).region;
     let sights =
-        [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.sight(pixel));
+        [[0, 0], [1200, 1000], [2399, 1999], [2399, 1000]].map(|pixel| region.class_of(pixel));
     assert_eq!(
         sights,
         [
-            Sight::Nothing,
-            Sight::Anything,
-            Sight::Nothing,
-            Sight::Nothing
+            PixelClass::Nothing,
+            PixelClass::Anything,
+            PixelClass::Nothing,
+            PixelClass::Nothing
         ]
     );
 }

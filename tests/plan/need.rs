@@ -6,7 +6,7 @@ use super::stage::{ball, disc, first_light, material, matt, plane, shiny, stage,
 use rtc::diag::Sink;
 use rtc::ir::{Bump, Lowered, Mode, Origins, Scene};
 use rtc::pipeline::{self, Options};
-use rtc::plan::{Effect, Plan, Rule, Rules, Sight, State};
+use rtc::plan::{Effect, PixelClass, Plan, Rule, Rules, State};
 
 fn is_not_needed(effect: Effect, ways: &[(&str, Scene)]) {
     assert!(ways.len() >= 3);
@@ -135,7 +135,7 @@ fn shadows() {
 
 #[test]
 fn lights() {
-    let behind = |scene: &mut Scene| {
+    let background = |scene: &mut Scene| {
         scene.surfaces.remove(0);
         first_light(scene).position = [0.0, 0.0, -5.0];
     };
@@ -152,7 +152,7 @@ fn lights() {
                     all(scene, |phong| (phong.kd, phong.ks) = (0.0, 0.0))
                 }),
             ),
-            ("behind a wall", changed(&busy(), behind)),
+            ("behind a wall", changed(&busy(), background)),
             (
                 "a depth buffer",
                 changed(&busy(), |scene| scene.settings.mode = Mode::Zbuffer),
@@ -174,7 +174,7 @@ fn lights() {
                 "black",
                 changed(&soft, |scene| first_light(scene).color = [0.0; 3]),
             ),
-            ("behind a wall", changed(&soft, behind)),
+            ("behind a wall", changed(&soft, background)),
         ],
     );
 }
@@ -345,10 +345,10 @@ fn pixels_that_show_nothing_are_traced_where_no_rule_may_leave_them_out() {
         region(Rules::ALL.without(Rule::PixelMiss)),
     );
     assert_eq!(
-        [some.sight([0, 0]), none.sight([0, 0])],
-        [Sight::Nothing, Sight::Anything]
+        [some.class_of([0, 0]), none.class_of([0, 0])],
+        [PixelClass::Nothing, PixelClass::Anything]
     );
-    assert!(some.empty_share() > 0.5 && none.empty_share() == 0.0);
+    assert!(some.empty_fraction() > 0.5 && none.empty_fraction() == 0.0);
 }
 
 #[test]

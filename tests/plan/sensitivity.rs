@@ -86,15 +86,21 @@ fn a_light_shines_as_soon_as_it_has_a_colour_and_stands_in_front() {
     turns(Effect::DirectLight, Rule::LightBlack, &black, |scene| {
         first_light(scene).color = [0.0, 1e-3, 0.0]
     });
-    let mut behind = with(&[(disc([0.0; 3], 2.0), shiny())]);
-    first_light(&mut behind).position = [5.0, 0.0, -1e-3];
-    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| {
-        first_light(scene).position[2] = 1e-3
-    });
+    let mut background = with(&[(disc([0.0; 3], 2.0), shiny())]);
+    first_light(&mut background).position = [5.0, 0.0, -1e-3];
+    turns(
+        Effect::DirectLight,
+        Rule::LightBehind,
+        &background,
+        |scene| first_light(scene).position[2] = 1e-3,
+    );
     // Without shadows a highlight shines through.
-    turns(Effect::DirectLight, Rule::LightBehind, &behind, |scene| {
-        scene.settings.shadows = false
-    });
+    turns(
+        Effect::DirectLight,
+        Rule::LightBehind,
+        &background,
+        |scene| scene.settings.shadows = false,
+    );
     let mut unlit = one_ball();
     material(&mut unlit, 0).kd = 0.0;
     turns(Effect::DirectLight, Rule::LightUnreached, &unlit, |scene| {
@@ -164,13 +170,13 @@ fn one_corner_makes_normals_worth_interpolating() {
 }
 
 #[test]
-fn a_mirror_shows_what_is_before_it_and_nothing_behind() {
-    let behind = with(&[
+fn a_mirror_shows_what_is_before_it_and_nothing_background() {
+    let background = with(&[
         (disc([0.0; 3], 2.0), shiny()),
         (ball([0.0, 0.0, -4.0], 1.0), matt()),
     ]);
     let before = |scene: &mut Scene| scene.surfaces[1].shape = ball([0.0, 0.0, 4.0], 1.0);
-    turns(Effect::Mirror, Rule::MirrorUnreached, &behind, before);
+    turns(Effect::Mirror, Rule::MirrorUnreached, &background, before);
     let alone = with(&[(ball([0.0; 3], 1.0), shiny())]);
     let torus = |scene: &mut Scene| {
         let (center, axis) = ([0.0; 3], [0.0, 0.0, 1.0]);
@@ -220,8 +226,8 @@ fn a_ball_that_comes_into_view_brings_what_it_needs() {
     turns(Effect::Highlight, Rule::Cull, &aside, |scene| {
         scene.surfaces[1].shape = ball([3.0, 0.0, 0.0], 1.0)
     });
-    let behind = with(&[(ball([0.0, 0.0, 14.0], 1.0), matt())]);
-    turns(Effect::Surfaces, Rule::Cull, &behind, |scene| {
+    let background = with(&[(ball([0.0, 0.0, 14.0], 1.0), matt())]);
+    turns(Effect::Surfaces, Rule::Cull, &background, |scene| {
         scene.surfaces[0].shape = ball([0.0, 0.0, 4.0], 1.0)
     });
 }

@@ -7,9 +7,9 @@ use super::{file_name, files, proven, scene, small};
 use proptest::prelude::*;
 use rtc::ir::Scene;
 use rtc::plan::{Effect, Plan, Rule, Rules};
-use rtc::render::{Fault, Job, verify};
+use rtc::render::{Job, Mismatch, verify};
 
-fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Fault> {
+fn validate(scene: &Scene, change: impl FnOnce(&mut Plan)) -> Result<(), Mismatch> {
     let scene = proven(scene);
     let mut plan = Plan::new(&scene, Rules::ALL);
     change(&mut plan);
@@ -49,8 +49,8 @@ fn busy() -> Scene {
 }
 
 fn is_found(effect: Effect, change: impl FnOnce(&mut Plan)) {
-    let fault = validate(&busy(), change).expect_err("it shows");
-    assert_eq!(fault.effect, effect, "{fault:?}");
+    let mismatch = validate(&busy(), change).expect_err("it shows");
+    assert_eq!(mismatch.effect, effect, "{mismatch:?}");
 }
 
 #[test]
@@ -63,14 +63,14 @@ fn a_plan_that_leaves_out_too_much_is_found_out() {
 
 #[test]
 fn a_light_left_out_is_found_at_the_first_pixel_it_shines_on() {
-    let fault = validate(&busy(), |plan| plan.lights[0].direct = false).unwrap_err();
+    let mismatch = validate(&busy(), |plan| plan.lights[0].direct = false).unwrap_err();
     assert_eq!(
-        (fault.effect, fault.what),
+        (mismatch.effect, mismatch.what),
         (Effect::DirectLight, "a light left out shines")
     );
     let dark = validate(&busy(), |plan| plan.lights[0].kept = false).unwrap_err();
     assert!(
-        dark.pixel[1] <= fault.pixel[1],
+        dark.pixel[1] <= mismatch.pixel[1],
         "its ambient term shows no later"
     );
 }

@@ -50,7 +50,7 @@ fn has_tie(world: &World, index: usize) -> bool {
                 .surfaces
                 .iter()
                 .filter_map(|surface| surface.shape.intersect(&ray, &shear, f64::INFINITY));
-            let nearest = world.nearest(&ray).map(|hit| hit.t);
+            let nearest = world.closest_hit(&ray).map(|hit| hit.t);
             roots.filter(|(t, _)| Some(*t) == nearest).count() > 1
         })
 }

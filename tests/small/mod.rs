@@ -7,7 +7,7 @@ use rtc::ir::{Lowered, Origins, Scene};
 use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Behind, Film, Job, Seeds, Stride, Values};
+use rtc::render::{Background, Film, Job, Seeds, Stride, Values};
 use rtc::source::{FileId, Loader, SourceMap};
 use std::path::{Path, PathBuf};
 
@@ -65,7 +65,7 @@ pub(crate) const WHOLE: Job = Job {
     tiles: None,
     seeds: Seeds::NONE,
     stride: Stride::EVERY,
-    behind: Behind::Surroundings,
+    background: Background::Environment,
     samples: None,
 };
 

@@ -10,7 +10,7 @@ use rtc::valid::Proof;
 /// The scene as the path integrator renders it, in few pixels, paths and bounces.
 pub(crate) fn traced(mut scene: Scene) -> Scene {
     if !matches!(scene.settings.mode, Mode::Path(_)) {
-        scene.settings.mode = Mode::Path(ir::Path {
+        scene.settings.mode = Mode::Path(ir::PathSettings {
             samples: 2,
             multiple_scattering: true,
         });

@@ -56,7 +56,7 @@ fn of_coplanar_surfaces_the_first_is_seen_in_any_order() {
             let objects = pieces[..count].iter().map(object).collect::<String>();
             let world = world(&scene(&format!("Eye: [0, 0, 100]\nObjects:\n{objects}")));
             let first =
-                |index: &u64| world.nearest(&aimed(*index)).map(|hit| hit.surface) == Some(0);
+                |index: &u64| world.closest_hit(&aimed(*index)).map(|hit| hit.surface) == Some(0);
             let wrong = (0..20_000).filter(|index| !first(index)).count();
             assert_eq!(wrong, 0, "{:?}", &pieces[..count]);
         }
@@ -106,9 +106,9 @@ fn of_many_coplanar_quads_the_first_is_seen() {
         let mut several = 0;
         for index in 0..2000 {
             let ray = aimed(index);
-            let mut hit = (0..60).filter(|index| single[*index].nearest(&ray).is_some());
+            let mut hit = (0..60).filter(|index| single[*index].closest_hit(&ray).is_some());
             assert_eq!(
-                world.nearest(&ray).map(|hit| hit.surface),
+                world.closest_hit(&ray).map(|hit| hit.surface),
                 hit.next(),
                 "ray {index}"
             );
@@ -135,14 +135,14 @@ fn a_decal_four_error_bounds_in_front_is_seen() {
         };
         let ray = aimed_at(corner + (first + second) * 0.5, normal, index);
         let wall = world(&quads([quad(0.0)]));
-        let Some(hit) = wall.nearest(&ray) else {
+        let Some(hit) = wall.closest_hit(&ray) else {
             continue;
         };
-        let at = wall.surfaces[0].shape.interaction(&ray, hit.t, hit.part);
+        let at = wall.surfaces[0].shape.interaction(&ray, hit.t, hit.prim_id);
         // What the surface is off its place along the normal, and the root along the ray.
         let bound = 0.5 * at.offset + 10.0 * U * hit.t * ray.direction.dot(at.normal).abs();
         let hit = world(&quads([quad(0.0), quad(4.0 * bound)]))
-            .nearest(&ray)
+            .closest_hit(&ray)
             .unwrap();
         assert_eq!(hit.surface, 1, "case {index}, bound {bound:e}");
         tried += 1;

@@ -3,7 +3,7 @@
 
 use super::super::parse::{backdrop, stops};
 use crate::color::Tone;
-use crate::image::Backdrop;
+use crate::image::BackgroundFill;
 use crate::render::Aov;
 use clap::{Args, ValueEnum};
 
@@ -19,7 +19,7 @@ pub(in crate::cli) struct Look {
     /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a
     /// colour R,G,B in the values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = backdrop)]
-    pub(in crate::cli) background: Backdrop,
+    pub(in crate::cli) background: BackgroundFill,
     /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
     #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]
     pub(in crate::cli) aov: Vec<Layer>,

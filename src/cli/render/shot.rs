@@ -8,7 +8,7 @@ use crate::diag::Diagnostic;
 use crate::image::Image;
 use crate::pipeline::{self, Meter};
 use crate::plan::{Effect, Rule};
-use crate::render::{Counts, Crop, Fault, Film, Job};
+use crate::render::{Counts, Crop, Film, Job, Mismatch};
 use crate::study::{Order, Reached, Samples, Stopped, Watch};
 use indicatif::HumanCount;
 use std::path::Path;
@@ -71,21 +71,21 @@ impl Plan {
         let job = Job {
             crop: Some(window),
             values,
-            behind: self.look.behind(),
+            background: self.look.background(),
             ..Job::default()
         };
         let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let renders = if self.verify { 2 } else { 1 };
         let meter = Meter::of_each(rays, window, renders);
-        let proceed = |step| {
+        let on_pixel = |step| {
             progress.step(step);
             !interrupt.is_raised() && meter.step(step)
         };
         let film = if self.verify {
-            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &proceed)
+            pipeline::verify(scene, &self.plan(scene), &job, self.threads, &on_pixel)
         } else {
             self.renderer(subject)
-                .map(|(_, renderer)| renderer.render(&job, &proceed).map(Ok))
+                .map(|(_, renderer)| renderer.render(&job, &on_pixel).map(Ok))
         };
         let elapsed = progress.finish();
         let film = film.map_err(no_threads)?;
@@ -97,7 +97,7 @@ impl Plan {
             image,
             coverage,
             counts,
-        } = film.map_err(|fault| Failure::Trouble(left_out(&fault)))?;
+        } = film.map_err(|mismatch| Failure::Trouble(left_out(&mismatch)))?;
         Ok(Ok(Shot {
             image,
             coverage,
@@ -118,7 +118,7 @@ impl Plan {
         let order = Order {
             goal: self.goal,
             crop: window,
-            behind: self.look.behind(),
+            background: self.look.background(),
             values: self.look.values(&subject.proven.scene.settings().mode),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
@@ -126,7 +126,7 @@ impl Plan {
         let progress = Progress::start(0, quiet);
         let meter = Meter::new(rays, window);
         let watch = Watch {
-            proceed: &|step| {
+            on_pixel: &|step| {
                 progress.step(step);
                 !interrupt.is_raised() && meter.step(step)
             },
@@ -152,11 +152,11 @@ impl Plan {
             image,
             coverage,
             counts,
-            samples: Samples { least, mean, most },
+            samples: Samples { min, mean, most },
             ..
         } = reached;
         let quality = format!(
-            "{} (90 %), {mean:.0} samples a pixel on the mean, {least} … {most}{end}",
+            "{} (90 %), {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
             error(reached.error)
         );
         Ok(Ok(Shot {
@@ -176,13 +176,13 @@ fn ran_out(meter: &Meter, subject: &Subject, interrupt: &Interrupt) -> Option<Bo
 }
 
 /// What to say of a rule that was wrong.
-fn left_out(fault: &Fault) -> String {
-    let Fault {
+fn left_out(mismatch: &Mismatch) -> String {
+    let Mismatch {
         pixel: [x, y],
         effect,
         rule,
         what,
-    } = fault;
+    } = mismatch;
     let rule = rule.map_or("no rule", Rule::name);
     let version = env!("CARGO_PKG_VERSION");
     format!(

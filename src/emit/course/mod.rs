@@ -7,7 +7,7 @@ mod material;
 mod shape;
 
 use crate::ir::{
-    Gooch, Light, MaterialId, Mode, Path, Pattern, Projection, Scene, Settings, Surface,
+    Gooch, Light, MaterialId, Mode, PathSettings, Pattern, Projection, Scene, Settings, Surface,
 };
 use crate::math::shortest;
 use std::fmt::Write as _;
@@ -167,7 +167,7 @@ impl Text {
 
 /// The rays along the side of a pixel, that of paths too.
 fn factor(mode: &Mode, supersampling: u32) -> Result<u32, String> {
-    let Mode::Path(Path {
+    let Mode::Path(PathSettings {
         samples,
         multiple_scattering,
     }) = mode

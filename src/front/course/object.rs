@@ -110,7 +110,7 @@ impl Value for Object {
     }
 }
 
-/// Reports an object of a type that is none.
+/// Reports an object of unknown type.
 fn left_out(word: &str, span: Span, context: &mut Context<'_>) {
     let lenient = context.options.lenient;
     context.report(

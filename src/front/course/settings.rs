@@ -296,17 +296,17 @@ impl Lowering {
             .factor
             .0
             .saturating_mul(sampling.value.factor.0);
-        let usual = ir::Path::default();
+        let usual = ir::PathSettings::default();
         let samples = if sampling.span.is_some() {
             rays
         } else {
             usual.samples
         };
         let settings = &mut self.scene.settings;
-        settings.mode = ir::Mode::Path(ir::Path { samples, ..usual });
+        settings.mode = ir::Mode::Path(ir::PathSettings { samples, ..usual });
         settings.supersampling = 1;
         if depth.span.is_none() && reflections.is_absent() {
-            settings.max_depth = ir::Path::DEPTH;
+            settings.max_depth = ir::PathSettings::DEPTH;
         }
     }
 
@@ -331,7 +331,7 @@ impl Lowering {
             Mode::Phong => ir::Mode::Phong,
             Mode::Zbuffer => ir::Mode::Zbuffer,
             Mode::Normal => ir::Mode::Normal,
-            Mode::Path => ir::Mode::Path(ir::Path::default()),
+            Mode::Path => ir::Mode::Path(ir::PathSettings::default()),
             Mode::Gooch => ir::Mode::Gooch(given.map_or(GOOCH, |gooch| self.gooch(&gooch.value))),
         }
     }

@@ -10,7 +10,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 pub(super) struct Jpeg<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
     pub(super) layout: Layout,
-    passing: u64,
+    scratch: u64,
     is_whole: bool,
 }
 
@@ -42,15 +42,15 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), D
             channels: color.num_components(),
             is_wide: false,
         },
-        passing: frame.passing(size),
+        scratch: frame.scratch(size),
         is_whole: frame.is_whole,
     };
     Ok((size, jpeg))
 }
 
 impl Jpeg<'_> {
-    pub(super) fn passing(&self) -> u64 {
-        self.passing
+    pub(super) fn scratch(&self) -> u64 {
+        self.scratch
     }
 
     pub(super) fn decode(mut self, into: &mut [u8]) -> Result<(), DecodeError> {
@@ -108,7 +108,7 @@ impl Frame {
     }
 
     /// What the decoder takes: some rows of blocks, and two bytes a coefficient where all are kept.
-    fn passing(&self, size: Size) -> u64 {
+    fn scratch(&self, size: Size) -> u64 {
         let rows = u64::from(size.width) * 256 * self.components.max(1);
         let blocks = |side: u32| u64::from(side.div_ceil(32)) * 32;
         let coefficients = blocks(size.width)

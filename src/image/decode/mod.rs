@@ -43,7 +43,7 @@ pub struct Cost {
     /// Bytes of the buffer that is handed on.
     pub memory: u64,
     /// Bytes that the decoder takes beside it, until it is done.
-    pub passing: u64,
+    pub scratch: u64,
 }
 
 /// Why a file can't be read as a picture; prints as a clause about the file.
@@ -181,19 +181,19 @@ impl<'a> PixelFile<'a> {
     /// What decoding it will take.
     #[must_use]
     pub fn cost(&self) -> Cost {
-        let (pixels, passing) = (
+        let (pixels, scratch) = (
             self.size.pixels(),
             match &self.decoder {
-                Decoder::Png(png) => png.passing(),
-                Decoder::Jpeg(jpeg) => jpeg.passing(),
-                Decoder::WebP(webp) => webp.passing(self.size),
+                Decoder::Png(png) => png.scratch(),
+                Decoder::Jpeg(jpeg) => jpeg.scratch(),
+                Decoder::WebP(webp) => webp.scratch(self.size),
             },
         );
         let pixel = self.layout().bytes().max(self.channels()) as u64;
         Cost {
             pixels,
             memory: pixels.saturating_mul(pixel),
-            passing,
+            scratch,
         }
     }
 

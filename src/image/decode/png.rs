@@ -51,7 +51,7 @@ fn fault(error: &DecodingError, size: Size) -> DecodeError {
 
 impl Png<'_> {
     /// Some rows, and what was unpacked and not yet filtered.
-    pub(super) fn passing(&self) -> u64 {
+    pub(super) fn scratch(&self) -> u64 {
         let row = u64::from(self.reader.info().width) * self.layout.bytes() as u64;
         (1 << 18) + 3 * row
     }

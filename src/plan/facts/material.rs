@@ -40,8 +40,8 @@ fn phong_of_standard(standard: &Standard) -> Phong {
 }
 
 fn standard_of_phong(phong: &Phong) -> Standard {
-    let share = |weight: NonNegative| UnitInterval::saturating(weight.get());
-    let (kd, ks, kt) = (share(phong.kd), share(phong.ks), share(phong.kt));
+    let fraction = |weight: NonNegative| UnitInterval::saturating(weight.get());
+    let (kd, ks, kt) = (fraction(phong.kd), fraction(phong.ks), fraction(phong.kt));
     let (mirrors, refracts) = (ks > UnitInterval::ZERO, kt > UnitInterval::ZERO);
     let is_mirror = mirrors && kd == UnitInterval::ZERO && !refracts;
     let weight = if ks > kd { 1.0 } else { kd.get() };

@@ -1,5 +1,5 @@
-//! The plan of traced paths as it is drawn up: what the scene asks for, less what each rule proves
-//! to add nothing.
+//! The draft of the path plan: everything that the scene asks for, minus everything that a rule
+//! proves to add nothing.
 
 use super::facts::{Presence, Uses};
 use super::rules::PathRule;
@@ -9,47 +9,47 @@ use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, Path, Proof, Punctual, Shape, Standard};
+use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard};
 
-/// What is left of a scene.
+/// The part of a scene that is still in the plan.
 #[derive(Clone)]
 pub(super) struct Draft<'scene> {
     pub(super) scene: &'scene Proof,
-    pub(super) path: Path,
-    /// The lights without extent.
+    pub(super) path: PathSettings,
+    /// The punctual lights.
     pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.
     pub(super) uses: &'scene [Uses],
-    /// Per surface, where it is.
+    /// Per surface, its bounds.
     pub(super) bodies: &'scene [Body],
-    /// Per surface, where the camera sees it.
+    /// Per surface, its footprint in the picture.
     pub(super) shown: &'scene [Shown],
-    /// Per material of the scene, what is left of it.
+    /// Per material of the scene, the simplified material.
     pub(super) materials: Vec<Standard>,
     /// Per texture, whether maps of it are folded into the factors.
     pub(super) folded: Vec<bool>,
-    /// Per light without extent.
+    /// Per punctual light.
     pub(super) lights: Vec<LightLeft>,
-    /// Whether anything arrives from where no surface stands.
+    /// Whether the environment emits light.
     pub(super) environment: bool,
     /// Per surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
-    /// How often a path may go on.
+    /// The maximum number of bounces.
     pub(super) max_depth: u32,
-    /// Whether a path that went on so often may still find light where it arrives.
+    /// Whether the last ray of a path may still find light.
     pub(super) last_ray: bool,
-    /// Whether lights are aimed at.
+    /// Whether lights are sampled.
     pub(super) aims: bool,
-    /// Whether anything may hide a light from a surface.
+    /// Whether any surface may shadow another.
     pub(super) shadows: bool,
 }
 
-/// What is left of a light.
+/// The part of a light that is still in the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LightLeft {
-    /// Nothing: it is no light.
+    /// Nothing: the light is removed.
     Nothing,
-    /// Its place in the choice of lights; it reaches no surface.
+    /// Its index in the light distribution; it reaches no surface.
     Place,
     /// All of it.
     All,
@@ -58,7 +58,7 @@ pub enum LightLeft {
 /// A rule that was applied.
 pub(super) struct Applied {
     pub(super) rule: &'static PathRule,
-    /// The effects that the picture can do without from then on.
+    /// The effects that are not needed after this rule.
     pub(super) spared: Vec<Effect>,
     /// The values that decided.
     pub(super) places: Vec<Place>,
@@ -86,7 +86,7 @@ impl Draft<'_> {
         })
     }
 
-    /// The materials of which something is in the world, each with its index.
+    /// The materials with a surface in the world, each with its index.
     pub(super) fn used(&self) -> impl Iterator<Item = (usize, &Standard)> {
         let is_used = |material: &usize| {
             self.uses[*material]
@@ -99,7 +99,7 @@ impl Draft<'_> {
             .map(|index| (index, &self.materials[index]))
     }
 
-    /// Whether a material that scatters light has something.
+    /// Whether a material that scatters light has a property.
     fn any(&self, has: impl Fn(&Standard) -> bool) -> bool {
         self.max_depth > 0
             && self
@@ -112,7 +112,7 @@ impl Draft<'_> {
         self.max_depth > u32::from(!self.last_ray) && self.used().next().is_some()
     }
 
-    /// Whether what is left asks for an effect.
+    /// Whether the draft still asks for an effect.
     pub(super) fn asks(&self, effect: Effect) -> bool {
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
@@ -169,7 +169,7 @@ impl Draft<'_> {
         self.any(|_| true) && self.used_meshes().any(has)
     }
 
-    /// Whether any map is looked up: of normals, or of all else.
+    /// Whether any normal map, or any other map, is looked up.
     fn any_map(&self, of_normals: bool) -> bool {
         let is_of_normals = |material: &Standard, map: &Map| {
             let normals = [&material.normal_map, &material.clearcoat_normal_map];
@@ -178,7 +178,7 @@ impl Draft<'_> {
                 .flatten()
                 .any(|normal| std::ptr::eq(normal, map))
         };
-        // A normal map of one value still bends the normals.
+        // A constant normal map still changes the normals.
         let is_looked_up = |index: usize, map: &Map| of_normals || !self.is_folded(index, map);
         self.used().any(|(index, material)| {
             let mut maps = material.maps();
@@ -186,43 +186,43 @@ impl Draft<'_> {
         })
     }
 
-    /// Whether a map of a material is a value, known when the world is made.
+    /// Whether a map of a material is folded into a constant.
     pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
         let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
         has_places && self.folded[map.texture]
     }
 
-    /// Whether a map could be folded.
+    /// Whether a map is constant, so that it could be folded.
     pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
         let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
         has_places && is_even(map, self.scene)
     }
 
-    /// The least and the greatest of a channel of a map; ones where there is none.
+    /// The minimum and maximum of a channel of a map; ones without a map.
     pub(super) fn channel(&self, material: usize, map: Option<&Map>, channel: usize) -> [f64; 2] {
         map.map_or([1.0; 2], |map| {
             self.uses[material].range(map, self.scene)[channel]
         })
     }
 
-    /// Whether there is a light to aim at, and a surface that scatters so widely that aiming helps.
+    /// Whether there is a light to sample, and a surface with a lobe that is not a delta lobe.
     fn aims_at_lights(&self) -> bool {
         self.aims && self.max_depth > 0 && self.any(|_| true) && self.has_light_to_aim_at()
     }
 
-    /// Whether the choice of lights holds one that may reach a surface.
+    /// Whether the light distribution has a light that may reach a surface.
     fn has_light_to_aim_at(&self) -> bool {
         self.lights.contains(&LightLeft::All) || self.has_extended_light()
     }
 
-    /// Whether there is a light that aiming and scattering both find: an image of the surroundings,
-    /// or triangles that shine.
+    /// Whether there is a light that both light sampling and BSDF sampling find: an environment
+    /// image, or emissive triangles.
     fn has_extended_light(&self) -> bool {
         let has_image = self.scene.environment().image.is_some();
         (self.environment && has_image) || self.shines_somewhere()
     }
 
-    /// Whether a mesh shines.
+    /// Whether a mesh has an emissive material.
     fn shines_somewhere(&self) -> bool {
         let shines = |material: usize| {
             let material = &self.materials[material];
@@ -239,7 +239,7 @@ impl Draft<'_> {
     }
 }
 
-/// Whether a material asks for an effect; of effects that are not of a material, no.
+/// Whether a material asks for an effect; false for effects that no material has.
 pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
     let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
     match effect {

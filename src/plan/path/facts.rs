@@ -1,24 +1,24 @@
-//! What is known of a scene before any rule: which surfaces are made of which material, where on
-//! their textures they lie, and what those textures show there.
+//! Facts of a scene before any rule: the surfaces of each material, their texture coordinates, and
+//! the values of their textures there.
 
 use super::texture::{Area, show};
 use crate::math::{UnitInterval, Vec3};
 use crate::valid::{Map, Proof, Shape, Standard};
 
-/// What the surfaces of one material have in common.
+/// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]
 pub(super) struct Uses {
     /// The surfaces, as indices into those of the scene.
     pub(super) surfaces: Vec<usize>,
-    /// Of each set of texture coordinates, on which of them it exists.
+    /// Per set of texture coordinates, the surfaces that have it.
     pub(super) sets: [Presence; 2],
-    /// Of each set, the rectangle that all coordinates lie in.
+    /// Per set, the bounding rectangle of all coordinates.
     areas: [Area; 2],
-    /// The least alpha of colours at corners.
+    /// The minimum alpha of the vertex colours.
     pub(super) least_alpha: f64,
 }
 
-/// On which surfaces of a material something exists.
+/// Whether all, some or none of a material's surfaces have a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Presence {
     Never,
@@ -68,20 +68,20 @@ impl Uses {
         self.surfaces.push(surface);
     }
 
-    /// The least and the greatest that a map shows on these surfaces, channel by channel, each
+    /// The least and the largest that a map shows on these surfaces, channel by channel, each
     /// colour channel as it is stored.
     pub(super) fn range(&self, map: &Map, scene: &Proof) -> [[f64; 2]; 4] {
         let set = map.set.index();
         let mut range = show(map, self.areas[set], scene);
         if self.sets[set] != Presence::Everywhere {
-            // Without coordinates a map shows ones.
-            range = range.map(|[least, greatest]| [least.min(1.0), greatest.max(1.0)]);
+            // Without texture coordinates, a map is 1.
+            range = range.map(|[min, max]| [min.min(1.0), max.max(1.0)]);
         }
         range
     }
 }
 
-/// Where the texture coordinates of a shape lie, of both sets.
+/// The bounds of the texture coordinates of a shape, for both sets.
 fn areas(shape: &Shape, scene: &Proof) -> [Option<Area>; 2] {
     match shape {
         Shape::Sphere(_) | Shape::Quad(_) => [Some(Area::UNIT), None],
@@ -107,10 +107,9 @@ fn areas(shape: &Shape, scene: &Proof) -> [Option<Area>; 2] {
     }
 }
 
-/// Whether a material scatters all light into single directions, so that no light can be aimed at:
-/// smooth, and without a base below the boundary.
+/// Whether all lobes of a material are delta lobes: it is smooth and has no diffuse base.
 ///
-/// Not where light that bounces between microfacets is added, which is never a single direction.
+/// The compensation for multiple bounces between microfacets is never a delta lobe.
 pub(super) fn is_delta(m: &Standard, multiple_scattering: bool) -> bool {
     let is_0 = |number: UnitInterval| number == UnitInterval::ZERO;
     let is_1 = |number: UnitInterval| number == UnitInterval::ONE;

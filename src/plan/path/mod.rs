@@ -1,8 +1,8 @@
-//! The plan of traced paths: what of its materials, lights and steps a picture needs.
+//! The plan of traced paths: the materials, lights and steps that a picture needs.
 //!
-//! Rules work on a draft, which starts as all that the scene asks for. An effect that the scene
-//! never asked for is absent; one that it asked for until a rule was applied is pruned by that rule;
-//! all others are needed. So no verdict can say other than what the integrator is given.
+//! Rules work on a draft that starts with everything the scene asks for. An effect is absent if the
+//! scene never asked for it, pruned if a rule removed it, and needed otherwise. So the verdicts
+//! always agree with the work that the integrator gets.
 
 mod draft;
 mod facts;
@@ -19,48 +19,48 @@ use super::features::PathFeatures;
 use super::rules::Rules;
 use super::window::{Shown, Window};
 use crate::math::Vec3;
-use crate::valid::{Map, Path, Projection, Proof, Standard};
+use crate::valid::{Map, PathSettings, Projection, Proof, Standard};
 use draft::{Applied, Draft};
 use facts::Uses;
 
 /// The work that traced paths need.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathPlan {
-    /// Per material of the scene, what is left of it.
+    /// Per material of the scene, the simplified material.
     pub materials: Vec<Standard>,
-    /// Per material, the textures whose maps are values, by their index.
+    /// Per material, the indices of the textures that are folded into constants.
     folded: Vec<Vec<usize>>,
-    /// Per light without extent.
+    /// Per punctual light.
     pub lights: Vec<LightLeft>,
-    /// Whether anything arrives from where no surface stands.
+    /// Whether the environment emits light.
     pub environment: bool,
-    /// Whether a path that went on as often as it may can still find light.
+    /// Whether the last ray of a path may still find light.
     pub last_ray: bool,
-    /// What the integrator must be able to do.
+    /// The features that the integrator needs.
     pub features: PathFeatures,
 }
 
 impl PathPlan {
-    /// Whether a map of a material shows one value on all its surfaces, and is to be folded into
-    /// the factor when the scene is prepared.
+    /// Whether a map of a material is constant on all its surfaces, so that preparation folds it
+    /// into the factor.
     #[must_use]
     pub fn is_folded(&self, material: usize, map: &Map) -> bool {
         self.folded[material].contains(&map.texture)
     }
 }
 
-/// What the rules given leave of a scene.
+/// The scene after the rules.
 pub(super) struct Planned {
     pub(super) plan: PathPlan,
     /// Per surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
-    /// How often a path may go on.
+    /// The maximum number of bounces.
     pub(super) max_depth: u32,
     pub(super) verdicts: Vec<Verdict>,
 }
 
 /// Plans the paths of a scene.
-pub(super) fn plan(scene: &Proof, path: Path, rules: Rules) -> Planned {
+pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
     let (uses, bodies) = (Uses::of(scene), bodies(scene));
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
@@ -116,7 +116,7 @@ pub(super) fn plan(scene: &Proof, path: Path, rules: Rules) -> Planned {
     }
 }
 
-/// Applies the rules until none of them changes anything: each takes something out, so this ends.
+/// Applies the rules until none changes the draft. Every change removes something, so this ends.
 fn apply(draft: &mut Draft<'_>, rules: Rules) -> Vec<Applied> {
     let mut applied = Vec::new();
     loop {
@@ -132,7 +132,7 @@ fn apply(draft: &mut Draft<'_>, rules: Rules) -> Vec<Applied> {
     }
 }
 
-/// What an integrator must be able to do for what is left.
+/// The features that the integrator needs for the draft.
 fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
     if rules == Rules::NONE {
         return PathFeatures::EVERYTHING;

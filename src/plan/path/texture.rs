@@ -1,34 +1,34 @@
-//! What textures can show within a rectangle of texture coordinates.
+//! Bounds on the values of a texture within a rectangle of texture coordinates.
 
 use crate::image::Texel;
 use crate::valid::{Image, Map, Proof, Texture, Wrap};
 use std::ops::Range;
 
-/// A rectangle of texture coordinates, from the least to the greatest of each.
+/// A rectangle of texture coordinates, from minimum to maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Area([[f64; 2]; 2]);
 
-/// Texels around an area that rounding may reach, and neighbours that filtering blends in.
+/// The margin in texels, for rounding and for the neighbours that filters blend in.
 const MARGIN: f64 = 2.0;
 
-/// Beyond this many repetitions an area is taken for all of an image.
+/// An area of more repetitions than this counts as the whole image.
 const FAR: f64 = 1e6;
 
 impl Area {
-    /// The area of no place.
+    /// The empty area.
     pub(super) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
 
     /// The unit square.
     pub(super) const UNIT: Self = Self([[0.0, 1.0]; 2]);
 
-    /// The smallest one around places.
+    /// The bounding rectangle of points.
     pub(super) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
         places.fold(Self::NONE, |area, [u, v]| {
             area.around(Self([[u, u], [v, v]]))
         })
     }
 
-    /// The smallest one around this and another.
+    /// The union with another area.
     pub(super) fn around(self, Self(other): Self) -> Self {
         let Self(own) = self;
         Self([0, 1].map(|axis| {
@@ -37,7 +37,7 @@ impl Area {
         }))
     }
 
-    /// The area that an affine map sends this into; rows are `(a, b, c)` for `a·u + b·v + c`.
+    /// The bounds of the area after an affine map with the rows `(a, b, c)` for `a·u + b·v + c`.
     fn mapped(self, rows: &[[f64; 3]; 2]) -> Self {
         let Self([[u0, u1], [v0, v1]]) = self;
         let corners = [[u0, v0], [u1, v0], [u0, v1], [u1, v1]];
@@ -46,7 +46,7 @@ impl Area {
     }
 }
 
-/// The least and the greatest that a map shows on an area, channel by channel (red, green, blue,
+/// The least and the largest that a map shows on an area, channel by channel (red, green, blue,
 /// alpha), bytes in units of 255, colours as they are stored; what filtering blends lies between.
 pub(super) fn show(map: &Map, area: Area, scene: &Proof) -> [[f64; 2]; 4] {
     let area = area.mapped(&map.texture_from_surface);
@@ -66,7 +66,7 @@ pub(super) fn show(map: &Map, area: Area, scene: &Proof) -> [[f64; 2]; 4] {
     }
 }
 
-/// Whether a map shows the same everywhere.
+/// Whether a map is constant.
 pub(super) fn is_even(map: &Map, scene: &Proof) -> bool {
     match &scene.textures()[map.texture] {
         Texture::Uv => false,
@@ -93,13 +93,13 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     if wrap != Wrap::Clamp && (first < 0.0 || last > size) {
         return 0..count;
     }
-    // Beyond the edge a clamped image shows its outermost texels.
+    // Outside of the unit square, a clamped image repeats its outermost texels.
     let first = first.clamp(0.0, size - 1.0).floor() as u32;
     let last = last.clamp(1.0, size).ceil() as u32;
     first..last.max(first + 1)
 }
 
-/// The least and the greatest of each channel of a part of an image.
+/// The least and the largest of each channel of a part of an image.
 fn extremes(image: &Image, columns: Range<u32>, rows: Range<u32>) -> [[f64; 2]; 4] {
     let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
     for row in rows {

@@ -1,4 +1,4 @@
-//! What became of each effect of traced paths, told by what is left of the scene.
+//! The verdict on each effect of traced paths, derived from the final draft.
 
 use super::draft::{Applied, Draft, is_asked_by};
 use crate::ir::{Field, Noun, Place};
@@ -131,7 +131,7 @@ impl Draft<'_> {
         }
     }
 
-    /// The values by which an effect is needed.
+    /// The values that make an effect necessary.
     fn places(&self, effect: Effect) -> Vec<Place> {
         let material = |index| Place::new(Noun::Material, index, Field::Whole);
         let materials: Vec<_> = self

@@ -5,7 +5,7 @@ use crate::ir::{Field, Place};
 use crate::plan::effect::{Effect, Verdict};
 use crate::plan::light::Shadow;
 use crate::plan::rules::Rule;
-use crate::plan::{Findings, Look};
+use crate::plan::{Findings, MaterialSummary};
 use crate::valid::Mode;
 
 pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
@@ -61,7 +61,7 @@ fn direct(findings: &Findings<'_>) -> Verdict {
         );
     }
     let needed = findings.lights.plans.iter().position(|light| light.direct);
-    match needed.zip(findings.first(Look::is_lit)) {
+    match needed.zip(findings.first(MaterialSummary::is_lit)) {
         Some((index, surface)) => {
             let count = findings
                 .lights
@@ -137,7 +137,7 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
         };
         return Verdict::needed(effect, words, facts);
     }
-    let lit = findings.first(|look| findings.is_lit(look));
+    let lit = findings.first(|summary| findings.is_lit(summary));
     let Some(surface) = lit else {
         return Verdict::pruned(
             effect,
@@ -214,14 +214,14 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
             .by_mode(effect, any_ks)
             .unwrap_or_else(|| Verdict::absent(effect, "", vec![]));
     }
-    if let Some(surface) = findings.first(|look| look.shines && findings.is_lit(look)) {
+    if let Some(surface) = findings.first(|summary| summary.shines && findings.is_lit(summary)) {
         let facts = vec![
             findings.material(surface, Field::Ks),
             findings.surface(surface, Field::Whole),
         ];
         return Verdict::needed(effect, "ks > 0 on a surface that can be seen", facts);
     }
-    if findings.any(|look| look.shines) {
+    if findings.any(|summary| summary.shines) {
         let rule = findings
             .lights
             .rules
@@ -237,7 +237,7 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
             vec![],
         );
     }
-    let unseen = findings.first_unseen(|look| look.shines);
+    let unseen = findings.first_unseen(|summary| summary.shines);
     if let Some(surface) = unseen.filter(|_| findings.facts.rules.contains(Rule::Cull)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
         return Verdict::pruned(effect, Rule::Cull, "nothing with ks > 0 can be seen", facts);
@@ -255,9 +255,9 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
 
 /// Materials that show somewhere, but never a highlight, beside others that do.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
-    let is_needed = findings.is_shaded() && findings.any(|look| look.shines);
+    let is_needed = findings.is_shaded() && findings.any(|summary| summary.shines);
     let surfaces = findings
-        .materials_without(|look| look.shines)
+        .materials_without(|summary| summary.shines)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];

@@ -4,7 +4,7 @@ use super::{MAX_DETAILS, few, settings};
 use crate::ir::Field;
 use crate::plan::effect::{Effect, Verdict};
 use crate::plan::rules::Rule;
-use crate::plan::{Findings, Look};
+use crate::plan::{Findings, MaterialSummary};
 use crate::valid::Phong;
 
 pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
@@ -37,7 +37,7 @@ fn no_bounce(
             Verdict::absent(effect, words, facts).by(Rule::MirrorDepth)
         });
     }
-    if findings.any(Look::mirrors) && findings.reach.depth > 0 {
+    if findings.any(MaterialSummary::mirrors) && findings.visibility.depth > 0 {
         return Some(Verdict::pruned(
             effect,
             Rule::Cut,
@@ -50,7 +50,7 @@ fn no_bounce(
 
 /// Why there is nothing to see in mirrors, where bounces are allowed.
 fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
-    if let Some(mirror) = findings.first(Look::mirrors) {
+    if let Some(mirror) = findings.first(MaterialSummary::mirrors) {
         let facts = vec![
             findings.surface(mirror, Field::Whole),
             findings.material(mirror, Field::Ks),
@@ -69,7 +69,10 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
         };
         return Verdict::pruned(effect, rule, words, facts);
     }
-    if let Some(mirror) = findings.first_unseen(Look::mirrors).filter(|_| asked) {
+    if let Some(mirror) = findings
+        .first_unseen(MaterialSummary::mirrors)
+        .filter(|_| asked)
+    {
         let facts = vec![findings.surface(mirror, Field::Whole)];
         return Verdict::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
     }
@@ -95,13 +98,13 @@ fn depth(findings: &Findings<'_>) -> Verdict {
     let mut facts = vec![settings(Field::MaxDepth)];
     facts.extend(
         findings
-            .first(Look::mirrors)
+            .first(MaterialSummary::mirrors)
             .map(|mirror| findings.surface(mirror, Field::Whole)),
     );
     let (planned, asked) = (findings.max_depth, findings.asked);
     let rest = asked - planned.min(asked);
     let bounces = if planned == 1 { "bounce" } else { "bounces" };
-    let words = match (rest, findings.reach.capped) {
+    let words = match (rest, findings.visibility.capped) {
         (0, true) => format!("{planned} {bounces}; too many mirrors to ask which sees which"),
         (0, false) => format!("{planned} {bounces}: mirrors show mirrors"),
         _ => format!("{planned} {bounces} of {asked}: no chain of mirrors is longer"),
@@ -109,7 +112,7 @@ fn depth(findings: &Findings<'_>) -> Verdict {
     let verdict = Verdict::needed(effect, words, facts);
     match rest {
         0 => verdict,
-        _ if findings.reach.depth > planned => verdict.by(Rule::Cut),
+        _ if findings.visibility.depth > planned => verdict.by(Rule::Cut),
         _ => verdict.by(Rule::MirrorUnreached),
     }
 }
@@ -119,13 +122,13 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
     if let Some(verdict) = no_bounce(findings, effect, |material| material.ks.get() > 0.0) {
         return verdict;
     }
-    match findings.first(Look::mirrors) {
+    match findings.first(MaterialSummary::mirrors) {
         Some(surface) => {
             let facts = vec![
                 findings.material(surface, Field::Ks),
                 findings.surface(surface, Field::Whole),
             ];
-            let shines = findings.facts.looks[surface].shines;
+            let shines = findings.facts.summaries[surface].shines;
             let words = if shines {
                 "ks > 0 on a surface that can be seen"
             } else {
@@ -144,9 +147,9 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
 
 /// Materials that show somewhere, but mirror nothing, beside others that do.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
-    let is_needed = findings.max_depth > 0 && findings.any(Look::mirrors);
+    let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::mirrors);
     let surfaces = findings
-        .materials_without(Look::mirrors)
+        .materials_without(MaterialSummary::mirrors)
         .filter(move |_| is_needed);
     surfaces.map(|surface| {
         let facts = vec![findings.material(surface, Field::Ks)];
@@ -168,7 +171,7 @@ fn glossy(findings: &Findings<'_>) -> Verdict {
     if let Some(verdict) = no_bounce(findings, effect, |_| true) {
         return verdict;
     }
-    match findings.first(|look| look.glossy && look.mirrors()) {
+    match findings.first(|summary| summary.glossy && summary.mirrors()) {
         Some(surface) => {
             let count = materials[findings.facts.scene.surfaces()[surface].material].glossy_samples;
             let facts = vec![
@@ -193,7 +196,7 @@ fn refraction(findings: &Findings<'_>) -> Verdict {
     if let Some(verdict) = no_bounce(findings, effect, |_| true) {
         return verdict;
     }
-    match findings.first(|look| look.refracts) {
+    match findings.first(|summary| summary.refracts) {
         Some(surface) => {
             let facts = vec![
                 findings.material(surface, Field::Kt),
@@ -202,7 +205,7 @@ fn refraction(findings: &Findings<'_>) -> Verdict {
             Verdict::needed(effect, "kt > 0 on a surface that can be seen", facts)
         }
         None => {
-            let unseen = findings.first_unseen(|look| look.refracts);
+            let unseen = findings.first_unseen(|summary| summary.refracts);
             let facts = few(unseen
                 .iter()
                 .map(|surface| findings.surface(*surface, Field::Whole)));

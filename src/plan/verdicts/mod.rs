@@ -8,7 +8,7 @@ mod picture;
 use super::effect::{Effect, State, Verdict};
 use super::region::Region;
 use super::rules::Rule;
-use super::{Findings, Look};
+use super::{Findings, MaterialSummary};
 use crate::ir::{Field, Noun, Place};
 use crate::valid::Mode;
 
@@ -108,25 +108,30 @@ impl Findings<'_> {
     }
 
     /// The first surface that is looked at and shows something.
-    fn first(&self, shows: impl Fn(&Look) -> bool) -> Option<usize> {
+    fn first(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         self.reached()
-            .find(|surface| shows(&self.facts.looks[*surface]))
+            .find(|surface| shows(&self.facts.summaries[*surface]))
     }
 
     /// The first surface that shows something but is not looked at.
-    fn first_unseen(&self, shows: impl Fn(&Look) -> bool) -> Option<usize> {
-        let mut surfaces = 0..self.facts.looks.len();
-        surfaces.find(|surface| !self.reach.reached[*surface] && shows(&self.facts.looks[*surface]))
+    fn first_unseen(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
+        let mut surfaces = 0..self.facts.summaries.len();
+        surfaces.find(|surface| {
+            !self.visibility.reached[*surface] && shows(&self.facts.summaries[*surface])
+        })
     }
 
     /// The materials of which no surface that is looked at shows something, each with such a
     /// surface.
-    fn materials_without(&self, shows: impl Fn(&Look) -> bool) -> impl Iterator<Item = usize> {
+    fn materials_without(
+        &self,
+        shows: impl Fn(&MaterialSummary) -> bool,
+    ) -> impl Iterator<Item = usize> {
         let mut without = vec![None; self.facts.materials.len()];
         for surface in self.reached() {
             let first =
                 without[self.facts.scene.surfaces()[surface].material].get_or_insert(Some(surface));
-            *first = first.filter(|_| !shows(&self.facts.looks[surface]));
+            *first = first.filter(|_| !shows(&self.facts.summaries[surface]));
         }
         without.into_iter().flatten().flatten()
     }

@@ -5,7 +5,7 @@ use crate::ir::Field;
 use crate::plan::effect::{Effect, Verdict};
 use crate::plan::region::Region;
 use crate::plan::rules::Rule;
-use crate::plan::{Findings, Look};
+use crate::plan::{Findings, MaterialSummary};
 use crate::valid::{Mode, Pattern};
 
 /// Depth and normal buffers, and the surfaces in the world.
@@ -31,14 +31,14 @@ pub(super) fn buffers(findings: &Findings<'_>, region: &Region) -> Vec<Verdict> 
 fn surfaces(findings: &Findings<'_>, region: &Region) -> Verdict {
     let count = findings.facts.bodies.len();
     let is_left_out =
-        |surface: usize| !findings.reach.reached[surface] && !findings.lights.casts[surface];
+        |surface: usize| !findings.visibility.reached[surface] && !findings.lights.casts[surface];
     let out = (0..count)
         .filter(|surface| is_left_out(*surface))
         .collect::<Vec<_>>();
     let places = few(out
         .iter()
         .map(|surface| findings.surface(*surface, Field::Whole)));
-    let empty = region.empty_share();
+    let empty = region.empty_fraction();
     if count == 0 {
         return Verdict::absent(Effect::Surfaces, "the scene has none", vec![]);
     }
@@ -86,14 +86,14 @@ pub(super) fn maps(findings: &Findings<'_>) -> Vec<Verdict> {
 
 fn textures(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Textures;
-    if let Some(surface) = findings.first(|look| findings.shows_color_map(look)) {
+    if let Some(surface) = findings.first(|summary| findings.shows_color_map(summary)) {
         let facts = vec![
             findings.material(surface, Field::ColorMap),
             findings.surface(surface, Field::Whole),
         ];
         return Verdict::needed(effect, "a texture gives the colour of a surface", facts);
     }
-    if let Some(surface) = findings.first(|look| findings.shows_specular_map(look)) {
+    if let Some(surface) = findings.first(|summary| findings.shows_specular_map(summary)) {
         let facts = vec![
             findings.material(surface, Field::SpecularMap),
             findings.surface(surface, Field::Whole),
@@ -118,7 +118,9 @@ fn textures(findings: &Findings<'_>) -> Verdict {
     }
     let is_constant =
         |map: Option<usize>| map.is_some_and(|map| findings.facts.constants[map].is_some());
-    let constant = |look: &Look| is_constant(look.color_map) || is_constant(look.specular_map);
+    let constant = |summary: &MaterialSummary| {
+        is_constant(summary.color_map) || is_constant(summary.specular_map)
+    };
     if let Some(surface) = findings.first(constant) {
         let facts = vec![findings.material(surface, Field::ColorMap)];
         return Verdict::pruned(
@@ -128,8 +130,8 @@ fn textures(findings: &Findings<'_>) -> Verdict {
             facts,
         );
     }
-    let unseen =
-        findings.first_unseen(|look| look.color_map.is_some() || look.specular_map.is_some());
+    let unseen = findings
+        .first_unseen(|summary| summary.color_map.is_some() || summary.specular_map.is_some());
     let facts = few(unseen
         .iter()
         .map(|surface| findings.surface(*surface, Field::Whole)));
@@ -141,16 +143,16 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::NormalInterpolation;
     let is_even = |surface: usize| findings.facts.is_even(surface);
     let shows = |surface: &usize| {
-        let look = &findings.facts.looks[*surface];
-        look.smooth && findings.shows_normal(look)
+        let summary = &findings.facts.summaries[*surface];
+        summary.smooth && findings.shows_normal(summary)
     };
     let mut smooth = findings.reached().filter(shows);
     if let Some(surface) = smooth.find(|surface| !is_even(*surface)) {
         let facts = vec![findings.surface(surface, Field::Whole)];
         return Verdict::needed(effect, "a mesh has normals at its corners", facts);
     }
-    let has_normals = |surface: &usize| findings.facts.looks[*surface].smooth;
-    let Some(surface) = (0..findings.facts.looks.len()).find(has_normals) else {
+    let has_normals = |surface: &usize| findings.facts.summaries[*surface].smooth;
+    let Some(surface) = (0..findings.facts.summaries.len()).find(has_normals) else {
         return Verdict::absent(effect, "no mesh has normals", vec![]);
     };
     let facts = vec![findings.surface(surface, Field::Whole)];
@@ -172,7 +174,9 @@ fn interpolation(findings: &Findings<'_>) -> Verdict {
 
 fn mapping(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::NormalMapping;
-    if let Some(surface) = findings.first(|look| look.mapped && findings.shows_normal(look)) {
+    if let Some(surface) =
+        findings.first(|summary| summary.mapped && findings.shows_normal(summary))
+    {
         let facts = vec![
             findings.material(surface, Field::NormalMap),
             findings.surface(surface, Field::Whole),

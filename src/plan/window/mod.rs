@@ -3,7 +3,7 @@
 
 use crate::math::{U, Vec3, cross, dot};
 use crate::plan::body::{Body, Extent};
-use crate::plan::space::{ROOM, Space};
+use crate::plan::space::{MARGIN, Space};
 use crate::valid::Camera;
 
 /// How far rounding may move what a pixel shows, in pixels, before nothing is said of it.
@@ -70,7 +70,8 @@ impl Window {
         let reach = camera.eye.abs().max(camera.center.abs()).max_element()
             + right * size[0]
             + up * size[1];
-        let blurred = 64.0 * U * reach > DOUBT * right.min(up) || U * reach > ROOM * distance.abs();
+        let blurred =
+            64.0 * U * reach > DOUBT * right.min(up) || U * reach > MARGIN * distance.abs();
         let depth = normal / distance;
         let far =
             lens.iter().map(|from| from.length()).fold(0.0, f64::max) + camera.center.length();
@@ -106,30 +107,30 @@ impl Window {
     pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.size();
         let depth = (point - self.camera.eye).dot(self.depth);
-        let doubt = 64.0 * U * size * self.steepness;
-        let (at, error) = self.place(self.camera.eye, point, depth, doubt);
-        (!self.blurred && depth > 16.0 * doubt && error <= DOUBT).then_some(at)
+        let error_bound = 64.0 * U * size * self.steepness;
+        let (at, error) = self.place(self.camera.eye, point, depth, error_bound);
+        (!self.blurred && depth > 16.0 * error_bound && error <= DOUBT).then_some(at)
     }
 
     /// The rectangle of a box: the hull of its corners, seen from the corners of the lens.
     fn project(&self, space: &Space) -> Shown {
         let size = space.size() + self.lens_box.size();
-        let space = space.grown(ROOM * size);
+        let space = space.grown(MARGIN * size);
         let depths = space
             .corners()
             .map(|corner| (corner - self.camera.eye).dot(self.depth));
-        let doubt = 64.0 * U * size * self.steepness;
-        if depths.iter().all(|depth| *depth < -doubt) {
+        let error_bound = 64.0 * U * size * self.steepness;
+        if depths.iter().all(|depth| *depth < -error_bound) {
             return Shown::Nowhere;
         }
-        if depths.iter().any(|depth| *depth <= 16.0 * doubt) {
+        if depths.iter().any(|depth| *depth <= 16.0 * error_bound) {
             return Shown::Anywhere;
         }
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for (corner, depth) in space.corners().into_iter().zip(depths) {
             for from in &self.lens {
-                let (at, error) = self.place(*from, corner, depth, doubt);
+                let (at, error) = self.place(*from, corner, depth, error_bound);
                 if error.is_nan() || error > DOUBT {
                     return Shown::Anywhere;
                 }
@@ -142,7 +143,7 @@ impl Window {
 
     /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on
     /// its error.
-    fn place(&self, from: Vec3, point: Vec3, depth: f64, doubt: f64) -> ([f64; 2], f64) {
+    fn place(&self, from: Vec3, point: Vec3, depth: f64, error_bound: f64) -> ([f64; 2], f64) {
         /// The steps of a camera are at a right angle to within this.
         const RIGHT_ANGLE: f64 = 1e-9;
         let Camera {
@@ -153,7 +154,7 @@ impl Window {
         let [across_step, upward_step] = self.steps;
         let across = on_plane.dot(*right) / (across_step * across_step);
         let upward = on_plane.dot(*up) / (upward_step * upward_step);
-        let error = (doubt / depth + 16.0 * U) * away.length() + 16.0 * U * self.far;
+        let error = (error_bound / depth + 16.0 * U) * away.length() + 16.0 * U * self.far;
         let skew = RIGHT_ANGLE * (across.abs() + upward.abs()) * (across_step + upward_step);
         let at = [across + self.size[0] / 2.0, self.size[1] / 2.0 - upward];
         (at, (error + skew) / across_step.min(upward_step))

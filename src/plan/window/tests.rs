@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::NonNegative;
-use crate::plan::body::Form;
+use crate::plan::body::BodyForm;
 use crate::plan::space::tests::{has_margin, span};
 use crate::valid::{Lens, Projection};
 use std::num::NonZeroU32;
@@ -41,7 +41,7 @@ fn shown(window: &Window, center: Vec3, reach: f64) -> Shown {
     let space = Space::around(center, Vec3::splat(reach));
     window.shown(&Body {
         extent: Extent::Within(space),
-        form: Form::Other,
+        form: BodyForm::Other,
     })
 }
 
@@ -111,10 +111,10 @@ fn a_picture_is_blurred_where_rounding_is_a_part_of_a_pixel_or_of_the_way_to_it(
     has_margin(0.25, |up| !steps([4.0, up]).blurred);
     has_margin(0.25, |right| !steps([right, 4.0]).blurred);
     // 30 aside, and the picture is 50 and 20 large.
-    has_margin(100.0 * U / ROOM, |z| {
+    has_margin(100.0 * U / MARGIN, |z| {
         !pinhole([30.0, 0.0, z], [30.0, 0.0, 0.0], [0.5, 0.25]).blurred
     });
-    has_margin(100.0 * U / ROOM, |z| {
+    has_margin(100.0 * U / MARGIN, |z| {
         !pinhole([0.0, 0.0, 0.0], [0.0, -30.0, z], [0.5, 0.25]).blurred
     });
 }
@@ -149,17 +149,17 @@ fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_de
         let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
         beside(1e6).shown(&Body {
             extent,
-            form: Form::Other,
+            form: BodyForm::Other,
         })
     };
-    has_margin(200.0 * ROOM + 16.0 * 64.0 * 200.0 * U, |z| {
+    has_margin(200.0 * MARGIN + 16.0 * 64.0 * 200.0 * U, |z| {
         shown(-100.0, -z) != Shown::Anywhere
     });
-    has_margin(200.0 * ROOM + 64.0 * 200.0 * U, |z| {
+    has_margin(200.0 * MARGIN + 64.0 * 200.0 * U, |z| {
         shown(z, 100.0) == Shown::Nowhere
     });
     assert_eq!(
-        shown(200.0 * ROOM + 64.0 * 200.0 * U, 100.0),
+        shown(200.0 * MARGIN + 64.0 * 200.0 * U, 100.0),
         Shown::Anywhere,
         "in doubt"
     );
@@ -169,8 +169,8 @@ fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_de
 fn the_place_of_a_point_has_its_rounding_and_that_of_the_steps() {
     let window = pinhole([0.0, 0.0, 100.0], [0.0; 3], [0.5, 0.25]);
     let from = Vec3::new(1.0, 2.0, 0.0);
-    let place = |away: [f64; 3], doubt: f64| {
-        window.place(from, from + Vec3::from_array(away) * 0.5, 0.5, doubt)
+    let place = |away: [f64; 3], error_bound: f64| {
+        window.place(from, from + Vec3::from_array(away) * 0.5, 0.5, error_bound)
     };
     let is_near = |found: f64, wanted: f64| {
         assert!(

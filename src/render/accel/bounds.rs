@@ -155,9 +155,9 @@ mod tests {
     /// A triangle, and a ray that aims at its inside, at an edge, or at a corner by turns.
     fn aimed(family: usize, index: u64) -> (Triangle, Ray) {
         let key = Key::new([u32::try_from(family).unwrap(), 5], index);
-        let cube =
+        let frame =
             |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
-        let mut points = [cube(0), cube(3), cube(6), cube(9) * 4.0];
+        let mut points = [frame(0), frame(3), frame(6), frame(9) * 4.0];
         match family {
             1 => points[..3].iter_mut().for_each(|point| point.z = 0.25),
             2 => {

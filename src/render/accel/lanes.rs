@@ -21,12 +21,12 @@ const FLOOR: f64 = 1.0 / 68_719_476_736.0;
 
 /// Where the cube [−1, 1]³ lies in space.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Cube {
+pub(in crate::render) struct QuantizationFrame {
     center: Vec3,
     /// A power of two.
     scale: f64,
     /// How far rounding may have moved a corner, in the cube.
-    blur: f64,
+    error_bound: f64,
 }
 
 /// Four boxes: for each axis the lower and the upper ends.
@@ -35,12 +35,12 @@ pub(in crate::render) type Boxes = [[Lanes; 2]; 3];
 /// Four triangles: for each corner its coordinates.
 pub(in crate::render) type Corners = [[Lanes; 3]; 3];
 
-impl Cube {
+impl QuantizationFrame {
     /// The cube around some boxes, not far larger than needed and finest where most of them are;
-    /// `blur` bounds the error of the corners of what is in them.
+    /// `error_bound` bounds the error of the corners of what is in them.
     pub(in crate::render) fn around(
         boxes: impl Iterator<Item = Bounds> + Clone,
-        blur: f64,
+        error_bound: f64,
     ) -> Self {
         let count = boxes.clone().count() as f64;
         let center = boxes
@@ -63,7 +63,7 @@ impl Cube {
         Self {
             center,
             scale,
-            blur: blur * scale,
+            error_bound: error_bound * scale,
         }
     }
 
@@ -148,7 +148,7 @@ impl Beam {
         clippy::cast_possible_truncation,
         reason = "single precision is meant; errors are bounded"
     )]
-    pub(in crate::render) fn new(cube: &Cube, ray: &Ray) -> Result<Self, NoBeam> {
+    pub(in crate::render) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
         let size = ray.direction.abs();
         let speed = size.max_element();
         let main = if size.x == speed {
@@ -158,9 +158,9 @@ impl Beam {
         };
         let mut direction = ray.direction * speed.recip();
         direction[main] = 1.0_f64.copysign(ray.direction[main]);
-        let far = cube.enter(ray.origin);
+        let far = frame.enter(ray.origin);
         let distance = far.abs().max_element();
-        let rate = speed * cube.scale;
+        let rate = speed * frame.scale;
         if !(direction.is_finite() && distance < 1e30 && rate.is_normal()) {
             return Err(NoBeam::Untold);
         }
@@ -189,7 +189,7 @@ impl Beam {
             axes,
             main: splat(direction[main]),
             slopes: [splat(direction[axes[0]]), splat(direction[axes[1]])],
-            error: (10.0 * ROUND * (1.0 + reach) + 2.0 * base + 2.0 * cube.blur) as f32,
+            error: (10.0 * ROUND * (1.0 + reach) + 2.0 * base + 2.0 * frame.error_bound) as f32,
             rate,
             start,
         })
@@ -250,8 +250,8 @@ impl Beam {
         let size_of = |corner: [Lanes; 3]| corner[0].abs().max(corner[1].abs());
         let size = size_of(a).max(size_of(b)).max(size_of(c)) + error;
         let bound = size * (size * (8.0 * f32::EPSILON) + error * 6.0);
-        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-        let outside = least.cmplt(-bound) & greatest.cmpgt(bound);
+        let (min, max) = (u.min(v).min(w), u.max(v).max(w));
+        let outside = min.cmplt(-bound) & max.cmpgt(bound);
         let (nearest, farthest) = (a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2]));
         let beyond =
             (nearest - error).cmpgt(Lanes::splat(limit)) | (farthest + error).cmplt(Lanes::ZERO);

@@ -1,7 +1,6 @@
-//! Directional albedos: how much of a uniform sky a lobe sends to the viewer, as tables over cosine
-//! and roughness.
+//! Directional albedos of the lobes, tabulated over cosine and roughness.
 //!
-//! They are integrated when first needed, by the very formulas that shade; no number is stored.
+//! The tables are integrated at first use, by the same functions that shade.
 
 use super::fresnel::schlick;
 use super::ggx::Ggx;
@@ -93,9 +92,9 @@ impl Tables {
 }
 
 fn table(entry: impl Fn(f64, f64) -> [f64; 2]) -> Vec<[f64; 2]> {
-    let share = |k: usize, count: usize| k as f64 / (count - 1) as f64;
-    let cosine = |k: usize| (share(k, COSINES) * share(k, COSINES)).max(1e-6);
-    let row = |r: usize| (0..COSINES).map(move |k| (share(r, ROUGHNESSES), cosine(k)));
+    let fraction = |k: usize, count: usize| k as f64 / (count - 1) as f64;
+    let cosine = |k: usize| (fraction(k, COSINES) * fraction(k, COSINES)).max(1e-6);
+    let row = |r: usize| (0..COSINES).map(move |k| (fraction(r, ROUGHNESSES), cosine(k)));
     (0..ROUGHNESSES)
         .flat_map(row)
         .map(|(roughness, cosine)| entry(roughness, cosine))
@@ -114,8 +113,9 @@ fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
     for k in 0..NORMALS {
         let k = f64::from(k) + 0.5;
-        // More of the slopes in the long tail, each of which counts less.
+        // Place more samples in the long tail of the slopes, with smaller weights.
         let rest = 1.0 - k / f64::from(NORMALS);
+        // Sample a visible normal, and reflect.
         let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
         let cosine = wo.dot(h);
         let wi = h * (2.0 * cosine) - wo;
@@ -129,7 +129,7 @@ fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
     sum.map(|part| part / f64::from(NORMALS))
 }
 
-/// Bilinear between the four entries around.
+/// Interpolates bilinearly between four entries.
 fn look_up(table: &[[f64; 2]], roughness: f64, cosine: f64) -> [f64; 2] {
     let (row, rest) = place(roughness, ROUGHNESSES);
     let low = between(&table[row * COSINES..][..COSINES], cosine);
@@ -142,14 +142,14 @@ fn between(row: &[[f64; 2]], cosine: f64) -> [f64; 2] {
     [0, 1].map(|part| row[k][part] * (1.0 - rest) + row[k + 1][part] * rest)
 }
 
-/// The entry at or before a number in [0, 1], with one after it, and how far the number is beyond.
+/// The index of the entry below a number in [0, 1], and the interpolation weight of the next.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "clamped to the table"
 )]
-fn place(share: f64, count: usize) -> (usize, f64) {
-    let scaled = share.clamp(0.0, 1.0) * (count - 1) as f64;
+fn place(fraction: f64, count: usize) -> (usize, f64) {
+    let scaled = fraction.clamp(0.0, 1.0) * (count - 1) as f64;
     let entry = (scaled as usize).min(count - 2);
     (entry, scaled - entry as f64)
 }

@@ -11,22 +11,22 @@ pub(super) struct Coat {
     basis: Basis,
     ggx: Ggx,
     wo: Vec3,
-    /// The share of light it reflects: the cover times Schlick's reflectance at index 1.5 for the
-    /// viewer.
-    pub(super) share: f64,
+    /// The fraction of light it reflects: the cover times Schlick's reflectance at index 1.5 for
+    /// the viewer.
+    pub(super) weight: f64,
 }
 
 impl Coat {
-    /// `None` if the viewer sees nothing of it.
+    /// The coat for one viewer; `None` if the viewer cannot see it.
     pub(super) fn new(clearcoat: &Clearcoat, normal: Vec3, wo: Vec3) -> Option<Self> {
         let basis = Basis::around(normal);
         let wo = basis.to_local(wo);
-        let share = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
-        (wo.z > 0.0 && share > 0.0).then(|| Self {
+        let weight = clearcoat.factor * (0.04 + 0.96 * schlick(wo.z));
+        (wo.z > 0.0 && weight > 0.0).then(|| Self {
             basis,
             ggx: Ggx::isotropic(clearcoat.roughness),
             wo,
-            share,
+            weight,
         })
     }
 
@@ -46,7 +46,7 @@ impl Coat {
         (f, self.ggx.visible_density(self.wo, h) / 4.0)
     }
 
-    /// A direction that it reflects to the viewer.
+    /// Samples a direction that the coat reflects to the viewer.
     pub(super) fn sample(&self, u: [f64; 2]) -> Vec3 {
         let h = if self.is_smooth() {
             Vec3::Z

@@ -1,8 +1,8 @@
 //! The light that leaves a rough surface after more than one bounce between microfacets.
 //!
 //! Kulla, Conty, "Revisiting physically based shading at Imageworks" (2017): a diffuse lobe that
-//! returns exactly what the single bounce loses, and a diffuse base under the reflection that gets
-//! exactly what both leave. Both are reciprocal; a white surface in a white sky is white.
+//! returns exactly the energy that single bounces lose, and a diffuse base that receives exactly
+//! the energy that both lobes leave. Both are reciprocal; a white surface in a white sky is white.
 
 use super::albedo::{Split, tables};
 use super::fresnel::Fresnel;
@@ -16,12 +16,12 @@ pub(super) struct Compensation {
     /// 1 − E(μ) for the viewer and in the mean.
     missing: f64,
     missing_mean: f64,
-    /// How much of what is missing comes back.
+    /// The fraction of the missing energy that multiple bounces return.
     returned: Vec3,
     base: Base,
 }
 
-/// What the dielectric reflection leaves for the diffuse base.
+/// The energy that the dielectric reflection leaves to the diffuse base.
 #[derive(Clone, Copy, Debug)]
 struct Base {
     f0: f64,
@@ -32,14 +32,14 @@ struct Base {
 }
 
 impl Base {
-    /// The albedo of the base's cover.
+    /// The albedo of the reflection above the base.
     fn covered(&self, e: Split) -> f64 {
         self.f0 * e.e0 + self.f90 * e.e90 + self.returned * (1.0 - e.whole())
     }
 }
 
-/// How much of the light that bounces on comes out: `F²·E/(1 − F·(1 − E))` with the means of F and
-/// E.
+/// The fraction of multiply scattered light that leaves the surface: `F²·E/(1 − F·(1 − E))` with
+/// the means of F and E.
 fn returned(mean: Vec3, missing: f64) -> Vec3 {
     let whole = mean * mean * (1.0 - missing) / (Vec3::ONE - mean * missing);
     whole.clamp(Vec3::ZERO, Vec3::ONE)
@@ -55,10 +55,12 @@ impl Compensation {
         metal: &Fresnel,
         metallic: f64,
     ) -> Self {
+        // Look up the directional and the mean albedo.
         let (e, mean) = (
             tables().specular(roughness, cosine),
             tables().specular_mean(roughness),
         );
+        // Return the energy that a single bounce loses.
         let missing_mean = 1.0 - mean.whole();
         let from_dielectric = returned(dielectric.mean(), missing_mean);
         let from_metal = if metallic > 0.0 {
@@ -104,19 +106,19 @@ impl Compensation {
     #[must_use]
     pub(super) fn f(&self, base: Vec3, cosine: f64) -> Vec3 {
         let e = tables().specular(self.roughness, cosine);
-        let share = |here: f64, there: f64, mean: f64| {
+        let fraction = |here: f64, there: f64, mean: f64| {
             if mean > 0.0 {
                 here * there / (mean * PI)
             } else {
                 0.0
             }
         };
-        let below = share(
+        let below = fraction(
             self.base.left,
             1.0 - self.base.covered(e),
             self.base.left_mean,
         );
-        let again = share(self.missing, 1.0 - e.whole(), self.missing_mean);
+        let again = fraction(self.missing, 1.0 - e.whole(), self.missing_mean);
         base * below.max(0.0) + self.returned * again.max(0.0)
     }
 }

@@ -1,5 +1,5 @@
-//! How much a smooth boundary reflects, by Schlick's formula and, under a thin film, by
-//! interference.
+//! The Fresnel reflectance of a smooth boundary: Schlick's formula, or the interference of a thin
+//! film.
 
 use super::thin_film::ThinFilm;
 use crate::math::Vec3;
@@ -37,7 +37,7 @@ pub(super) struct Fresnel {
     pub(super) f0: Vec3,
     /// At grazing incidence.
     pub(super) f90: Vec3,
-    /// The film on it, and the share of the surface it covers.
+    /// The film on it, and the fraction of the surface it covers.
     pub(super) film: Option<(ThinFilm, f64)>,
 }
 
@@ -49,7 +49,7 @@ impl Fresnel {
         let bare = self.f0 + (self.f90 - self.f0) * schlick(cosine);
         match &self.film {
             None => bare,
-            Some((film, share)) => bare.lerp(film.reflectance(self.f0, cosine), *share),
+            Some((film, fraction)) => bare.lerp(film.reflectance(self.f0, cosine), *fraction),
         }
     }
 

@@ -9,7 +9,7 @@ use super::warp::direction_turned;
 use crate::math::Vec3;
 use std::f64::consts::PI;
 
-/// Below this α a surface is a mirror: the lobe would be narrower than any pixel could tell.
+/// Surfaces with an α below this are mirrors: their lobes are narrower than a pixel can resolve.
 const SMOOTH: f64 = 1e-5;
 
 /// A rough surface: the widths α of its slopes along x and y.
@@ -73,14 +73,14 @@ impl Ggx {
         0.5 / (i * self.stretched(wo) + o * self.stretched(wi))
     }
 
-    /// The density of the normals that `wo` sees, divided by `wo·h`: `G₁·D/cos θ_o`.
+    /// The density of the normals visible from `wo`, divided by `wo·h`: `G₁·D/cos θ_o`.
     #[must_use]
     #[inline]
     pub(super) fn visible_density(self, wo: Vec3, h: Vec3) -> f64 {
         2.0 * self.density(h) / (wo.z + self.stretched(wo))
     }
 
-    /// A normal out of those that `wo` sees (Dupuy, Benyoub, "Sampling visible GGX normals with
+    /// Samples a normal visible from `wo` (Dupuy, Benyoub, "Sampling visible GGX normals with
     /// spherical caps", 2023).
     #[must_use]
     #[inline]
@@ -91,7 +91,7 @@ impl Ggx {
         // Sample the cap of directions that the hemisphere reflects `view` to.
         let z = (1.0 - u[0]) * (1.0 + view.z) - view.z;
         let cap = direction_turned(z, u[1]);
-        // The normal is half-way; take the stretching back.
+        // Take the half vector, and undo the stretch.
         let h = cap + view;
         Vec3::new(h.x * x, h.y * y, h.z.max(0.0)).normalize_or(Vec3::Z)
     }

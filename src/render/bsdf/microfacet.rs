@@ -1,10 +1,10 @@
-//! The rough boundary itself: what its microfacets reflect, and what the dielectric ones let
-//! through.
+//! The rough boundary: the reflection of its microfacets, and the transmission of the dielectric
+//! ones.
 
 use super::compensation::Compensation;
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
-use super::standard::Standard;
+use super::standard::StandardParameters;
 use super::thin_film::ThinFilm;
 use super::{Evaluation, LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::math::Vec3;
@@ -18,43 +18,43 @@ pub(super) struct Microfacet<const F: u32> {
     /// The reflectance of the dielectric part at normal and at grazing incidence.
     f0: Vec3,
     f90: f64,
-    /// The same of the metallic part at normal incidence; at grazing it is 1.
+    /// The reflectance of the metallic part at normal incidence; at grazing incidence it is 1.
     metal: Vec3,
     metallic: f64,
-    /// What lies on both, and the share of the surface it covers.
+    /// The thin film on both, and the fraction of the surface it covers.
     film: Option<(ThinFilm, f64)>,
-    /// What of the light that the dielectric lets in goes through, by channel.
+    /// The fraction of the light in the dielectric that is transmitted, by channel.
     tint: Vec3,
     crossing: Crossing,
     /// The index beyond divided by that on the side of the viewer.
     eta: f64,
 }
 
-/// How light goes on behind the boundary.
+/// How light continues behind the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Crossing {
-    /// Through a thin wall: as reflected, but to the other side.
+    /// Through a thin wall: the reflected direction, mirrored to the other side.
     Wall,
     /// Into a medium of the same index.
     Straight,
     /// Into a medium of another index.
-    Bent,
+    Refracted,
 }
 
-/// What a microfacet does with light at one angle.
+/// The fractions of light that a microfacet reflects and transmits at one angle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shares {
+pub(super) struct LobeWeights {
     /// Reflected.
     pub(super) reflected: Vec3,
-    /// Let in by the dielectric part.
+    /// Enters the dielectric part.
     pub(super) entering: f64,
-    /// Let through.
+    /// Transmitted.
     pub(super) through: Vec3,
 }
 
-impl Shares {
+impl LobeWeights {
     /// The probability of sampling the reflection.
-    fn chance(&self) -> f64 {
+    fn lobe_pdf(&self) -> f64 {
         let (reflected, through) = (self.reflected.max_element(), self.through.max_element());
         if through > 0.0 {
             reflected / (reflected + through)
@@ -64,18 +64,18 @@ impl Shares {
     }
 }
 
-/// A direction that microfacets scatter to.
-pub(super) enum Way {
-    /// One of a lobe.
+/// A sampled direction of the microfacets.
+pub(super) enum ScatteredDirection {
+    /// A direction of a rough lobe.
     Lobe(Vec3),
-    /// A single one, with the share of the light and the probability of taking it.
+    /// A single one, with the fraction of the light and the probability of taking it.
     Single(Vec3, Vec3, f64),
 }
 
 impl<const F: u32> Microfacet<F> {
     /// The boundary of a material, seen from within the body if `inside`.
     #[inline]
-    pub(super) fn new(standard: &Standard, inside: bool) -> Self {
+    pub(super) fn new(standard: &StandardParameters, inside: bool) -> Self {
         let ggx = match standard.anisotropy {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),
@@ -102,7 +102,7 @@ impl<const F: u32> Microfacet<F> {
         let crossing = match standard.thin_walled {
             true => Crossing::Wall,
             false if (ior - 1.0).abs() < NEARLY_STRAIGHT => Crossing::Straight,
-            false => Crossing::Bent,
+            false => Crossing::Refracted,
         };
         Self {
             ggx,
@@ -119,7 +119,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// The film; known at compile time to be none where there are no layers.
+    /// The film; `None` at compile time without the feature for layers.
     #[inline]
     fn film(&self) -> Option<(ThinFilm, f64)> {
         if can::<F>(LAYERS) { self.film } else { None }
@@ -143,7 +143,7 @@ impl<const F: u32> Microfacet<F> {
         }
     }
 
-    /// What bounces on between its microfacets.
+    /// The light of multiple bounces between the microfacets.
     pub(super) fn compensation(&self, cosine: f64) -> Compensation {
         Compensation::new(
             self.ggx.mean_roughness(),
@@ -154,7 +154,7 @@ impl<const F: u32> Microfacet<F> {
         )
     }
 
-    /// Whether it scatters into single directions only.
+    /// Whether its lobes are delta lobes.
     pub(super) fn is_smooth(&self) -> bool {
         self.smooth
     }
@@ -164,10 +164,10 @@ impl<const F: u32> Microfacet<F> {
         !can::<F>(MICROFACETS) || self.dark
     }
 
-    /// What a microfacet that meets light at the cosine given does with it.
-    pub(super) fn shares(&self, cosine: f64) -> Shares {
+    /// The weights of a microfacet whose normal has this cosine to the light.
+    pub(super) fn weights(&self, cosine: f64) -> LobeWeights {
         if self.is_dark() {
-            return Shares {
+            return LobeWeights {
                 reflected: Vec3::ZERO,
                 entering: 1.0,
                 through: self.tint,
@@ -179,15 +179,15 @@ impl<const F: u32> Microfacet<F> {
             0.0 => dielectric,
             metallic => dielectric.lerp(self.metal().at(cosine), metallic),
         };
-        Shares {
+        LobeWeights {
             reflected,
             entering,
             through: self.tint * entering,
         }
     }
 
-    /// Schlick's formula takes the angle in the thinner medium; beyond the critical one all is
-    /// reflected.
+    /// The Fresnel reflectance of the dielectric. Schlick's formula takes the angle in the medium
+    /// of the lower index; beyond the critical angle the reflectance is 1.
     fn dielectric_at(&self, cosine: f64) -> Vec3 {
         if self.eta >= 1.0 {
             return self.dielectric().at(cosine);
@@ -195,20 +195,26 @@ impl<const F: u32> Microfacet<F> {
         refracted_cosine(cosine, self.eta).map_or(Vec3::ONE, |cosine| self.dielectric().at(cosine))
     }
 
-    /// Both directions above.
-    pub(super) fn reflected(&self, wo: Vec3, wi: Vec3, h: Vec3, shares: &Shares) -> Evaluation {
+    /// The reflection lobe: `wi` is above the surface.
+    pub(super) fn reflected(
+        &self,
+        wo: Vec3,
+        wi: Vec3,
+        h: Vec3,
+        weights: &LobeWeights,
+    ) -> Evaluation {
         if self.smooth {
             return Evaluation::NONE;
         }
         let density = self.ggx.density(h);
-        let f = shares.reflected * (density * self.ggx.visibility(wo, wi));
+        let f = weights.reflected * (density * self.ggx.visibility(wo, wi));
         Evaluation {
             f,
-            pdf: shares.chance() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
+            pdf: weights.lobe_pdf() * 0.5 * density / (wo.z + self.ggx.stretched(wo)),
         }
     }
 
-    /// `wi` below.
+    /// The transmission lobe: `wi` is below the surface.
     pub(super) fn through(&self, wo: Vec3, wi: Vec3) -> Evaluation {
         if !can::<F>(TRANSMISSION) || self.smooth || self.tint == Vec3::ZERO {
             return Evaluation::NONE;
@@ -218,82 +224,85 @@ impl<const F: u32> Microfacet<F> {
             Crossing::Wall => {
                 let mirrored = Vec3::new(wi.x, wi.y, -wi.z);
                 let h = (wo + mirrored).normalize();
-                let shares = self.shares(wo.dot(h));
-                let f = shares.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
+                let weights = self.weights(wo.dot(h));
+                let f = weights.through * (self.ggx.density(h) * self.ggx.visibility(wo, mirrored));
                 Evaluation {
                     f,
-                    pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) / 4.0,
+                    pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) / 4.0,
                 }
             }
-            Crossing::Bent => self.bent(wo, wi),
+            Crossing::Refracted => self.refracted(wo, wi),
         }
     }
 
-    /// Walter et al., "Microfacet models for refraction through rough surfaces" (EGSR 2007),
-    /// equation 21.
-    fn bent(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+    /// The refraction lobe (Walter et al., "Microfacet models for refraction through rough
+    /// surfaces" (EGSR 2007), equation 21).
+    fn refracted(&self, wo: Vec3, wi: Vec3) -> Evaluation {
+        // Find the generalized half vector.
         let half = wo + wi * self.eta;
         let h = (half * half.z.signum()).normalize_or_zero();
         let (o, i) = (wo.dot(h), wi.dot(h));
         if o <= 0.0 || i >= 0.0 {
             return Evaluation::NONE;
         }
-        let shares = self.shares(o);
-        // How fast the direction turns with the normal: |ω_i·h|/(ω_i·h + ω_o·h/η)².
+        let weights = self.weights(o);
+        // Jacobian dω_h/dω_i: |ω_i·h|/(ω_i·h + ω_o·h/η)².
         let root = i + o / self.eta;
         let turn = -i / (root * root);
         let f =
-            shares.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
+            weights.through * (4.0 * self.ggx.density(h) * self.ggx.visibility(wo, wi) * o * turn);
         Evaluation {
             f,
-            pdf: (1.0 - shares.chance()) * self.ggx.visible_density(wo, h) * o * turn,
+            pdf: (1.0 - weights.lobe_pdf()) * self.ggx.visible_density(wo, h) * o * turn,
         }
     }
 
-    /// A direction out of those that the visible microfacets scatter to; `None` if it comes out on
-    /// the wrong side.
-    pub(super) fn sample(&self, wo: Vec3, choice: f64, u: [f64; 2]) -> Option<Way> {
+    /// Samples a direction by a visible normal; `None` if the direction is on the wrong side.
+    pub(super) fn sample(&self, wo: Vec3, u_lobe: f64, u: [f64; 2]) -> Option<ScatteredDirection> {
+        // Sample the visible normal.
         let h = if self.smooth {
             Vec3::Z
         } else {
             self.ggx.visible_normal(wo, u)
         };
         let cosine = wo.dot(h);
-        let shares = self.shares(cosine);
-        let chance = shares.chance();
-        if choice < chance {
+        let weights = self.weights(cosine);
+        let lobe_pdf = weights.lobe_pdf();
+        // Reflect at the microfacet.
+        if u_lobe < lobe_pdf {
             let wi = h * (2.0 * cosine) - wo;
             let way = if self.smooth {
-                Way::Single(wi, shares.reflected, chance)
+                ScatteredDirection::Single(wi, weights.reflected, lobe_pdf)
             } else {
-                Way::Lobe(wi)
+                ScatteredDirection::Lobe(wi)
             };
             return (wi.z > 0.0).then_some(way);
         }
+        // Or transmit through it.
         let wi = match self.crossing {
             Crossing::Straight => -wo,
             Crossing::Wall => {
                 let mirrored = h * (2.0 * cosine) - wo;
                 Vec3::new(mirrored.x, mirrored.y, -mirrored.z)
             }
-            Crossing::Bent => {
+            Crossing::Refracted => {
                 h * (cosine / self.eta - refracted_cosine(cosine, self.eta)?) - wo / self.eta
             }
         };
         let single = self.smooth || self.crossing == Crossing::Straight;
         let way = if single {
-            Way::Single(wi, shares.through, 1.0 - chance)
+            ScatteredDirection::Single(wi, weights.through, 1.0 - lobe_pdf)
         } else {
-            Way::Lobe(wi)
+            ScatteredDirection::Lobe(wi)
         };
         (wi.z < 0.0).then_some(way)
     }
 }
 
-/// Indices that differ by less bend no ray by more than rounding would.
+/// Indices that differ by less refract by no more than a rounding error.
 const NEARLY_STRAIGHT: f64 = 1e-6;
 
-/// The cosine beyond a boundary by Snell's law; `None` where all is reflected.
+/// The cosine of refraction by Snell's law; `None` for total internal reflection.
 fn refracted_cosine(cosine: f64, eta: f64) -> Option<f64> {
     let square = 1.0 - (1.0 - cosine * cosine) / (eta * eta);
     (square > 0.0).then(|| square.sqrt())

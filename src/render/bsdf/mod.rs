@@ -1,9 +1,8 @@
 //! The BSDF of the glTF material, in a frame whose z is the shading normal, for one direction `wo`
 //! to the viewer.
 //!
-//! `f` is without the cosine; directions are unit vectors that point away from the surface, those
-//! with z < 0 inside a body or behind a wall. What crosses a boundary is counted as basic radiance
-//! L/n²: no factor n² is in `f`.
+//! `f` excludes the cosine. Directions are unit vectors that point away from the surface; z < 0 is
+//! inside a body or behind a thin wall. Paths carry basic radiance L/n², so `f` has no factor n².
 
 mod albedo;
 mod coat;
@@ -18,13 +17,13 @@ mod thin_film;
 mod warp;
 
 pub use fresnel::dispersed;
-pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
 
 use crate::math::Vec3;
 use crate::plan::PathFeatures;
 use coat::Coat;
 use compensation::Compensation;
-use microfacet::{Microfacet, Shares, Way};
+use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
 use sheen::Fibres;
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
@@ -42,7 +41,7 @@ const fn can<const F: u32>(feature: PathFeatures) -> bool {
 /// The BSDF for one pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evaluation {
-    /// The BSDF, without what is scattered into single directions.
+    /// The BSDF without its delta lobes.
     pub f: Vec3,
     /// The density per solid angle with which [`Bsdf::sample`] takes the direction.
     pub pdf: f64,
@@ -55,24 +54,24 @@ impl Evaluation {
     };
 }
 
-/// A direction sampled: what comes from there counts `f·|cos θ|/pdf`.
+/// A sampled direction. Its radiance is weighted by `f·|cos θ|/pdf`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
+pub struct BsdfSample {
     /// The direction light comes from.
     pub wi: Vec3,
-    /// The BSDF; for a single direction, what it scatters divided by |cos θ|.
+    /// The BSDF; of a delta lobe, the scattered fraction divided by |cos θ|.
     pub f: Vec3,
-    /// The density; for a single direction, the probability of taking it.
+    /// The density per solid angle; of a delta lobe, its probability.
     pub pdf: f64,
-    /// Whether it is a single direction, which no other way of sampling finds.
+    /// Whether the direction comes from a delta lobe, which light sampling cannot find.
     pub delta: bool,
 }
 
-/// The BSDF with all that a material may have.
+/// The BSDF with all lobes.
 pub type Bsdf = Lobes<{ PathFeatures::EVERYTHING.0 }>;
 
-/// The material at a point as seen from one direction, compiled for the [`PathFeatures`] `F`: a
-/// material with more than those must not be given.
+/// The lobes of the material at a point, for one `wo`. Compiled for the [`PathFeatures`] `F`: the
+/// material must not need any other feature.
 #[derive(Clone, Copy, Debug)]
 pub struct Lobes<const F: u32> {
     side: Side,
@@ -83,28 +82,28 @@ pub struct Lobes<const F: u32> {
     compensation: Option<Compensation>,
     sheen: Option<Fibres>,
     coat: Option<Coat>,
-    chances: Chances,
+    lobe_pdf: LobePdf,
 }
 
-/// The probabilities of the ways to sample; they sum to 1, or to 0 for a black surface.
+/// The probability of sampling each lobe. They sum to 1, or to 0 for a black surface.
 #[derive(Clone, Copy, Debug)]
-struct Chances {
+struct LobePdf {
     cosine: f64,
     microfacet: f64,
     coat: f64,
 }
 
-impl Chances {
-    /// Chances proportional to estimates of what each way brings, of a base and microfacets below
-    /// the layers given.
+impl LobePdf {
+    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base and the
+    /// microfacets, below sheen and coat.
     #[inline]
-    fn new(base: Vec3, shares: &Shares, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
+    fn new(base: Vec3, weights: &LobeWeights, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
         let mut cosine = base.max_element().max(0.0);
-        let mut microfacet = shares.reflected.max_element() + shares.through.max_element();
+        let mut microfacet = weights.reflected.max_element() + weights.through.max_element();
         if let Some(sheen) = sheen {
             (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
         }
-        let coat = coat.map_or(0.0, |coat| coat.share);
+        let coat = coat.map_or(0.0, |coat| coat.weight);
         let whole = (cosine + microfacet) * (1.0 - coat) + coat;
         let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         let below = scale * (1.0 - coat);
@@ -120,7 +119,7 @@ impl<const F: u32> Lobes<F> {
     /// The material seen from `wo`.
     #[must_use]
     #[inline]
-    pub fn new(standard: &Standard, wo: Vec3) -> Self {
+    pub fn new(standard: &StandardParameters, wo: Vec3) -> Self {
         let along = standard
             .anisotropy
             .map_or([1.0, 0.0], |anisotropy| anisotropy.direction);
@@ -132,7 +131,7 @@ impl<const F: u32> Lobes<F> {
         let transmits = can::<F>(TRANSMISSION) && standard.transmission > 0.0;
         let inside = side.below && !standard.thin_walled && transmits;
         let microfacet = Microfacet::new(standard, inside);
-        // What lies on a body is not seen from within.
+        // Sheen and coat are invisible from inside the body.
         let (sheen, clearcoat) = if inside || !can::<F>(LAYERS) {
             (None, None)
         } else {
@@ -146,19 +145,20 @@ impl<const F: u32> Lobes<F> {
             };
             Coat::new(&coat, side.enter(normal), wo)
         });
+        // Split the light between the lobes.
         let diffuse =
             standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission));
         let compensates = standard.multiple_scattering && !inside && !microfacet.is_dark();
         let compensation = compensates.then(|| microfacet.compensation(wo.z));
         let base = match &compensation {
             // The half-way vector is seldom as grazing as the view.
-            None => diffuse * microfacet.shares(1.0).entering,
+            None => diffuse * microfacet.weights(1.0).entering,
             Some(compensation) => diffuse * compensation.base_albedo() + compensation.albedo(),
         };
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
-        let chances = Chances::new(
+        let lobe_pdf = LobePdf::new(
             base,
-            &microfacet.shares(wo.z),
+            &microfacet.weights(wo.z),
             sheen.as_ref(),
             coat.as_ref(),
         );
@@ -170,11 +170,11 @@ impl<const F: u32> Lobes<F> {
             compensation,
             sheen,
             coat,
-            chances,
+            lobe_pdf,
         }
     }
 
-    /// The clearcoat; known at compile time to be none where there are no layers.
+    /// The clearcoat; `None` at compile time without the feature for layers.
     #[inline]
     fn coat(&self) -> Option<&Coat> {
         self.coat.as_ref().filter(|_| can::<F>(LAYERS))
@@ -186,7 +186,7 @@ impl<const F: u32> Lobes<F> {
         self.sheen.as_ref().filter(|_| can::<F>(LAYERS))
     }
 
-    /// What bounces between microfacets, where there are any.
+    /// The light of multiple bounces between microfacets.
     #[inline]
     fn compensation(&self) -> Option<&Compensation> {
         self.compensation.as_ref().filter(|_| can::<F>(MICROFACETS))
@@ -197,19 +197,19 @@ impl<const F: u32> Lobes<F> {
         !self.microfacet.is_dark()
     }
 
-    /// Whether light that bounces between microfacets is added.
+    /// Whether the light of multiple bounces between microfacets is added.
     pub(super) fn compensates(&self) -> bool {
         self.compensation().is_some()
     }
 
-    /// Whether all light is scattered into single directions, so that a light can't be aimed at.
+    /// Whether all lobes are delta lobes, so that light sampling is useless.
     #[must_use]
     pub fn is_delta(&self) -> bool {
         let coat = self.coat().is_none_or(Coat::is_smooth);
-        self.chances.cosine == 0.0 && self.microfacet.is_smooth() && coat
+        self.lobe_pdf.cosine == 0.0 && self.microfacet.is_smooth() && coat
     }
 
-    /// The BSDF and the density of [`Bsdf::sample`] for light from `wi`.
+    /// The BSDF for light from `wi`, and the density with which [`Bsdf::sample`] samples `wi`.
     #[must_use]
     pub fn evaluate(&self, wi: Vec3) -> Evaluation {
         self.evaluate_entered(self.side.enter(wi))
@@ -220,27 +220,31 @@ impl<const F: u32> Lobes<F> {
         if wi.z == 0.0 || self.wo.z == 0.0 {
             return Evaluation::NONE;
         }
+        // Evaluate the microfacets and the base.
         let mut sum = if above {
             self.reflected(wi)
         } else {
             self.microfacet.through(self.wo, wi)
         };
-        sum.pdf *= self.chances.microfacet;
+        // Average the densities of the lobes.
+        sum.pdf *= self.lobe_pdf.microfacet;
         if above {
-            sum.pdf += self.chances.cosine * cosine_density(wi);
+            sum.pdf += self.lobe_pdf.cosine * cosine_density(wi);
         }
+        // Add the layers, from the inside out.
         if let Some(sheen) = self.sheen() {
             sum.f = sheen.over(sum.f, self.wo, wi);
         }
         if let Some(coat) = self.coat() {
             let (f, pdf) = if above { coat.evaluate(wi) } else { (0.0, 0.0) };
-            sum.f = sum.f.lerp(Vec3::splat(f), coat.share);
-            sum.pdf += self.chances.coat * pdf;
+            sum.f = sum.f.lerp(Vec3::splat(f), coat.weight);
+            sum.pdf += self.lobe_pdf.coat * pdf;
         }
         sum
     }
 
-    /// What the boundary and the diffuse base reflect, with the density of the boundary's samples.
+    /// The reflection of the microfacets and of the diffuse base, with the density of the
+    /// microfacets.
     fn reflected(&self, wi: Vec3) -> Evaluation {
         if self.microfacet.is_dark() {
             // All light reaches the base.
@@ -249,51 +253,56 @@ impl<const F: u32> Lobes<F> {
                 pdf: 0.0,
             };
         }
+        // Evaluate the microfacet lobe at the half vector.
         let h = (self.wo + wi).normalize();
-        let shares = self.microfacet.shares(self.wo.dot(h));
-        let mut sum = self.microfacet.reflected(self.wo, wi, h, &shares);
+        let weights = self.microfacet.weights(self.wo.dot(h));
+        let mut sum = self.microfacet.reflected(self.wo, wi, h, &weights);
+        // Add the diffuse base, and the multiple bounces.
         sum.f += match self.compensation() {
-            None => self.diffuse * (shares.entering * FRAC_1_PI),
+            None => self.diffuse * (weights.entering * FRAC_1_PI),
             Some(compensation) => compensation.f(self.diffuse, wi.z),
         };
         sum
     }
 
-    /// A direction for three numbers in [0, 1); `None` where nothing is scattered.
+    /// Samples a direction with three numbers in [0, 1); `None` if the direction is invalid.
     #[must_use]
-    pub fn sample(&self, u: [f64; 3]) -> Option<Sample> {
-        let Chances {
+    pub fn sample(&self, u: [f64; 3]) -> Option<BsdfSample> {
+        let LobePdf {
             cosine,
             microfacet,
             coat,
-        } = self.chances;
+        } = self.lobe_pdf;
         let rest = [u[1], u[2]];
+        // Sample the diffuse lobe.
         if u[0] < cosine {
             return self.in_lobe(cosine_direction(rest));
         }
+        // Sample the microfacets: reflection or transmission.
         let left = u[0] - cosine;
         if left < microfacet {
             return match self.microfacet.sample(self.wo, left / microfacet, rest)? {
-                Way::Lobe(wi) => self.in_lobe(wi),
-                Way::Single(wi, share, chance) => {
+                ScatteredDirection::Lobe(wi) => self.in_lobe(wi),
+                ScatteredDirection::Single(wi, weight, pdf) => {
                     let left = self.sheen().map_or(1.0, |sheen| sheen.left_for(wi));
-                    let covered = self.coat().map_or(0.0, |coat| coat.share);
-                    self.single(wi, share * (left * (1.0 - covered)), microfacet * chance)
+                    let covered = self.coat().map_or(0.0, |coat| coat.weight);
+                    self.single(wi, weight * (left * (1.0 - covered)), microfacet * pdf)
                 }
             };
         }
+        // Sample the coat.
         let layer = self.coat()?;
         let wi = layer.sample(rest);
         match layer.is_smooth() {
             _ if wi.z <= 0.0 => None,
-            true => self.single(wi, Vec3::splat(layer.share), coat),
+            true => self.single(wi, Vec3::splat(layer.weight), coat),
             false => self.in_lobe(wi),
         }
     }
 
-    fn in_lobe(&self, wi: Vec3) -> Option<Sample> {
+    fn in_lobe(&self, wi: Vec3) -> Option<BsdfSample> {
         let Evaluation { f, pdf } = self.evaluate_entered(wi);
-        (pdf > 0.0).then(|| Sample {
+        (pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,
             pdf,
@@ -301,9 +310,9 @@ impl<const F: u32> Lobes<F> {
         })
     }
 
-    fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<Sample> {
+    fn single(&self, wi: Vec3, scattered: Vec3, pdf: f64) -> Option<BsdfSample> {
         let f = scattered / wi.z.abs();
-        (wi.z != 0.0 && pdf > 0.0).then(|| Sample {
+        (wi.z != 0.0 && pdf > 0.0).then(|| BsdfSample {
             wi: self.side.leave(wi),
             f,
             pdf,
@@ -312,7 +321,7 @@ impl<const F: u32> Lobes<F> {
     }
 }
 
-/// How the frame is turned so that the viewer is above and the anisotropy along x.
+/// The rotation of the frame that brings the viewer above and the anisotropy along x.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     below: bool,

@@ -1,4 +1,4 @@
-//! What a surface does to the direction of light.
+//! Reflection, refraction and Phong's highlight.
 
 use crate::math::{Vec3, cross, pow};
 

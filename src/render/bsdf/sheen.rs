@@ -13,14 +13,14 @@ use std::f64::consts::{PI, TAU};
 pub(super) struct Fibres {
     charlie: Charlie,
     color: Vec3,
-    /// How much of the light they return, by the strongest channel.
+    /// The albedo of the sheen, in the strongest channel.
     pub(super) albedo: f64,
-    /// How much they leave for what is below.
+    /// The fraction of light that reaches the layers below.
     pub(super) left: f64,
 }
 
 impl Fibres {
-    /// `None` for black ones, which leave everything.
+    /// The sheen for one viewer; `None` if it is black.
     pub(super) fn new(sheen: &Sheen, wo: Vec3) -> Option<Self> {
         let charlie = Charlie::new(sheen.roughness);
         let albedo = sheen.color.max_element() * charlie.albedo(wo.z);
@@ -32,8 +32,8 @@ impl Fibres {
         })
     }
 
-    /// The BSDF with the fibres over what is below, which keeps what they leave on the way in or
-    /// out, whichever is less.
+    /// Adds the sheen to the BSDF of the layers below, which is scaled by the smaller of the
+    /// fractions that pass on the way in and out.
     pub(super) fn over(&self, below: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
         let own = if wi.z > 0.0 {
             self.color * self.charlie.f(wo, wi)
@@ -43,7 +43,7 @@ impl Fibres {
         below * self.left_for(wi) + own
     }
 
-    /// What is left for light that leaves along `wi`.
+    /// The fraction of light that passes the sheen towards `wi`.
     pub(super) fn left_for(&self, wi: Vec3) -> f64 {
         self.left
             .min(1.0 - self.color.max_element() * self.charlie.albedo(wi.z.abs()))
@@ -78,7 +78,7 @@ impl Charlie {
         density * (shadowing / (4.0 * wo.z * wi.z)).min(1.0)
     }
 
-    /// How much of the light from all around white sheen sends to a direction.
+    /// The directional albedo of white sheen.
     #[must_use]
     pub(super) fn albedo(&self, cosine: f64) -> f64 {
         tables().sheen(self.roughness, cosine)
@@ -114,7 +114,7 @@ pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
     let mut sum = 0.0;
     for i in 0..STEPS {
         for j in 0..STEPS {
-            // Half a turn is enough; the other is its mirror image.
+            // Half a turn is enough, by symmetry.
             let wi = super::warp::direction_turned(step(i), step(j) * 0.5);
             sum += charlie.f(wo, wi) * wi.z;
         }

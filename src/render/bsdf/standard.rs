@@ -1,4 +1,4 @@
-//! The glTF material at one point: the numbers that textures and factors gave.
+//! The parameters of the glTF material at one point, after all texture lookups.
 
 use super::fresnel::normal_reflectance;
 use crate::math::Vec3;
@@ -6,12 +6,12 @@ use crate::math::Vec3;
 /// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
 /// volume inside.
 ///
-/// Colours are linear, shares and roughnesses in [0, 1].
+/// Colours are linear, fractions and roughnesses in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standard {
+pub struct StandardParameters {
     /// Albedo of the diffuse, reflectance of the metallic, tint of the transmitting part.
     pub base_color: Vec3,
-    /// The share that is metal.
+    /// The metallic fraction.
     pub metallic: f64,
     /// Perceptual roughness; α is its square.
     pub roughness: f64,
@@ -21,21 +21,20 @@ pub struct Standard {
     pub specular: f64,
     /// The colour of the dielectric reflection at normal incidence, each channel at least 0.
     pub specular_color: Vec3,
-    /// The share of the dielectric base that lets light through instead of scattering it
+    /// The fraction of the dielectric base that lets light through instead of scattering it
     /// (`KHR_materials_transmission`).
     pub transmission: f64,
-    /// Whether what lies behind the surface is outside again: light goes straight through.
+    /// Whether the surface is a thin wall without an inside: light crosses it without refraction.
     pub thin_walled: bool,
     /// A direction in which the reflection is stretched.
     pub anisotropy: Option<Anisotropy>,
     /// A clear layer on top.
     pub clearcoat: Option<Clearcoat>,
-    /// Fibres that stand up.
+    /// The sheen of cloth.
     pub sheen: Option<Sheen>,
     /// A thin film on top.
     pub iridescence: Option<Iridescence>,
-    /// Whether light that bounces between microfacets is accounted for; without, as glTF's
-    /// appendix B has it.
+    /// Whether multiple bounces between microfacets are added; glTF's appendix B omits them.
     pub multiple_scattering: bool,
 }
 
@@ -79,7 +78,7 @@ pub struct Iridescence {
     pub thickness: f64,
 }
 
-impl Default for Standard {
+impl Default for StandardParameters {
     /// The defaults of glTF, but for the metal: white and rough, of glass's index.
     fn default() -> Self {
         Self {
@@ -100,7 +99,7 @@ impl Default for Standard {
     }
 }
 
-impl Standard {
+impl StandardParameters {
     /// The reflectance of the dielectric part at normal incidence.
     #[must_use]
     pub(super) fn dielectric_f0(&self) -> Vec3 {

@@ -1,7 +1,7 @@
-//! The samples of a pixel that a scene of the course asks for: sub-samples in cells, and for each
-//! of them points of the lens.
+//! The samples of a pixel in a scene of the course: sub-samples in cells, and lens points for each
+//! sub-sample.
 
-use super::{Twist, image_point, lens_point, lens_samples, ray_through};
+use super::{CranleyPatterson, image_point, lens_point, lens_samples, ray_through};
 use crate::math::Vec3;
 use crate::render::film::Seeds;
 use crate::render::ray::Ray;
@@ -18,11 +18,11 @@ pub(in crate::render) struct Grid {
     pattern: Pattern,
 }
 
-/// A sub-sample: where its rays go through the image.
+/// A sub-sample: a point of the image plane, and the rotation of its lens points.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Cell {
     target: Vec3,
-    twist: Twist,
+    rotated: CranleyPatterson,
 }
 
 impl Grid {
@@ -33,7 +33,7 @@ impl Grid {
         pattern: Pattern::Grid,
     };
 
-    /// The layout of a scene. A buffer of depths asks the middle of each pixel.
+    /// The layout of a scene. A depth buffer has one ray through the center of each pixel.
     pub(in crate::render) fn of(scene: &Proof) -> Self {
         let settings = scene.settings();
         match settings.mode {
@@ -100,11 +100,11 @@ impl Grid {
         let place = self.place([column, row], key.seeded(seeds.pixel));
         Cell {
             target: image_point(camera, pixel, place),
-            twist: Twist::new(seeds.lens, key),
+            rotated: CranleyPatterson::new(seeds.lens, key),
         }
     }
 
-    /// Where in its pixel a sub-sample lies, each coordinate in [0, 1].
+    /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].
     fn place(&self, cell: [u32; 2], key: Key) -> [f64; 2] {
         let key = key.child(PATTERN);
         let random = || [key.uniform(0), key.uniform(1)];
@@ -122,9 +122,9 @@ impl Grid {
 impl Cell {
     /// The ray from point k of the lens.
     pub(in crate::render) fn ray(&self, camera: &Camera, k: u32) -> Ray {
-        ray_through(camera, lens_point(camera, k, self.twist), self.target)
+        ray_through(camera, lens_point(camera, k, self.rotated), self.target)
     }
 }
 
-/// Keeps the numbers of sub-samples apart from those of the paths through them.
+/// Makes the random numbers of sub-samples independent of those of the paths.
 const PATTERN: u64 = u64::MAX;

@@ -1,4 +1,4 @@
-//! Rays of the camera: sub-samples of pixels, and points of the lens.
+//! Camera rays: from points of the lens through points of the image plane.
 
 pub(in crate::render) mod grid;
 
@@ -7,8 +7,8 @@ use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::valid::{Camera, Lens, Projection};
 
-/// The point of the image plane at a place of pixel (x, y), each coordinate of the place in [0, 1]
-/// from its left and upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y −
+/// The point of the image plane at an offset within pixel (x, y), each coordinate in [0, 1] from
+/// the left and upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y −
 /// place₁)·up`.
 #[must_use]
 pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
@@ -26,8 +26,8 @@ pub fn camera_ray(origin: Vec3, image_point: Vec3) -> Ray {
     }
 }
 
-/// The ray through a point of the image from a point of the lens: of an orthographic camera all of
-/// them run side by side.
+/// The camera ray through a point of the lens and a point of the image plane; the rays of an
+/// orthographic camera are parallel.
 #[must_use]
 pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_point: Vec3) -> Ray {
     match camera.projection {
@@ -38,7 +38,7 @@ pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_po
     }
 }
 
-/// How many points of the lens a sub-sample takes: one where all points are the same.
+/// The number of lens points for each sub-sample; 1 for a pinhole.
 #[must_use]
 pub(in crate::render) fn lens_samples(lens: &Lens) -> u32 {
     if lens.radius.get() == 0.0 {
@@ -51,31 +51,31 @@ pub(in crate::render) fn lens_samples(lens: &Lens) -> u32 {
 /// Point k of Vogel's spiral on the lens, in steps of `right` and `up`: `r = R·√(k/n)/‖up‖`, `θ =
 /// k·π(3 − √5)`.
 ///
-/// All points lie within R of the eye and each stands for the same area (Vogel, "A better way to
+/// All points lie within R of the eye, and each represents the same area (Vogel, "A better way to
 /// construct the sunflower head", Mathematical Biosciences 44 (1979)).
 #[must_use]
 pub fn vogel(k: u32, n: u32, radius: f64, pixel: f64) -> [f64; 2] {
-    Twist::NONE.vogel(k, n, radius, pixel)
+    CranleyPatterson::NONE.vogel(k, n, radius, pixel)
 }
 
-/// How a spiral is turned, and how far its points are pushed outwards.
+/// A random rotation and radial shift of the spiral: a Cranley-Patterson rotation on the lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::render) struct Twist {
+pub(in crate::render) struct CranleyPatterson {
     /// In units of 2⁻⁶⁴ turns.
     rotation: u64,
-    /// In [0, 1), as a share of the area of one point: any number of points is unbiased if this is
-    /// uniform.
+    /// In [0, 1), as a fraction of the area of one point; a uniform shift makes the spiral
+    /// unbiased.
     shift: f64,
 }
 
-impl Twist {
-    /// The plain spiral.
+impl CranleyPatterson {
+    /// No rotation, no shift.
     const NONE: Self = Self {
         rotation: 0,
         shift: 0.0,
     };
 
-    /// The twist of a sub-sample; that of seed 0 is none.
+    /// The rotation of a sub-sample; seed 0 gives [`Self::NONE`].
     #[must_use]
     pub(in crate::render) fn new(seed: u64, key: Key) -> Self {
         if seed == 0 {
@@ -95,12 +95,12 @@ impl Twist {
     }
 }
 
-/// Keeps the numbers of the lens apart from those of sub-samples and paths.
+/// Makes the random numbers of the lens independent of those of sub-samples and paths.
 const LENS: u64 = u64::MAX - 1;
 
-/// The origin of a ray for a place in the unit square: uniform over the lens if that is.
+/// Maps the unit square uniformly to the lens.
 #[must_use]
-pub(in crate::render) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Vec3 {
+pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
     let radius = camera.lens.radius.get();
@@ -113,17 +113,17 @@ pub(in crate::render) fn lens_at(camera: &Camera, [share, turn]: [f64; 2]) -> Ve
         reason = "a share of a turn, below one"
     )]
     let (cosine, sine) = cos_sin_turns((turn * TURN) as u64);
-    let r = radius * share.sqrt() / camera.up.length();
+    let r = radius * fraction.sqrt() / camera.up.length();
     camera.eye + camera.right * (r * cosine) + camera.up * (r * sine)
 }
 
 /// The origin of ray k of a sub-sample.
 #[must_use]
-pub(in crate::render) fn lens_point(camera: &Camera, k: u32, twist: Twist) -> Vec3 {
+pub(in crate::render) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
     let n = lens_samples(&camera.lens);
-    if n == 1 && twist == Twist::NONE {
+    if n == 1 && rotated == CranleyPatterson::NONE {
         return camera.eye;
     }
-    let [across, upward] = twist.vogel(k, n, camera.lens.radius.get(), camera.up.length());
+    let [across, upward] = rotated.vogel(k, n, camera.lens.radius.get(), camera.up.length());
     camera.eye + camera.right * across + camera.up * upward
 }

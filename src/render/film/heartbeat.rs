@@ -20,14 +20,14 @@ pub struct Step {
 }
 
 /// The observer of a render, called from all its threads; false means stop.
-pub type Proceed<'a> = dyn Fn(Step) -> bool + Sync + 'a;
+pub type OnPixel<'a> = dyn Fn(Step) -> bool + Sync + 'a;
 
 /// Steps of work between two questions: less than a millisecond where scenes are simple.
 const EVERY: u32 = 1 << 12;
 
 /// Asks the observer for one thread.
 pub(in crate::render) struct Heartbeat<'run> {
-    proceed: &'run Proceed<'run>,
+    on_pixel: &'run OnPixel<'run>,
     pixel: [u32; 2],
     /// The rays of this thread that the observer knows of.
     told: u64,
@@ -39,9 +39,9 @@ pub(in crate::render) struct Heartbeat<'run> {
 }
 
 impl<'run> Heartbeat<'run> {
-    pub(in crate::render) fn new(proceed: &'run Proceed<'run>) -> Self {
+    pub(in crate::render) fn new(on_pixel: &'run OnPixel<'run>) -> Self {
         Self {
-            proceed,
+            on_pixel,
             pixel: [0; 2],
             told: 0,
             left: EVERY,
@@ -89,7 +89,7 @@ impl<'run> Heartbeat<'run> {
             open: self.open,
         };
         self.told = rays;
-        self.goes_on = self.goes_on && (self.proceed)(step);
+        self.goes_on = self.goes_on && (self.on_pixel)(step);
         self.left = if self.goes_on { EVERY } else { 1 };
         self.goes_on
     }
@@ -103,11 +103,11 @@ mod tests {
     #[test]
     fn who_works_long_asks_within_a_pixel_and_hears_a_stop_for_ever() {
         let told = Mutex::new(Vec::new());
-        let proceed = |step: Step| {
+        let on_pixel = |step: Step| {
             told.lock().unwrap().push(step);
             !(step.pixel == [1, 0] && step.rays > 0)
         };
-        let mut heartbeat = Heartbeat::new(&proceed);
+        let mut heartbeat = Heartbeat::new(&on_pixel);
         let mut counts = Counts::default();
         counts.camera = 3;
         assert!(heartbeat.goes_on(&counts) && heartbeat.done(&counts));

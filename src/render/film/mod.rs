@@ -26,19 +26,18 @@ pub struct Job {
     pub seeds: Seeds,
     /// Which pixels are rendered; the others stay black.
     pub stride: Stride,
-    /// What is seen past all surfaces.
-    pub behind: Behind,
+    /// The background of the picture.
+    pub background: Background,
     /// At most so many samples a pixel, the first of those that the scene asks for.
     pub samples: Option<NonZeroU32>,
 }
 
-/// What a camera ray sees that meets no surface. Light that gets to surfaces is the same in any
-/// case.
+/// The value of a camera ray that meets no surface. The light on surfaces does not change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Behind {
-    /// The surroundings of the scene; black if it has none.
+pub enum Background {
+    /// The environment of the scene; black if it has none.
     #[default]
-    Surroundings,
+    Environment,
     /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
     Nothing,
 }
@@ -162,7 +161,7 @@ pub enum Values {
     Linear,
 }
 
-/// The share of rays that hit something; 0 of none.
+/// The fraction of rays that hit something; 0 of none.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
 pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
@@ -174,7 +173,7 @@ pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
 pub struct Film {
     /// The picture, of the size of the crop.
     pub image: Image,
-    /// Of each pixel the share of the camera rays that met a surface, in [0, 1].
+    /// Of each pixel the fraction of the camera rays that met a surface, in [0, 1].
     pub coverage: Vec<f32>,
     /// The rays it took.
     pub counts: Counts,

@@ -24,11 +24,11 @@ pub(in crate::render) struct SampleId {
 pub(in crate::render) enum Stream {
     /// The samples that the scene asks for.
     Picture(Seeds),
-    /// One of four sequences without end that are independent of each other; strands of other
+    /// One of four sequences without end that are independent of each other; replicates of other
     /// numbers are independent too.
-    Strand {
+    Replicate {
         /// Which of the four.
-        strand: usize,
+        replicate: usize,
         /// The number that its samples are keyed by.
         number: u64,
     },
@@ -59,11 +59,11 @@ pub(in crate::render) trait Accumulator {
 }
 
 /// The samples that a pixel is to take: of each stream a range.
-pub(in crate::render) type Asked = arrayvec::ArrayVec<(Stream, Range<u32>), 4>;
+pub(in crate::render) type SampleRanges = arrayvec::ArrayVec<(Stream, Range<u32>), 4>;
 
 /// What a film of a whole picture keeps of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::render) struct Shown {
+pub(in crate::render) struct FinishedPixel {
     /// The value, linear or as a display shows it.
     pub(in crate::render) color: [f64; 3],
     /// The fraction of the camera rays that met a surface.
@@ -91,7 +91,7 @@ impl InOrder {
 
 impl Accumulator for InOrder {
     type Sample = Sample;
-    type Kept = Shown;
+    type Kept = FinishedPixel;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
@@ -103,11 +103,11 @@ impl Accumulator for InOrder {
         self.count += 1;
     }
 
-    fn close(self) -> Shown {
+    fn close(self) -> FinishedPixel {
         if self.count == 0 {
-            return Shown::default();
+            return FinishedPixel::default();
         }
-        Shown {
+        FinishedPixel {
             color: (self.sum / self.count as f64).to_array(),
             coverage: coverage(self.hits, self.count),
         }
@@ -123,14 +123,14 @@ pub(in crate::render) const BLOCK: u32 = 16;
 pub(in crate::render) struct InBlocks {
     tone: Option<Tone>,
     block: Vec3,
-    tree: Tree,
+    tree: SumTree,
     hits: u64,
     count: u32,
 }
 
 /// Sums of blocks: of each level of the tree at most one node is open.
 #[derive(Clone, Debug, Default)]
-struct Tree {
+struct SumTree {
     /// The open nodes, those of more blocks first.
     open: arrayvec::ArrayVec<Vec3, 32>,
     blocks: u32,
@@ -139,7 +139,7 @@ struct Tree {
 impl InBlocks {
     /// A pixel whose mean is coded by `tone`, if by any.
     pub(in crate::render) fn new(tone: Option<Tone>) -> Self {
-        let tree = Tree::default();
+        let tree = SumTree::default();
         Self {
             tone,
             block: Vec3::ZERO,
@@ -152,7 +152,7 @@ impl InBlocks {
 
 impl Accumulator for InBlocks {
     type Sample = Sample;
-    type Kept = Shown;
+    type Kept = FinishedPixel;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
@@ -164,19 +164,19 @@ impl Accumulator for InBlocks {
         }
     }
 
-    fn close(mut self) -> Shown {
+    fn close(mut self) -> FinishedPixel {
         if !self.count.is_multiple_of(BLOCK) {
             self.tree.add(self.block);
         }
         let mean = (self.tree.sum() / f64::from(self.count.max(1))).to_array();
-        Shown {
+        FinishedPixel {
             color: self.tone.map_or(mean, |tone| tone.display(mean)),
             coverage: coverage(self.hits, self.count.into()),
         }
     }
 }
 
-impl Tree {
+impl SumTree {
     /// Adds the sum of the next block: two nodes of one level make a node of the next.
     fn add(&mut self, block: Vec3) {
         let mut node = block;
@@ -233,7 +233,7 @@ mod tests {
             };
             (0..samples).for_each(|index| sums.add(&id(), sample(index)));
             let expected = node(0..samples.div_ceil(BLOCK), samples) / f64::from(samples);
-            let Shown { color, coverage } = sums.close();
+            let FinishedPixel { color, coverage } = sums.close();
             assert_eq!(color, expected.to_array(), "{samples}");
             assert!((f64::from(coverage) - 0.5).abs() <= 0.6 / f64::from(samples));
         }

@@ -1,30 +1,29 @@
-//! A film that grows: in each pixel four strands of samples, independent of each other, two to each
-//! half of the pixel.
+//! A progressive film: each pixel has four independent replicates of samples, two in each half.
 //!
-//! The mean of the halves is the picture; how far the strands of a half are apart tells what that
-//! is worth. How many samples a half takes may hang on what the other half saw: neither is then
-//! biased by its own luck.
+//! The picture is the mean of the halves; the variance between the replicates of a half estimates
+//! its error. The number of samples of one half may depend on the values of the other half: so the
+//! stopping rule adds no bias.
 
-use super::pixel::{Accumulator, Asked, Sample, SampleId, Stream};
+use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
-use super::{Behind, Counts, Crop, Values, coverage};
+use super::{Background, Counts, Crop, Values, coverage};
 use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
 
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Strands {
+pub struct Replicates {
     /// How the mean of the samples is shown; none where each is clamped to [0, 1].
     tone: Option<Tone>,
-    /// Per strand, the sum of its samples, clamped if they are shown so; strands 0 and 1 are the
-    /// first half.
+    /// Per replicate, the sum of its samples, clamped if they are shown so; replicates 0 and 1 are
+    /// the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],
     /// Per half, the sum of its samples as they are.
     linear: [Vec3; 2],
-    /// Per half, how many samples each of its strands has.
+    /// Per half, how many samples each of its replicates has.
     counts: [u32; 2],
     /// Per half, how many of its samples met a surface.
     hits: [u64; 2],
@@ -35,8 +34,8 @@ pub struct Strands {
 pub struct ProgressiveFilm {
     seed: u64,
     /// What it shows behind all surfaces, where paths are traced.
-    pub behind: Behind,
-    pub(in crate::render) pixels: Tiled<Strands>,
+    pub background: Background,
+    pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
 }
@@ -48,8 +47,8 @@ impl ProgressiveFilm {
     pub fn new(crop: Crop, seed: u64) -> Self {
         Self {
             seed,
-            behind: Behind::default(),
-            pixels: Tiled::new(crop, Strands::default()),
+            background: Background::default(),
+            pixels: Tiled::new(crop, Replicates::default()),
             counts: Counts::default(),
         }
     }
@@ -68,25 +67,29 @@ impl ProgressiveFilm {
     }
 
     /// The pixels row by row.
-    pub fn pixels(&self) -> impl Iterator<Item = &Strands> {
+    pub fn pixels(&self) -> impl Iterator<Item = &Replicates> {
         self.pixels.iter()
     }
 
     /// A pixel, counted row by row.
     #[must_use]
-    pub fn pixel(&self, index: usize) -> &Strands {
+    pub fn pixel(&self, index: usize) -> &Replicates {
         self.pixels.at(index)
     }
 
-    /// The samples that a pixel lacks of those wanted: per half, how many each of its strands is
+    /// The samples that a pixel lacks of those wanted: per half, how many each of its replicates is
     /// to have at least.
-    pub(in crate::render) fn lacking(seed: u64, pixel: &Strands, wanted: [u32; 2]) -> Asked {
-        let strand = |strand: usize| {
-            let number = (seed << 2 | strand as u64).wrapping_add(1);
-            let samples = pixel.counts[strand / 2]..wanted[strand / 2];
-            (Stream::Strand { strand, number }, samples)
+    pub(in crate::render) fn lacking(
+        seed: u64,
+        pixel: &Replicates,
+        wanted: [u32; 2],
+    ) -> SampleRanges {
+        let replicate = |replicate: usize| {
+            let number = (seed << 2 | replicate as u64).wrapping_add(1);
+            let samples = pixel.counts[replicate / 2]..wanted[replicate / 2];
+            (Stream::Replicate { replicate, number }, samples)
         };
-        (0..4).map(strand).collect()
+        (0..4).map(replicate).collect()
     }
 
     /// The number that the samples are keyed by.
@@ -97,7 +100,7 @@ impl ProgressiveFilm {
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
-        self.pixels().map(Strands::samples).sum()
+        self.pixels().map(Replicates::samples).sum()
     }
 
     /// The picture so far; black where nothing was sampled.
@@ -113,27 +116,27 @@ impl ProgressiveFilm {
         }
     }
 
-    /// Of each pixel the share of the samples that met a surface.
+    /// Of each pixel the fraction of the samples that met a surface.
     #[must_use]
     pub fn coverage(&self) -> Vec<f32> {
-        self.pixels().map(Strands::coverage).collect()
+        self.pixels().map(Replicates::coverage).collect()
     }
 }
 
-impl Strands {
+impl Replicates {
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> u64 {
         2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
     }
 
-    /// How many samples each strand of a half has.
+    /// How many samples each replicate of a half has.
     #[must_use]
     pub fn count(&self, half: usize) -> u32 {
         self.counts[half]
     }
 
-    /// The variance of the mean of a half, from how far its strands are apart: the mean over the
+    /// The variance of the mean of a half, from how far its replicates are apart: the mean over the
     /// channels.
     #[must_use]
     pub fn variance_of_half(&self, half: usize) -> f64 {
@@ -167,7 +170,7 @@ impl Strands {
         }
     }
 
-    /// The share of the samples that met a surface: the mean of the halves.
+    /// The fraction of the samples that met a surface: the mean of the halves.
     fn coverage(&self) -> f32 {
         let of = |half: usize| coverage(self.hits[half], 2 * u64::from(self.counts[half]));
         (of(0) + of(1)) * 0.5
@@ -195,20 +198,20 @@ impl Strands {
     }
 }
 
-impl Accumulator for Strands {
+impl Accumulator for Replicates {
     type Sample = Sample;
     type Kept = Self;
 
     fn add(&mut self, id: &SampleId, Sample { radiance, hit }: Sample) {
-        let Stream::Strand { strand, .. } = id.stream else {
+        let Stream::Replicate { replicate, .. } = id.stream else {
             return;
         };
         let shown = match self.tone {
             None => radiance.clamp(Vec3::ZERO, Vec3::ONE),
             Some(_) => radiance,
         };
-        let half = strand / 2;
-        self.sums[strand] += shown;
+        let half = replicate / 2;
+        self.sums[replicate] += shown;
         self.squares[half] += shown.length_squared();
         self.linear[half] += radiance;
         self.hits[half] += u64::from(hit);

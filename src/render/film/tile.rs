@@ -1,13 +1,13 @@
 //! A tile under way: which of its pixels are rendered, the samples each is to take, and where the
 //! film keeps what they add up to.
 
-use super::pixel::{Accumulator, Asked};
+use super::pixel::{Accumulator, SampleRanges};
 use super::{Crop, Stride};
 
 /// Begins a pixel: given its place, its number in the film, row by row, and what the film keeps of
 /// it so far, says what adds up its samples and which it is to take.
 pub(in crate::render) type Open<'run, A> =
-    dyn Fn([u32; 2], usize, &<A as Accumulator>::Kept) -> (A, Asked) + Sync + 'run;
+    dyn Fn([u32; 2], usize, &<A as Accumulator>::Kept) -> (A, SampleRanges) + Sync + 'run;
 
 /// The pixels of a tile, one after the other.
 pub(in crate::render) struct Tile<'film, A: Accumulator> {
@@ -29,7 +29,7 @@ pub(in crate::render) struct OpenPixel<A> {
     /// What adds up its samples.
     pub(in crate::render) sums: A,
     /// The samples it is to take.
-    pub(in crate::render) asked: Asked,
+    pub(in crate::render) asked: SampleRanges,
     index: usize,
 }
 

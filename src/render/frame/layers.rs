@@ -4,7 +4,7 @@ use super::{Selection, run};
 use crate::image::Layers;
 use crate::plan::{Features, PathFeatures};
 use crate::render::camera::grid::Grid;
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Accumulator;
 use crate::render::film::tiled::Tiled;
 use crate::render::film::{Crop, Job};
@@ -23,7 +23,7 @@ impl<S: Geometry> World<S> {
         &self,
         wanted: &[Aov],
         crop: Crop,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> Option<Layers> {
         if let Mode::Path(path) = self.scene.settings().mode {
             let lights = Lights::new(self, Strategy::Mis);
@@ -33,13 +33,13 @@ impl<S: Geometry> World<S> {
                     &lights,
                     path,
                     Strategy::Mis,
-                    proceed,
+                    on_pixel,
                 )
                 .knowing_all()
             };
             return self.layers_by(worker, path.samples.get(), wanted, crop);
         }
-        let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, proceed);
+        let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
         self.layers_by(worker, Grid::of(&self.scene).samples(), wanted, crop)
     }
 

@@ -2,10 +2,10 @@
 
 use super::{Selection, run};
 use crate::image::Image;
-use crate::plan::{Features, Sight};
+use crate::plan::{Features, PixelClass};
 use crate::render::camera::grid::Grid;
-use crate::render::film::heartbeat::Proceed;
-use crate::render::film::pixel::{Asked, InBlocks, InOrder, Shown, Stream};
+use crate::render::film::heartbeat::OnPixel;
+use crate::render::film::pixel::{FinishedPixel, InBlocks, InOrder, SampleRanges, Stream};
 use crate::render::film::tiled::Tiled;
 use crate::render::film::{Counts, Crop, Film, Job, Values};
 use crate::render::integrator::first_hit::{Depth, Distance};
@@ -14,58 +14,59 @@ use crate::render::integrator::whitted::Tracer;
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Path};
+use crate::valid::{Mode, PathSettings};
 
 impl<S: Geometry> World<S> {
-    /// Renders with the features `F`; `None` if `proceed` said stop.
+    /// Renders with the features `F`; `None` if `on_pixel` said stop.
     pub(in crate::render) fn render_with<const F: u32>(
         &self,
         job: &Job,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> Option<Film> {
         if let Mode::Zbuffer = self.scene.settings().mode {
-            return self.render_depth(job, proceed);
+            return self.render_depth(job, on_pixel);
         }
         let samples = if Features(F).contains(Features::CAMERA) {
             Grid::of(&self.scene).samples()
         } else {
             1
         };
-        let open = |pixel: [u32; 2], _: usize, _: &Shown| {
-            let is_blank = self.plan.region.sight(pixel) == Sight::Nothing;
+        let open = |pixel: [u32; 2], _: usize, _: &FinishedPixel| {
+            let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
             let samples = if is_blank { 0 } else { samples };
             (InOrder::new(job.values), whole(job, samples))
         };
-        let mut film = Tiled::new(self.crop(job), Shown::default());
-        let worker = || Tracer::<S, F>::new(self, proceed);
+        let mut film = Tiled::new(self.crop(job), FinishedPixel::default());
+        let worker = || Tracer::<S, F>::new(self, on_pixel);
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some(developed(&film, counts))
     }
 
-    /// Renders by tracing paths with the features `F`; `None` if `proceed` said stop.
+    /// Renders by tracing paths with the features `F`; `None` if `on_pixel` said stop.
     pub(in crate::render) fn render_paths_with<const F: u32>(
         &self,
-        path: Path,
+        path: PathSettings,
         strategy: Strategy,
         job: &Job,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> Option<Film> {
         let lights = Lights::new(self, strategy);
         let tone = (job.values == Values::Display).then(|| self.scene.settings().mode.tone());
-        let open = |_: [u32; 2], _: usize, _: &Shown| {
+        let open = |_: [u32; 2], _: usize, _: &FinishedPixel| {
             (InBlocks::new(tone), whole(job, path.samples.get()))
         };
-        let mut film = Tiled::new(self.crop(job), Shown::default());
-        let worker =
-            || PathTracer::<S, F>::new(self, &lights, path, strategy, proceed).before(job.behind);
+        let mut film = Tiled::new(self.crop(job), FinishedPixel::default());
+        let worker = || {
+            PathTracer::<S, F>::new(self, &lights, path, strategy, on_pixel).before(job.background)
+        };
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some(developed(&film, counts))
     }
 
     /// Renders distances, the nearest of all pixels white, the farthest black.
-    fn render_depth(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    fn render_depth(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
         let open = |pixel: [u32; 2], _: usize, _: &Option<f64>| {
-            let is_blank = self.plan.region.sight(pixel) == Sight::Nothing;
+            let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
             (Distance::default(), whole(job, u32::from(!is_blank)))
         };
         let crop = self.crop(job);
@@ -74,7 +75,7 @@ impl<S: Geometry> World<S> {
             tiles: None,
             stride: job.stride,
         };
-        let counts = run(&mut film, selection, || Depth::new(self, proceed), &open)?;
+        let counts = run(&mut film, selection, || Depth::new(self, on_pixel), &open)?;
         let brightness = brightness_of(film.iter().copied());
         let of_crop = || part(&film, crop);
         let pixels = of_crop().map(|t| [t.map_or(0.0, &brightness); 3]).collect();
@@ -117,15 +118,15 @@ impl Selection {
 }
 
 /// The samples of a pixel that a job asks for, from the first on.
-pub(in crate::render) fn whole(job: &Job, samples: u32) -> Asked {
-    let mut asked = Asked::new();
+pub(in crate::render) fn whole(job: &Job, samples: u32) -> SampleRanges {
+    let mut asked = SampleRanges::new();
     let samples = job.samples.map_or(samples, |most| samples.min(most.get()));
     asked.push((Stream::Picture(job.seeds), 0..samples));
     asked
 }
 
 /// The picture of a film.
-fn developed(film: &Tiled<Shown>, counts: Counts) -> Film {
+fn developed(film: &Tiled<FinishedPixel>, counts: Counts) -> Film {
     let Crop { width, height, .. } = film.crop();
     Film {
         image: Image {

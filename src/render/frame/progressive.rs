@@ -1,10 +1,10 @@
-//! Pictures that grow: each pixel takes the samples that its strands lack of those wanted.
+//! Pictures that grow: each pixel takes the samples that its replicates lack of those wanted.
 
 use super::{Selection, run};
 use crate::color::Tone;
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Sample;
-use crate::render::film::progressive::{ProgressiveFilm, Strands};
+use crate::render::film::progressive::{ProgressiveFilm, Replicates};
 use crate::render::integrator::Integrator;
 use crate::render::integrator::path::{PathTracer, Strategy};
 use crate::render::integrator::whitted::Tracer;
@@ -12,9 +12,9 @@ use crate::render::kernel::{choose_of_few, dispatch, dispatch_paths};
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, Path};
+use crate::valid::{Mode, PathSettings};
 
-/// Of each pixel, counted row by row, how many samples each strand of its halves is to have.
+/// Of each pixel, counted row by row, how many samples each replicate of its halves is to have.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Geometry> World<S> {
@@ -23,26 +23,26 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
         if let Mode::Path(path) = self.scene.settings().mode {
-            return dispatch_paths!(self.grow_paths(path, film, wanted, proceed));
+            return dispatch_paths!(self.grow_paths(path, film, wanted, on_pixel));
         }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, proceed))
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, on_pixel))
     }
 
     /// Grows by tracing paths with the features `F`.
     fn grow_paths<const F: u32>(
         &self,
-        path: Path,
+        path: PathSettings,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
-        let (lights, behind) = (Lights::new(self, Strategy::Mis), film.behind);
-        let tracer = || PathTracer::<S, F>::new(self, &lights, path, Strategy::Mis, proceed);
+        let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
+        let tracer = || PathTracer::<S, F>::new(self, &lights, path, Strategy::Mis, on_pixel);
         let tone = self.scene.settings().mode.tone();
-        add_samples(film, wanted, Some(tone), || tracer().before(behind))
+        add_samples(film, wanted, Some(tone), || tracer().before(background))
     }
 
     /// Grows with the features `F`.
@@ -50,10 +50,10 @@ impl<S: Geometry> World<S> {
         &self,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
         add_samples(film, wanted, None, || {
-            Tracer::<S, F>::new(self, proceed).spread()
+            Tracer::<S, F>::new(self, on_pixel).spread()
         })
     }
 }
@@ -67,7 +67,7 @@ fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
     worker: impl Fn() -> I + Sync + Send,
 ) -> bool {
     let seed = film.seed();
-    let open = |_: [u32; 2], index: usize, pixel: &Strands| {
+    let open = |_: [u32; 2], index: usize, pixel: &Replicates| {
         (
             pixel.toned(tone),
             ProgressiveFilm::lacking(seed, pixel, wanted(index)),

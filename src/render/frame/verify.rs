@@ -2,7 +2,7 @@
 //! the plan says adds nothing is looked at where it is added.
 
 use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::shape::Shape;
 use crate::render::shape::plain::PlainShape;
@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Something that a plan left out and that shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct Mismatch {
     /// The pixel, from the upper left.
     pub pixel: [u32; 2],
     /// The effect that was left out.
@@ -28,7 +28,7 @@ pub struct Fault {
 /// A plan under validation, and the first fault in the order of pixels.
 pub(in crate::render) struct Verify {
     pub(in crate::render) plan: Plan,
-    first: Mutex<Option<Fault>>,
+    first: Mutex<Option<Mismatch>>,
 }
 
 impl Verify {
@@ -36,7 +36,7 @@ impl Verify {
     /// kept.
     pub(in crate::render) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
-        self.keep(Fault {
+        self.keep(Mismatch {
             pixel,
             effect,
             rule,
@@ -45,20 +45,20 @@ impl Verify {
     }
 
     /// Keeps a fault, if it is the first in the order of pixels.
-    fn keep(&self, fault: Fault) {
+    fn keep(&self, mismatch: Mismatch) {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let order = |fault: &Fault| (fault.pixel[1], fault.pixel[0]);
+        let order = |mismatch: &Mismatch| (mismatch.pixel[1], mismatch.pixel[0]);
         if first
             .as_ref()
-            .is_none_or(|first| order(&fault) < order(first))
+            .is_none_or(|first| order(&mismatch) < order(first))
         {
-            *first = Some(fault);
+            *first = Some(mismatch);
         }
     }
 }
 
-/// Renders as planned and without rules, and compares: `None` if `proceed` said stop, else the film
-/// as planned, or the first fault.
+/// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
+/// film as planned, or the first fault.
 ///
 /// # Errors
 /// If something that was left out adds something.
@@ -66,18 +66,18 @@ pub fn verify(
     scene: &Proof,
     plan: &Plan,
     job: &Job,
-    proceed: &Proceed<'_>,
-) -> Option<Result<Film, Fault>> {
-    let planned = any::render(scene, plan, job, proceed)?;
+    on_pixel: &OnPixel<'_>,
+) -> Option<Result<Film, Mismatch>> {
+    let planned = any::render(scene, plan, job, on_pixel)?;
     let (naive, verify) = match plan.arithmetic {
-        Arithmetic::Robust => naively::<Shape>(scene, plan, job, proceed)?,
-        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, proceed)?,
-        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, proceed)?,
+        Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
+        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, on_pixel)?,
+        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, on_pixel)?,
     };
     if !plan.rules.contains(Rule::Cut)
         && let Some((pixel, color)) = first_difference(&planned, &naive, job)
     {
-        verify.keep(blame(scene, plan, job, pixel, color, proceed)?);
+        verify.keep(blame(scene, plan, job, pixel, color, on_pixel)?);
     }
     let first = verify
         .first
@@ -91,14 +91,14 @@ fn naively<S: Prepare>(
     scene: &Proof,
     plan: &Plan,
     job: &Job,
-    proceed: &Proceed<'_>,
+    on_pixel: &OnPixel<'_>,
 ) -> Option<(Film, Verify)> {
     let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
     world.verify = Some(Verify {
         plan: plan.clone(),
         first: Mutex::new(None),
     });
-    let naive = world.render_by_few(job, proceed)?;
+    let naive = world.render_by_few(job, on_pixel)?;
     Some((naive, world.verify?))
 }
 
@@ -119,7 +119,7 @@ fn first_difference(planned: &Film, naive: &Film, job: &Job) -> Option<([u32; 2]
     ))
 }
 
-/// The rule without which a pixel has the value it has without all rules; `None` if `proceed` said
+/// The rule without which a pixel has the value it has without all rules; `None` if `on_pixel` said
 /// stop.
 fn blame(
     scene: &Proof,
@@ -127,8 +127,8 @@ fn blame(
     job: &Job,
     pixel: [u32; 2],
     color: [f64; 3],
-    proceed: &Proceed<'_>,
-) -> Option<Fault> {
+    on_pixel: &OnPixel<'_>,
+) -> Option<Mismatch> {
     let [x, y] = pixel;
     let crop = Some(Crop {
         x,
@@ -136,7 +136,7 @@ fn blame(
         width: 1,
         height: 1,
     });
-    let mut fault = Fault {
+    let mut mismatch = Mismatch {
         pixel,
         effect: Effect::Surfaces,
         rule: None,
@@ -147,11 +147,11 @@ fn blame(
             continue;
         };
         let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
-        let film = any::render(scene, &without, &Job { crop, ..*job }, proceed)?;
+        let film = any::render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
         if film.image.pixels.first() == Some(&color) {
-            (fault.effect, fault.rule) = (verdict.effect, Some(rule));
+            (mismatch.effect, mismatch.rule) = (verdict.effect, Some(rule));
             break;
         }
     }
-    Some(fault)
+    Some(mismatch)
 }

@@ -59,7 +59,7 @@ pub(in crate::render) struct First {
 }
 
 /// The first hit of a camera ray.
-pub(in crate::render) struct Seen {
+pub(in crate::render) struct CameraHit {
     /// The direction of the ray.
     pub(in crate::render) direction: Vec3,
     /// What it meets, if it meets anything.
@@ -69,16 +69,16 @@ pub(in crate::render) struct Seen {
 /// An integrator that can tell what a camera ray meets first, without following it further.
 pub(in crate::render) trait FirstHit<'run>: Integrator<'run> {
     /// What the camera ray of a sample meets.
-    fn first_hit(&mut self, id: &SampleId) -> Seen;
+    fn first_hit(&mut self, id: &SampleId) -> CameraHit;
 }
 
 /// Finds nothing but first hits, along the camera rays of another integrator.
 pub(in crate::render) struct FirstHits<I>(pub(in crate::render) I);
 
 impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
-    type Sample = Seen;
+    type Sample = CameraHit;
 
-    fn sample(&mut self, id: &SampleId) -> Seen {
+    fn sample(&mut self, id: &SampleId) -> CameraHit {
         self.0.first_hit(id)
     }
 
@@ -116,10 +116,10 @@ impl<'run> LayerSums<'run> {
 }
 
 impl Accumulator for LayerSums<'_> {
-    type Sample = Seen;
+    type Sample = CameraHit;
     type Kept = arrayvec::ArrayVec<f32, CHANNELS>;
 
-    fn add(&mut self, _: &SampleId, Seen { direction, first }: Seen) {
+    fn add(&mut self, _: &SampleId, CameraHit { direction, first }: CameraHit) {
         self.sums.add(direction, first);
     }
 

@@ -4,7 +4,7 @@
 use super::Integrator;
 use crate::plan::Effect;
 use crate::render::camera::grid::Grid;
-use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::film::pixel::{Accumulator, SampleId};
 use crate::render::film::{Counts, Seeds};
 use crate::render::shape::geometry::Geometry;
@@ -18,10 +18,10 @@ pub(in crate::render) struct Depth<'run, S> {
 }
 
 impl<'run, S: Geometry> Depth<'run, S> {
-    pub(in crate::render) fn new(world: &'run World<S>, proceed: &'run Proceed<'run>) -> Self {
+    pub(in crate::render) fn new(world: &'run World<S>, on_pixel: &'run OnPixel<'run>) -> Self {
         Self {
             world,
-            heartbeat: Heartbeat::new(proceed),
+            heartbeat: Heartbeat::new(on_pixel),
             counts: Counts::default(),
         }
     }
@@ -35,7 +35,7 @@ impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
         let middle = Grid::MIDDLE.cell(camera, id.pixel, [0; 2], Seeds::NONE);
         self.counts.camera += 1;
         self.counts.add(Effect::DepthBuffer);
-        let hit = self.world.nearest(&middle.ray(camera, 0))?;
+        let hit = self.world.closest_hit(&middle.ray(camera, 0))?;
         self.counts.hits += 1;
         Some(hit.t)
     }

@@ -1,11 +1,11 @@
-//! A light of the course: a point, or with a radius a sphere that shows a disc.
+//! A light of the course: a point, or a sphere that is sampled as a disc.
 
 use crate::math::{NonNegative, Vec3};
 
-/// It shines equally in all directions, without falloff.
+/// A light of equal intensity in all directions, without falloff.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct CourseLight {
-    /// Where it stands.
+    /// Its position.
     pub(in crate::render) position: Vec3,
     /// Its colour.
     pub(in crate::render) color: Vec3,

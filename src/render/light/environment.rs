@@ -1,31 +1,31 @@
-//! What surrounds the scene: its radiance by direction, and directions sampled as they are bright.
+//! The environment: its radiance by direction, and importance sampling of bright directions.
 
 use crate::math::{Vec3, acos, atan2, cos, sin};
 use crate::render::bsdf::direction_turned;
-use crate::render::sampler::discrete::Table;
-use crate::render::texture::sampled::{Content, sample};
+use crate::render::sampler::discrete::Distribution2D;
+use crate::render::texture::sampled::{ColorSpace, sample};
 use crate::render::texture::{Filter, Image, Wrap};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// The surroundings.
+/// The light of the environment, from infinitely far away.
 pub(in crate::render) struct Environment {
     radiance: Vec3,
-    /// The image, and its pixels by what they send to the scene.
-    image: Option<(Arc<Image>, Table)>,
+    /// The image, and the distribution of its pixels by radiance and solid angle.
+    image: Option<(Arc<Image>, Distribution2D)>,
     image_from_world: [Vec3; 3],
 }
 
-/// What there is in a direction.
-pub(in crate::render) struct Seen {
+/// The radiance of the environment in one direction.
+pub(in crate::render) struct EnvironmentRadiance {
     pub(in crate::render) radiance: Vec3,
     /// The density of [`Environment::sample`] per solid angle.
     pub(in crate::render) pdf: f64,
 }
 
 impl Environment {
-    /// Surroundings with this radiance, times that of an image if there is one, which the rows of a
-    /// rotation turn.
+    /// An environment of this radiance, times the image if there is one; the rows of
+    /// `image_from_world` rotate directions into the image.
     pub(in crate::render) fn new(
         radiance: Vec3,
         image: Option<Arc<Image>>,
@@ -42,14 +42,14 @@ impl Environment {
         }
     }
 
-    /// Whether all directions are the same.
+    /// Whether the radiance is the same in all directions.
     pub(in crate::render) fn is_uniform(&self) -> bool {
         self.image.is_none()
     }
 
-    /// The mean of the radiance over all directions, by the strongest channel.
+    /// The mean radiance over all directions, in the strongest channel.
     pub(in crate::render) fn mean(&self) -> f64 {
-        // The table weighs rows by the sine of the colatitude, whose mean is 2/π.
+        // Undo the sine of the colatitude in the table's weights: its mean is 2/π.
         let mean = self
             .image
             .as_ref()
@@ -57,8 +57,8 @@ impl Environment {
         self.radiance.max_element() * mean
     }
 
-    /// What there is in a direction, a unit vector.
-    pub(in crate::render) fn seen(&self, direction: Vec3) -> Seen {
+    /// The radiance and the density in a direction, a unit vector.
+    pub(in crate::render) fn seen(&self, direction: Vec3) -> EnvironmentRadiance {
         let Some((image, table)) = &self.image else {
             return self.uniform();
         };
@@ -66,53 +66,62 @@ impl Environment {
         self.seen_at(image, table, place, sin(place[1] * PI))
     }
 
-    /// A direction, and what there is.
-    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, Seen) {
+    /// Samples a direction, and returns its radiance and density.
+    pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
         let Some((image, table)) = &self.image else {
             return (direction_turned(1.0 - 2.0 * u[0], u[1]), self.uniform());
         };
+        // Sample a point of the image.
         let place = table.sample(u);
         let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
         let sine = sin(colatitude);
+        // Convert from longitude and colatitude to a direction.
         let local = Vec3::new(
             sine * sin(longitude),
             cos(colatitude),
             -sine * cos(longitude),
         );
+        // Rotate from the image to the world.
         let [x, y, z] = self.image_from_world;
         let direction = (x * local.x + y * local.y + z * local.z).normalize();
         (direction, self.seen_at(image, table, place, sine))
     }
 
-    fn uniform(&self) -> Seen {
-        Seen {
+    fn uniform(&self) -> EnvironmentRadiance {
+        EnvironmentRadiance {
             radiance: self.radiance,
             pdf: 0.5 / TAU,
         }
     }
 
-    /// What there is at a place in the image, at the sine of the colatitude given.
-    fn seen_at(&self, image: &Image, table: &Table, place: [f64; 2], sine: f64) -> Seen {
+    /// The radiance and the density at a point of the image, given the sine of its colatitude.
+    fn seen_at(
+        &self,
+        image: &Image,
+        table: &Distribution2D,
+        place: [f64; 2],
+        sine: f64,
+    ) -> EnvironmentRadiance {
         let [r, g, b, _] = sample(
             image,
             place,
             [Wrap::Repeat, Wrap::Clamp],
             Filter::Linear,
-            Content::Color,
+            ColorSpace::Srgb,
         );
+        // Convert the density from the unit square to solid angle.
         let pdf = if sine > 0.0 {
             table.pdf(place) / (TAU * PI * sine)
         } else {
             0.0
         };
-        Seen {
+        EnvironmentRadiance {
             radiance: self.radiance * Vec3::new(r, g, b),
             pdf,
         }
     }
 
-    /// The place in the image of a direction: its middle towards −z, +y up, longitude growing
-    /// towards +x.
+    /// Maps a direction to the image: −z to its middle, +y to its top, longitude grows towards +x.
     fn place(&self, direction: Vec3) -> [f64; 2] {
         let [x, y, z] = &self.image_from_world;
         let (x, y, z) = (x.dot(direction), y.dot(direction), z.dot(direction));
@@ -120,8 +129,8 @@ impl Environment {
     }
 }
 
-/// Pixels by their strongest channel, and by the solid angle they span.
-fn table(image: &Image) -> Table {
+/// The distribution of pixels by their strongest channel and their solid angle.
+fn table(image: &Image) -> Distribution2D {
     let [width, height] = [image.width, image.height];
     let weight = |x: u32, y: u32| {
         let v = (f64::from(y) + 0.5) / f64::from(height);
@@ -131,9 +140,9 @@ fn table(image: &Image) -> Table {
             uv,
             [Wrap::Repeat, Wrap::Clamp],
             Filter::Nearest,
-            Content::Color,
+            ColorSpace::Srgb,
         );
         r.max(g).max(b) * sin(v * PI)
     };
-    Table::new([width, height], weight)
+    Distribution2D::new([width, height], weight)
 }

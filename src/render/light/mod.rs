@@ -1,7 +1,7 @@
-//! The lights that paths can be aimed at, each chosen by its power: lights without extent, shining
-//! triangles, and the image that surrounds the scene.
+//! The lights for next-event estimation, each chosen by its power: punctual lights, emissive
+//! triangles, and the environment.
 //!
-//! A light of weight 0 is never aimed at; surfaces that scatter find it.
+//! A light of weight 0 is never chosen; only BSDF sampling finds it.
 
 pub(in crate::render) mod course;
 pub(in crate::render) mod environment;
@@ -12,13 +12,13 @@ use crate::math::Vec3;
 use crate::plan::LightLeft;
 use crate::render::accel::bounds::Bounds;
 use crate::render::integrator::path::Strategy;
-use crate::render::light::environment::Seen;
+use crate::render::light::environment::EnvironmentRadiance;
 use crate::render::light::punctual::Punctual;
 use crate::render::light::triangle::TriangleLight;
-use crate::render::material::point::places;
+use crate::render::material::point::uvs;
 use crate::render::material::standard::StandardMaterial;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::discrete::Choice;
+use crate::render::sampler::discrete::DiscreteDistribution;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::Asked;
 use crate::render::world::World;
@@ -28,7 +28,7 @@ use std::f64::consts::PI;
 pub(in crate::render) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
-    choice: Choice,
+    by_power: DiscreteDistribution,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
 }
@@ -43,11 +43,11 @@ enum Light {
 pub(in crate::render) struct Incident {
     /// The unit vector to the light.
     pub(in crate::render) wi: Vec3,
-    /// The radiance, divided by the density unless that is a delta.
+    /// The radiance divided by the density.
     pub(in crate::render) radiance: Vec3,
-    /// The density per solid angle; `None` for a light that nothing else finds.
+    /// The density per solid angle; `None` for a delta light, which BSDF sampling cannot find.
     pub(in crate::render) pdf: Option<f64>,
-    /// Where it is, unless infinitely far away.
+    /// The sampled point, unless it is infinitely far away.
     pub(in crate::render) place: Option<Vec3>,
 }
 
@@ -70,12 +70,12 @@ impl<'world, S: Geometry> Lights<'world, S> {
             if shines && surface.shape.triangles() > 0 {
                 firsts[index] = Some(lights.len());
                 let parts = u32::try_from(surface.shape.triangles()).unwrap_or(u32::MAX);
-                let corners =
-                    (0..parts).filter_map(|part| Some((part, surface.shape.corners(part)?)));
-                lights.extend(corners.map(|(part, corners)| {
+                let corners = (0..parts)
+                    .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
+                lights.extend(corners.map(|(prim_id, corners)| {
                     Light::Triangle(TriangleLight {
                         surface: index,
-                        part,
+                        prim_id,
                         corners,
                     })
                 }));
@@ -85,11 +85,11 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let mut all = Self {
             world,
             lights,
-            choice: Choice::new(std::iter::empty()),
+            by_power: DiscreteDistribution::new(std::iter::empty()),
             firsts,
         };
         let disc = PI * all.radius_squared();
-        all.choice = Choice::new(
+        all.by_power = DiscreteDistribution::new(
             all.lights
                 .iter()
                 .map(|light| all.weight(light, disc, strategy)),
@@ -97,15 +97,15 @@ impl<'world, S: Geometry> Lights<'world, S> {
         all
     }
 
-    /// The square of the radius of a sphere around all that has an end.
+    /// The square of the radius of a sphere around all bounded surfaces.
     fn radius_squared(&self) -> f64 {
         let boxes = self
             .world
             .surfaces
             .iter()
             .filter_map(|surface| surface.shape.bounds());
-        let whole = boxes.fold(Bounds::EMPTY, Bounds::union);
-        let square = (whole.max - whole.min).length_squared() / 4.0;
+        let total = boxes.fold(Bounds::EMPTY, Bounds::union);
+        let square = (total.max - total.min).length_squared() / 4.0;
         if square > 0.0 && square.is_finite() {
             square
         } else {
@@ -113,7 +113,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// About the power that a light sends to the scene, whose silhouette is `disc`.
+    /// The approximate power that a light sends to the scene, whose cross section is `disc`.
     fn weight(&self, light: &Light, disc: f64, strategy: Strategy) -> f64 {
         match light {
             _ if strategy == Strategy::BsdfSampling && !matches!(light, Light::Punctual(..)) => 0.0,
@@ -121,7 +121,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             Light::Triangle(triangle) => {
                 2.0 * PI * triangle.area() * self.mean_emission(triangle).max_element()
             }
-            // What is the same everywhere is found best by scattering.
+            // BSDF sampling is best for a uniform environment.
             Light::Environment
                 if self.world.lights.environment.is_uniform() && strategy != Strategy::Nee =>
             {
@@ -131,7 +131,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// The mean of the radiance at some points of a triangle.
+    /// The mean radiance of a triangle, estimated at four points.
     fn mean_emission(&self, triangle: &TriangleLight) -> Vec3 {
         const WEIGHTS: [[f64; 3]; 4] = [
             [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
@@ -145,12 +145,12 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
         let [a, b, c] = triangle.corners;
         let at = |[u, v, w]: [f64; 3]| a * u + b * v + c * w;
-        // In pairs, so that the mean of equal numbers is that number.
+        // Add in pairs, so that the mean of equal numbers is exact.
         let [a, b, c, d] = WEIGHTS.map(|weights| self.emission(triangle, at(weights)));
         ((a + b) + (c + d)) / 4.0
     }
 
-    /// The radiance of a point of a triangle.
+    /// The emitted radiance at a point of a triangle.
     fn emission(&self, triangle: &TriangleLight, point: Vec3) -> Vec3 {
         let emission = &self.material(triangle.surface).emission;
         if emission.map.is_none() {
@@ -173,27 +173,29 @@ impl<'world, S: Geometry> Lights<'world, S> {
             tangent: false,
         };
         let shape = &self.world.surfaces[triangle.surface].shape;
-        emission.at(&places(&shape.details(&ray, &at, triangle.part, asked)))
+        emission.at(&uvs(&shape.details(&ray, &at, triangle.prim_id, asked)))
     }
 
     fn material(&self, surface: usize) -> &'world StandardMaterial {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
-    /// Light for a point, from a light chosen by `choice` and a place on it, if it has several, by
-    /// `u`.
+    /// Samples the light that reaches a point: `u_light` chooses the light, `u` a point on it or a
+    /// direction to it.
     pub(in crate::render) fn sample(
         &self,
         from: Vec3,
-        choice: f64,
+        u_light: f64,
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
-        let (index, _) = self.choice.choose(choice)?;
-        let probability = self.choice.probability(index);
+        // Choose a light by its power.
+        let (index, _) = self.by_power.choose(u_light)?;
+        let probability = self.by_power.probability(index);
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
             Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
             Light::Triangle(triangle) => {
+                // Sample a point of the triangle, and convert from area to solid angle.
                 let point = triangle.point(u());
                 let wi = (point - from).try_normalize()?;
                 let pdf = probability * triangle.pdf(wi, point.distance_squared(from));
@@ -206,7 +208,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 })
             }
             Light::Environment => {
-                let (wi, Seen { radiance, pdf }) = self.world.lights.environment.sample(u());
+                let (wi, EnvironmentRadiance { radiance, pdf }) =
+                    self.world.lights.environment.sample(u());
                 let pdf = probability * pdf;
                 (pdf > 0.0).then_some(Incident {
                     wi,
@@ -218,34 +221,34 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// The density with which [`Lights::sample`] takes the direction `wi`, in which a part of a
-    /// surface is found at the square of a distance given.
+    /// The density with which [`Lights::sample`] samples the direction `wi` to a primitive of a
+    /// surface at the given squared distance.
     pub(in crate::render) fn pdf_of_surface(
         &self,
         surface: usize,
-        part: u32,
+        prim_id: u32,
         wi: Vec3,
         distance_squared: f64,
     ) -> f64 {
         let Some(first) = self.firsts[surface] else {
             return 0.0;
         };
-        let index = first + part as usize;
+        let index = first + prim_id as usize;
         match &self.lights[index] {
             Light::Triangle(triangle) => {
-                self.choice.probability(index) * triangle.pdf(wi, distance_squared)
+                self.by_power.probability(index) * triangle.pdf(wi, distance_squared)
             }
             Light::Punctual(..) | Light::Environment => 0.0,
         }
     }
 
-    /// The radiance from a direction that leads to no surface, and the density with which
-    /// [`Lights::sample`] takes it.
+    /// The radiance of the environment in a direction, and the density with which
+    /// [`Lights::sample`] samples it.
     pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, f64) {
-        let Seen { radiance, pdf } = self.world.lights.environment.seen(wi);
+        let EnvironmentRadiance { radiance, pdf } = self.world.lights.environment.seen(wi);
         (
             radiance,
-            self.choice.probability(self.lights.len() - 1) * pdf,
+            self.by_power.probability(self.lights.len() - 1) * pdf,
         )
     }
 }

@@ -1,4 +1,4 @@
-//! Lights without extent, in physical units: nothing but aiming finds them.
+//! Punctual lights in physical units: delta lights, which BSDF sampling cannot find.
 
 use super::Incident;
 use crate::math::Vec3;
@@ -20,11 +20,11 @@ pub(in crate::render) enum Punctual {
 pub(in crate::render) struct SunLight {
     /// The unit vector to it.
     pub(in crate::render) direction: Vec3,
-    /// On a surface that faces it.
+    /// The irradiance of a surface that faces it.
     pub(in crate::render) irradiance: Vec3,
 }
 
-/// A point that shines equally in all directions.
+/// A point light of equal intensity in all directions.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct PointLight {
     /// Where it stands.
@@ -34,32 +34,32 @@ pub(in crate::render) struct PointLight {
     pub(in crate::render) falloff: Falloff,
 }
 
-/// A point that shines into a cone.
+/// A point light with a cone.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct SpotLight {
-    /// As if it shone equally in all directions.
+    /// The light on the axis of the cone.
     pub(in crate::render) point: PointLight,
-    /// The unit vector to where it shines.
+    /// The unit axis of the cone, away from the light.
     pub(in crate::render) direction: Vec3,
-    /// Within this cosine it shines fully.
+    /// The cosine of the inner angle: full intensity within it.
     pub(in crate::render) inner: f64,
-    /// Beyond this cosine it is dark.
+    /// The cosine of the outer angle: dark beyond it.
     pub(in crate::render) outer: f64,
 }
 
-/// How light fades with distance.
+/// The attenuation of light with distance.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) enum Falloff {
-    /// Not at all, as in the course.
+    /// No attenuation, as in the course.
     None,
-    /// With the square of the distance.
+    /// The inverse square of the distance.
     Square,
-    /// With the square of the distance, and to nothing at the range whose square this is.
+    /// The inverse square of the distance, windowed to 0 at the range; this is its square.
     Ranged(f64),
 }
 
 impl Punctual {
-    /// About the power it sends to a scene whose silhouette is `disc`.
+    /// The approximate power that the light sends to a scene whose cross section is `disc`.
     pub(super) fn power(&self, disc: f64) -> f64 {
         match self {
             Self::Sun(sun) => sun.irradiance.max_element() * disc,
@@ -68,7 +68,7 @@ impl Punctual {
         }
     }
 
-    /// What a point receives, if the light is chosen with the probability given.
+    /// The light that a point receives, divided by the probability of choosing this light.
     pub(super) fn sample(&self, from: Vec3, probability: f64) -> Option<Incident> {
         let (wi, place, intensity, strength) = match self {
             Self::Sun(sun) => (sun.direction, None, sun.irradiance, 1.0),
@@ -100,33 +100,37 @@ impl Punctual {
 }
 
 impl PointLight {
-    /// About the power it sends, if it shines into a solid angle.
+    /// The approximate power of the light, emitted into a solid angle.
     fn power(&self, disc: f64, solid_angle: f64) -> f64 {
         let weight = match self.falloff {
-            // Without falloff it is as strong everywhere.
+            // Without attenuation, distance does not matter.
             Falloff::None => disc,
             Falloff::Square | Falloff::Ranged(_) => solid_angle,
         };
         self.intensity.max_element() * weight
     }
 
-    /// The unit vector to it, and how much of it is left.
+    /// The unit vector to the light, and its attenuation.
     fn towards(&self, from: Vec3) -> Option<(Vec3, f64)> {
         let wi = (self.position - from).try_normalize()?;
-        Some((wi, self.falloff.left(self.position.distance_squared(from))))
+        Some((
+            wi,
+            self.falloff
+                .attenuation(self.position.distance_squared(from)),
+        ))
     }
 }
 
 impl Falloff {
-    /// What is left of light, by the square of the distance; with a range as `KHR_lights_punctual`
-    /// recommends.
-    fn left(self, distance_squared: f64) -> f64 {
+    /// The attenuation at a squared distance; the window of a range is that of
+    /// `KHR_lights_punctual`.
+    fn attenuation(self, distance_squared: f64) -> f64 {
         match self {
             Self::None => 1.0,
             Self::Square => 1.0 / distance_squared,
             Self::Ranged(range_squared) => {
-                let share = distance_squared / range_squared;
-                (1.0 - share * share).clamp(0.0, 1.0) / distance_squared
+                let fraction = distance_squared / range_squared;
+                (1.0 - fraction * fraction).clamp(0.0, 1.0) / distance_squared
             }
         }
     }

@@ -1,12 +1,12 @@
-//! A shining triangle.
+//! An emissive triangle.
 
 use crate::math::Vec3;
 
-/// A triangle of a surface whose material shines.
+/// A triangle of a surface with an emissive material.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct TriangleLight {
     pub(super) surface: usize,
-    pub(super) part: u32,
+    pub(super) prim_id: u32,
     pub(super) corners: [Vec3; 3],
 }
 
@@ -16,11 +16,11 @@ impl TriangleLight {
         0.5 * (b - a).cross(c - a).length()
     }
 
-    /// The density per solid angle, seen in a direction at the square of a distance, of points all
-    /// equally likely: `r²/(A·|cos θ|)`.
+    /// The density per solid angle of [`Self::point`], in the direction `wi` at a squared distance:
+    /// `r²/(A·|cos θ|)`.
     pub(super) fn pdf(&self, wi: Vec3, distance_squared: f64) -> f64 {
         let [a, b, c] = self.corners;
-        // The cross product is twice the area times the normal.
+        // Convert from area to solid angle: the cross product is 2·A·n.
         let projected = 0.5 * (b - a).cross(c - a).dot(wi).abs();
         if projected > 0.0 {
             distance_squared / projected
@@ -29,10 +29,11 @@ impl TriangleLight {
         }
     }
 
-    /// A point, all equally likely (Heitz, "A low-distortion map between triangle and square",
-    /// 2019).
+    /// Samples a point uniformly by area (Heitz, "A low-distortion map between triangle and
+    /// square", 2019).
     pub(super) fn point(&self, [u, v]: [f64; 2]) -> Vec3 {
         let [a, b, c] = self.corners;
+        // Fold the unit square onto barycentric coordinates.
         let (u, v) = if v > u {
             (u * 0.5, v - u * 0.5)
         } else {

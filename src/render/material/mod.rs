@@ -1,4 +1,4 @@
-//! What surfaces are made of, as the integrators ask for it.
+//! Prepared materials, as the integrators evaluate them.
 
 pub(in crate::render) mod phong;
 pub(in crate::render) mod point;

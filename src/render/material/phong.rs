@@ -1,4 +1,4 @@
-//! Phong's model as a world holds it: each map leads straight to its image.
+//! Phong's material, prepared: each map holds its image.
 
 use crate::math::{NonNegative, Positive, Vec3};
 use crate::render::texture::Texture;
@@ -24,7 +24,7 @@ pub(in crate::render) struct PhongMaterial {
     pub(in crate::render) eta: Positive,
     /// Rays of the glossy lobe.
     pub(in crate::render) glossy_samples: NonZeroU32,
-    /// What is looked up by uv, if anything is.
+    /// The textures, if there are any.
     pub(in crate::render) maps: Option<Box<PhongMaps>>,
 }
 

@@ -1,57 +1,56 @@
-//! The material of glTF where a ray meets it: factors times maps, the frame of shading, and what of
-//! it emits or is absent.
+//! The glTF material at a hit: factors times maps, the shading frame, emission and opacity.
 
 use crate::math::{Basis, Vec3};
-use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, Standard};
+use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
 use crate::render::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
 use crate::render::ray::Interaction;
 use crate::render::shape::instance::Details;
-use crate::render::texture::sampled::Places;
+use crate::render::texture::sampled::UvSets;
 
-/// A material with what a surface says of one point.
-pub(in crate::render) struct Point<'world> {
+/// A material at one point of a surface.
+pub(in crate::render) struct MaterialPoint<'world> {
     pub(in crate::render) material: &'world StandardMaterial,
-    places: Places,
-    /// The colour at the point, that of the corners included, and alpha.
+    uvs: UvSets,
+    /// Base colour and alpha at the point, vertex colours included.
     base: [f64; 4],
 }
 
-/// The frame of shading at a point: the unit normal, and the directions along which maps grow.
-pub(in crate::render) struct Frame {
-    /// Right-handed, as the BSDF wants it.
+/// The shading frame at a point: the shading normal and the tangents of the maps.
+pub(in crate::render) struct ShadingFrame {
+    /// A right-handed basis for the BSDF.
     basis: Basis,
-    /// How highlights are stretched.
+    /// The anisotropy of the highlights.
     stretch: Option<Anisotropy>,
 }
 
-/// Where on a surface its material looks maps up.
-pub(in crate::render) fn places(details: &Details) -> Places {
+/// The texture coordinates at a point.
+pub(in crate::render) fn uvs(details: &Details) -> UvSets {
     [details.uv, details.second_uv]
 }
 
-impl<'world> Point<'world> {
+impl<'world> MaterialPoint<'world> {
     pub(in crate::render) fn new(material: &'world StandardMaterial, details: &Details) -> Self {
-        let places = places(details);
+        let uvs = uvs(details);
         let (own, corners) = (
-            material.base_color.at(&places),
+            material.base_color.at(&uvs),
             details.color.unwrap_or([1.0; 4]),
         );
         let base = |k: usize| own[k] * corners[k];
         Self {
             material,
-            places,
+            uvs,
             base: [base(0), base(1), base(2), base(3)],
         }
     }
 
     /// The first texture coordinates.
     pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
-        self.places[0]
+        self.uvs[0]
     }
 
-    /// The probability that a ray meets the surface.
+    /// The opacity: the probability that the alpha test keeps the hit.
     pub(in crate::render) fn opacity(&self) -> f64 {
         match self.material.alpha {
             Alpha::Opaque => 1.0,
@@ -66,28 +65,28 @@ impl<'world> Point<'world> {
         Vec3::new(r, g, b).min(Vec3::ONE)
     }
 
-    /// The radiance it sends out by itself.
+    /// The emitted radiance.
     pub(in crate::render) fn emission(&self) -> Vec3 {
-        self.material.emission.at(&self.places)
+        self.material.emission.at(&self.uvs)
     }
 
-    /// What is scattered; `channel` is the colour that a dispersed path has been left with.
+    /// The parameters of the BSDF; `channel` is the wavelength that a dispersed path picked.
     pub(in crate::render) fn standard(
         &self,
-        frame: &Frame,
+        frame: &ShadingFrame,
         clearcoat: Vec3,
         channel: Option<usize>,
         multiple: bool,
-    ) -> Standard {
+    ) -> StandardParameters {
         let m = self.material;
-        let mut standard = Standard {
+        let mut standard = StandardParameters {
             base_color: self.base_color(),
             metallic: 0.0,
             roughness: 0.0,
             ior: 0.0,
             specular: 1.0,
             specular_color: Vec3::ONE,
-            transmission: m.transmission.at(&self.places),
+            transmission: m.transmission.at(&self.uvs),
             thin_walled: !m.bounds_a_volume,
             anisotropy: None,
             clearcoat: None,
@@ -100,7 +99,7 @@ impl<'world> Point<'world> {
         standard
     }
 
-    fn reflect(&self, standard: &mut Standard, channel: Option<usize>) {
+    fn reflect(&self, standard: &mut StandardParameters, channel: Option<usize>) {
         let m = self.material;
         match &m.reflection {
             Reflection::Metallic {
@@ -110,42 +109,40 @@ impl<'world> Point<'world> {
                 specular,
                 specular_color,
             } => {
-                let [_, g, b, _] = map
-                    .as_ref()
-                    .map_or([1.0; 4], |map| shown(map, &self.places));
+                let [_, g, b, _] = map.as_ref().map_or([1.0; 4], |map| shown(map, &self.uvs));
                 (standard.metallic, standard.roughness) = (metallic * b, roughness * g);
                 standard.ior = match (channel, m.dispersed) {
                     (Some(channel), Some(dispersed)) => dispersed[channel],
                     (Some(_), None) | (None, _) => m.ior,
                 };
-                standard.specular = specular.at(&self.places);
-                standard.specular_color = specular_color.at(&self.places);
+                standard.specular = specular.at(&self.uvs);
+                standard.specular_color = specular_color.at(&self.uvs);
             }
-            // An infinite index reflects the colour given.
+            // An infinite index reflects the specular colour.
             Reflection::Specular(factor) => {
-                let [red, green, blue, glossiness] = factor.at(&self.places);
+                let [red, green, blue, glossiness] = factor.at(&self.uvs);
                 standard.specular_color = Vec3::new(red, green, blue);
                 standard.roughness = (1.0 - glossiness).clamp(0.0, 1.0);
             }
         }
     }
 
-    fn add_layers(&self, standard: &mut Standard, frame: &Frame, clearcoat: Vec3) {
-        let (m, places) = (self.material, &self.places);
-        // A layer whose map shows 0 is not there.
+    fn add_layers(&self, standard: &mut StandardParameters, frame: &ShadingFrame, clearcoat: Vec3) {
+        let (m, uvs) = (self.material, &self.uvs);
+        // Omit layers whose maps are 0 here.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
-            factor: layer.factor.at(places),
-            roughness: layer.roughness.at(places),
+            factor: layer.factor.at(uvs),
+            roughness: layer.roughness.at(uvs),
             normal: frame.to_local(clearcoat),
         });
         let sheen = m.sheen.as_ref().map(|layer| Sheen {
-            color: layer.color.at(places),
-            roughness: layer.roughness.at(places),
+            color: layer.color.at(uvs),
+            roughness: layer.roughness.at(uvs),
         });
         let film = m.iridescence.as_ref().map(|layer| Iridescence {
-            factor: layer.factor.at(places),
+            factor: layer.factor.at(uvs),
             ior: layer.ior,
-            thickness: layer.least + layer.spread.at(places),
+            thickness: layer.min + layer.spread.at(uvs),
         });
         standard.clearcoat = coat.filter(|coat| coat.factor > 0.0);
         standard.sheen = sheen.filter(|sheen| sheen.color != Vec3::ZERO);
@@ -154,8 +151,8 @@ impl<'world> Point<'world> {
     }
 
     fn stretch(&self, layer: &AnisotropyLayer, side: f64) -> Anisotropy {
-        let map = layer.map.as_ref().and_then(|map| map.look_up(&self.places));
-        let [r, g, share, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
+        let map = layer.map.as_ref().and_then(|map| map.look_up(&self.uvs));
+        let [r, g, fraction, _] = map.unwrap_or([1.0, 0.5, 1.0, 1.0]);
         let along = Vec3::new(r * 2.0 - 1.0, g * 2.0 - 1.0, 0.0).normalize_or(Vec3::X);
         let [c, s] = layer.turn;
         let direction = [
@@ -163,31 +160,31 @@ impl<'world> Point<'world> {
             (s * along.x + c * along.y) * side,
         ];
         Anisotropy {
-            strength: layer.strength * share,
+            strength: layer.strength * fraction,
             direction,
         }
     }
 
-    /// Whether a map bends its normals.
+    /// Whether the material has a normal map.
     pub(in crate::render) fn has_normal_map(&self) -> bool {
         let coat = self.material.clearcoat.as_ref();
         self.material.normal.is_some() || coat.is_some_and(|coat| coat.normal.is_some())
     }
 
-    /// Whether light goes through at the point.
+    /// Whether the material transmits light at the point.
     pub(in crate::render) fn transmits(&self) -> bool {
-        self.material.transmission.at(&self.places) > 0.0
+        self.material.transmission.at(&self.uvs) > 0.0
     }
 
-    /// The frame with the normal map applied, and the normal of the clearcoat.
+    /// The shading frame with the normal map applied, and the shading normal of the clearcoat.
     pub(in crate::render) fn frame(
         &self,
         at: &Interaction,
         details: &Details,
         wo: Vec3,
-    ) -> (Frame, Vec3) {
-        // The winding says which side is outside, and the normals of some meshes were made against
-        // it.
+    ) -> (ShadingFrame, Vec3) {
+        // Flip the vertex normal to the side of the geometric normal: the winding decides which
+        // side is outside, and some meshes have normals against it.
         let normal = details
             .normal
             .map_or(at.normal, |n| if n.dot(at.normal) < 0.0 { -n } else { n });
@@ -196,14 +193,14 @@ impl<'world> Point<'world> {
             let normal = map
                 .as_ref()
                 .map_or(normal, |map| self.mapped(map, normal, details));
-            bent(normal, at.normal, wo)
+            clamped_shading_normal(normal, at.normal, wo)
         };
         let shading = mapped(&m.normal);
         let coat = m
             .clearcoat
             .as_ref()
             .map_or(shading, |layer| mapped(&layer.normal));
-        // Only highlights that are stretched depend on how the frame is turned.
+        // Build the tangents only for anisotropy.
         let stretch = m
             .anisotropy
             .as_ref()
@@ -211,12 +208,12 @@ impl<'world> Point<'world> {
         let stretch = stretch.filter(|stretch| stretch.strength > 0.0);
         let tangent = details.tangent.filter(|_| stretch.is_some());
         let basis = basis(shading, tangent, 1.0);
-        (Frame { basis, stretch }, coat)
+        (ShadingFrame { basis, stretch }, coat)
     }
 
-    /// The normal that a map gives.
+    /// The normal of a normal map.
     fn mapped(&self, map: &NormalMap, normal: Vec3, details: &Details) -> Vec3 {
-        let Some([x, y, z, _]) = map.map.look_up(&self.places) else {
+        let Some([x, y, z, _]) = map.map.look_up(&self.uvs) else {
             return normal;
         };
         let local = Vec3::new(
@@ -230,7 +227,7 @@ impl<'world> Point<'world> {
     }
 }
 
-impl Frame {
+impl ShadingFrame {
     pub(in crate::render) fn to_local(&self, w: Vec3) -> Vec3 {
         self.basis.to_local(w)
     }
@@ -240,7 +237,7 @@ impl Frame {
     }
 }
 
-/// The frame around a normal, its tangent that of a surface as far as there is one.
+/// A basis around a normal, with the surface's tangent if there is one.
 fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
     let tangent = tangent
         .map(|t| t - normal * normal.dot(t))
@@ -255,21 +252,22 @@ fn basis(normal: Vec3, tangent: Option<Vec3>, side: f64) -> Basis {
     )
 }
 
-/// A shading normal that mirrors the viewer to above the surface: one that leans too far is bent
-/// until it does, so that what is shiny turns no blacker than its horizon (Keller et al., "The Iray
-/// light transport simulation and rendering system", 2017, has a like rule).
-fn bent(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
-    /// How far above the horizon, as a sine, and as a share of what the geometric normal gives.
+/// Clamps a shading normal so that the mirror direction of the viewer stays above the surface.
+/// Otherwise shiny surfaces turn black at grazing angles (a similar rule: Keller et al., "The Iray
+/// light transport simulation and rendering system", 2017).
+fn clamped_shading_normal(shading: Vec3, geometric: Vec3, wo: Vec3) -> Vec3 {
+    /// The minimum elevation, as a sine and as a fraction of the geometric normal's.
     const LEAST: f64 = 0.01;
     const SHARE: f64 = 0.9;
     let side = 1.0_f64.copysign(wo.dot(geometric));
     let (n, above) = (shading * side, geometric * side);
+    // Mirror the viewer at the shading normal.
     let mirrored = n * (2.0 * n.dot(wo)) - wo;
-    let (height, least) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
-    if height >= least {
+    let (height, min) = (mirrored.dot(above), LEAST.min(SHARE * wo.dot(above)));
+    if height >= min {
         return shading;
     }
-    // The normal halfway between the viewer and the direction raised.
-    let raised = (mirrored + above * (least - height)).normalize_or_zero();
+    // Raise the mirror direction, and take the half vector.
+    let raised = (mirrored + above * (min - height)).normalize_or_zero();
     (wo + raised).normalize_or(above) * side
 }

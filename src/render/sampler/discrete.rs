@@ -1,16 +1,16 @@
-//! Distributions given by tables: an index by its weight, a place of the unit square by the weight
-//! of its cell.
+//! Tabulated distributions: an index, or a point of the unit square, with a probability
+//! proportional to its weight.
 
-/// Indices with probabilities proportional to weights.
+/// A discrete distribution over indices, proportional to weights.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Choice {
+pub(in crate::render) struct DiscreteDistribution {
     /// Sums of the weights up to and including each.
     sums: Vec<f64>,
-    /// The last index that weighs something.
+    /// The last index with a nonzero weight.
     last: usize,
 }
 
-impl Choice {
+impl DiscreteDistribution {
     pub(in crate::render) fn new(weights: impl Iterator<Item = f64>) -> Self {
         let mut sum = 0.0;
         let add = |weight: f64| {
@@ -23,25 +23,25 @@ impl Choice {
     }
 
     /// The sum of all weights.
-    pub(in crate::render) fn whole(&self) -> f64 {
+    pub(in crate::render) fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
     }
 
     /// The probability of an index.
     pub(in crate::render) fn probability(&self, index: usize) -> f64 {
-        let whole = self.whole();
+        let total = self.total();
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
-        if whole > 0.0 {
-            (self.sums[index] - before) / whole
+        if total > 0.0 {
+            (self.sums[index] - before) / total
         } else {
             0.0
         }
     }
 
-    /// The index for a number in [0, 1), and the number left for choosing within it; `None` if all
-    /// weights are 0.
+    /// Samples an index with a number in [0, 1), and returns the number remapped to [0, 1) for the
+    /// next decision; `None` if all weights are 0.
     pub(in crate::render) fn choose(&self, u: f64) -> Option<(usize, f64)> {
-        let place = u * self.whole();
+        let place = u * self.total();
         let index = self
             .sums
             .partition_point(|sum| *sum <= place)
@@ -57,24 +57,24 @@ impl Choice {
     }
 }
 
-/// Places of the unit square with a density proportional to the weight of their cell.
+/// A piecewise constant distribution over the unit square.
 #[derive(Clone, Debug)]
-pub(in crate::render) struct Table {
-    rows: Choice,
-    cells: Vec<Choice>,
+pub(in crate::render) struct Distribution2D {
+    rows: DiscreteDistribution,
+    cells: Vec<DiscreteDistribution>,
     width: usize,
 }
 
-impl Table {
+impl Distribution2D {
     /// A table of columns and rows, both at least 1.
     pub(in crate::render) fn new(
         [width, height]: [u32; 2],
         weight: impl Fn(u32, u32) -> f64,
     ) -> Self {
-        let row = |y: u32| Choice::new((0..width).map(|x| weight(x, y)));
+        let row = |y: u32| DiscreteDistribution::new((0..width).map(|x| weight(x, y)));
         let cells = (0..height).map(row).collect::<Vec<_>>();
         Self {
-            rows: Choice::new(cells.iter().map(Choice::whole)),
+            rows: DiscreteDistribution::new(cells.iter().map(DiscreteDistribution::total)),
             cells,
             width: width as usize,
         }
@@ -82,7 +82,7 @@ impl Table {
 
     /// The mean weight of a cell.
     pub(in crate::render) fn mean(&self) -> f64 {
-        self.rows.whole() / (self.width * self.cells.len()) as f64
+        self.rows.total() / (self.width * self.cells.len()) as f64
     }
 
     /// The density at a place.
@@ -92,14 +92,15 @@ impl Table {
         reason = "clamped to the table"
     )]
     pub(in crate::render) fn pdf(&self, [u, v]: [f64; 2]) -> f64 {
-        let cell = |share: f64, count: usize| ((share * count as f64) as usize).min(count - 1);
+        let cell =
+            |fraction: f64, count: usize| ((fraction * count as f64) as usize).min(count - 1);
         let (x, y) = (cell(u, self.width), cell(v, self.cells.len()));
         self.rows.probability(y)
             * self.cells[y].probability(x)
             * (self.width * self.cells.len()) as f64
     }
 
-    /// The place for two numbers in [0, 1); anywhere if all weights are 0.
+    /// Samples a point with two numbers in [0, 1); uniform if all weights are 0.
     pub(in crate::render) fn sample(&self, u: [f64; 2]) -> [f64; 2] {
         let place = || {
             let (y, rest_y) = self.rows.choose(u[1])?;
@@ -119,25 +120,33 @@ mod tests {
 
     #[test]
     fn indices_come_as_often_as_they_weigh() {
-        let choice = Choice::new([0.0, 1.0, 0.0, 3.0, 0.0].into_iter());
+        let choice = DiscreteDistribution::new([0.0, 1.0, 0.0, 3.0, 0.0].into_iter());
         assert_eq!(choice.choose(0.0).unwrap().0, 1);
         assert_eq!(choice.choose(0.2499).unwrap().0, 1);
         assert_eq!(choice.choose(0.25), Some((3, 0.0)));
         assert_eq!(choice.choose(0.999_999).unwrap().0, 3);
         assert_eq!((choice.probability(1), choice.probability(4)), (0.25, 0.0));
-        assert!(Choice::new([0.0].into_iter()).choose(0.5).is_none());
-        assert!(Choice::new([].into_iter()).choose(0.5).is_none());
+        assert!(
+            DiscreteDistribution::new([0.0].into_iter())
+                .choose(0.5)
+                .is_none()
+        );
+        assert!(
+            DiscreteDistribution::new([].into_iter())
+                .choose(0.5)
+                .is_none()
+        );
     }
 
     #[test]
     fn places_have_the_density_of_their_cell() {
-        let table = Table::new([3, 2], |x, y| f64::from(x + 3 * y));
+        let table = Distribution2D::new([3, 2], |x, y| f64::from(x + 3 * y));
         let n = 300;
         let mut counts = [[0.0; 3]; 2];
         for i in 0..n {
             for j in 0..n {
-                let share = |k: i32| (f64::from(k) + 0.5) / f64::from(n);
-                let [u, v] = table.sample([share(i), share(j)]);
+                let fraction = |k: i32| (f64::from(k) + 0.5) / f64::from(n);
+                let [u, v] = table.sample([fraction(i), fraction(j)]);
                 counts[(v * 2.0) as usize][(u * 3.0) as usize] += 1.0 / f64::from(n * n);
             }
         }

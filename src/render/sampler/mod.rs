@@ -1,5 +1,5 @@
-//! Numbers for sampling, keyed by pixel, sample and the path so far: never by time or the order of
-//! use.
+//! Random numbers, keyed by pixel, sample and path vertex: they never depend on time or on the
+//! order of calls.
 
 pub(in crate::render) mod discrete;
 pub(in crate::render) mod sequence;
@@ -7,7 +7,7 @@ pub(in crate::render) mod sobol;
 
 use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
 
-/// The name of one point of one path.
+/// The key of one vertex of one path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) struct Key(u64);
 
@@ -60,7 +60,7 @@ pub(in crate::render) fn mix(x: u64) -> u64 {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct DiscPoints {
     count: u32,
-    /// In [0, 1), as a share of the area of one point: uniform, it spreads any number of points
+    /// In [0, 1), as a fraction of the area of one point: uniform, it spreads any number of points
     /// without bias.
     shift: f64,
     /// In units of 2⁻⁶⁴ turns.
@@ -88,12 +88,12 @@ impl DiscPoints {
     }
 }
 
-/// A set of directions around an axis with a density ∝ cosⁿ of the angle to it.
+/// Directions around an axis with a density proportional to cosⁿ of the angle to it.
 ///
-/// Stratified: the cosines take equal shares of the distribution, the azimuths are golden angles
+/// Stratified: the cosines take equal fractions of the distribution, the azimuths are golden angles
 /// apart, and both are shifted by numbers of the key.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Lobe {
+pub(in crate::render) struct PhongLobeSampler {
     basis: Basis,
     exponent: f64,
     count: u32,
@@ -102,7 +102,7 @@ pub(in crate::render) struct Lobe {
     rotation: u64,
 }
 
-impl Lobe {
+impl PhongLobeSampler {
     /// The lobe of `count` directions around the unit vector `axis`.
     #[must_use]
     pub(in crate::render) fn new(axis: Vec3, n: NonNegative, count: u32, key: Key) -> Self {
@@ -119,8 +119,8 @@ impl Lobe {
     /// Direction k, a unit vector.
     #[must_use]
     pub(in crate::render) fn direction(&self, k: u32) -> Vec3 {
-        let share = (f64::from(k) + self.shift) / f64::from(self.count);
-        let cosine = pow(share, self.exponent).min(1.0);
+        let fraction = (f64::from(k) + self.shift) / f64::from(self.count);
+        let cosine = pow(fraction, self.exponent).min(1.0);
         let sine = ((1.0 - cosine) * (1.0 + cosine)).sqrt();
         let (x, y) = cos_sin_turns(golden_turns(u64::from(k)).wrapping_add(self.rotation));
         self.basis
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn the_mean_cosine_of_a_lobe_is_that_of_its_density() {
         for n in [0.0, 1.0, 8.0, 64.0] {
-            let lobe = Lobe::new(
+            let lobe = PhongLobeSampler::new(
                 Vec3::Z,
                 NonNegative::new(n).unwrap(),
                 1 << 14,
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn directions_of_a_lobe_balance_around_its_axis() {
-        let lobe = Lobe::new(
+        let lobe = PhongLobeSampler::new(
             Vec3::X,
             NonNegative::new(8.0).unwrap(),
             1 << 12,

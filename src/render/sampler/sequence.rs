@@ -1,7 +1,7 @@
 //! Points spread evenly over pixel and lens together: Sobol's sequence in four dimensions,
-//! scrambled anew for each key.
+//! scrambled differently for each key.
 //!
-//! Any number of first points is without bias; a power of two of them is stratified.
+//! The first n points are unbiased for every n, and stratified if n is a power of two.
 
 use crate::render::sampler::Key;
 
@@ -16,8 +16,8 @@ const DIRECTIONS: [[u32; 32]; DIMENSIONS] = [
     directions(3, 1, [1, 3, 1]),
 ];
 
-/// Those of the primitive polynomial of a degree with the inner coefficients given as bits; degree
-/// 0 is van der Corput's sequence.
+/// The direction numbers of a primitive polynomial, given by its degree and its inner coefficients
+/// as bits. Degree 0 is van der Corput's sequence.
 const fn directions(degree: usize, inner: u32, first: [u32; 3]) -> [u32; 32] {
     let mut v = [0; 32];
     let mut k = 0;
@@ -73,9 +73,9 @@ fn sobol(directions: &[u32; 32], index: u32) -> u32 {
     x
 }
 
-/// Owen's scrambling by a hash in which no bit depends on a lower one (Burley, "Practical
-/// hash-based Owen scrambling", Journal of Computer Graphics Techniques 9 (2020)), and a digital
-/// shift, which makes each point uniform by itself.
+/// Owen scrambling by a hash (Burley, "Practical hash-based Owen scrambling", JCGT 9 (2020), with
+/// the constants of Vegdahl, "Building a better LK hash" (2021)), then a digital shift, which makes
+/// each point uniform by itself.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "the halves of the seed are meant"

@@ -1,5 +1,5 @@
 //! Numbers for paths: Owen-scrambled Sobol' points, padded: each pair of dimensions is the first
-//! two of the sequence, shuffled and scrambled anew.
+//! two of the sequence, with its own shuffling and scrambling.
 //!
 //! After Burley, "Practical hash-based Owen scrambling" (JCGT 9, 2020). A pair depends on pixel,
 //! sample and dimension alone.
@@ -13,7 +13,7 @@ pub(in crate::render) const FILM: u32 = 0;
 /// The pair of the place on the lens.
 pub(in crate::render) const LENS: u32 = 1;
 
-/// The first pair of what comes after.
+/// The first pair for the bounces.
 pub(in crate::render) const CORNERS: u32 = 2;
 
 /// The numbers of one path.
@@ -27,7 +27,7 @@ pub(in crate::render) struct Sobol {
 }
 
 impl Sobol {
-    /// Those of path `index` of a pixel.
+    /// The numbers of path `index` of a pixel.
     pub(in crate::render) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
         Self {
             pixel: Key::new(pixel, 0),
@@ -58,8 +58,8 @@ impl Sobol {
             .map(|number| number / 4_294_967_296.0)
     }
 
-    /// A number in [0, 1) for what is outside of the sequence, as how often a path goes through a
-    /// veil.
+    /// An independent number in [0, 1) for decisions that use no dimension of the sequence, such as
+    /// the alpha test.
     pub(in crate::render) fn uniform(&self, dimension: u32, turn: u32) -> f64 {
         let key = self
             .pixel

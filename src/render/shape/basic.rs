@@ -33,8 +33,8 @@ impl Geometry for Basic {
         t.map(|t| (t, 0))
     }
 
-    fn error(&self, ray: &Ray, t: f64, part: u32) -> f64 {
-        tie::error(ray, t, &self.interaction(ray, t, part))
+    fn error(&self, ray: &Ray, t: f64, prim_id: u32) -> f64 {
+        tie::error(ray, t, &self.interaction(ray, t, prim_id))
     }
 
     fn interaction(&self, ray: &Ray, t: f64, _part: u32) -> Interaction {

@@ -1,4 +1,5 @@
-//! The capped cone: the stretch inside one nappe and the stretch between base and apex, intersected.
+//! The capped cone: the stretch inside one nappe and the stretch between base and apex,
+//! intersected.
 //!
 //! The ray is first moved to the point nearest to the cone's middle, so that the terms of the
 //! quadratic have the size of the cone; each root is then refined by one Newton step on the
@@ -14,7 +15,7 @@ use crate::render::shape::interval::{Interval, between_planes, roots};
 /// A cone is flat if its radius is more than this many times its height.
 const FLAT: f64 = 1024.0;
 
-/// A cone with a cap at its base, ready to be hit.
+/// A prepared cone with a cap at its base.
 #[derive(Clone, Copy, Debug)]
 pub struct Cone {
     base: Vec3,
@@ -144,13 +145,11 @@ impl Cone {
     fn crossing_flat(&self, start: Vec3, d: Vec3, nearest: f64, tau: f64) -> Option<(f64, Part)> {
         let x = cross(d, self.axis);
         let at_base = -dot(self.axis, start) / dot(self.axis, d);
-        // A ray steeper than the side is moved to the base, any other to the point nearest to the
-        // middle: it is then never higher above the base than a few times the cone, if it
-        // hits that.
+        // Move a ray steeper than the side to the base, and any other ray to the point closest to
+        // the middle. If it hits the cone, it then starts within a few heights of the base.
         let across = x.length();
         let moved = if tau.abs() > across { at_base } else { nearest };
-        // Steps are counted in the time that ρ or g takes to change by 1, so that neither leaves
-        // the range of f64.
+        // Scale t by the rate of ρ or g, so that neither overflows.
         let pace = across.max(tau.abs());
         let (x, tau) = (x / pace, tau / pace);
         let base = (at_base - moved) * pace;
@@ -186,8 +185,7 @@ impl Cone {
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let radial = (local - self.axis * along).normalize_or_zero();
-        // Once more: what rounding left along the axis would count height/radius times in the side
-        // of a needle.
+        // Repeat the step: in a needle, the rest along the axis is amplified by height/radius.
         let radial = (radial - self.axis * dot(self.axis, radial)).normalize_or_zero();
         let (local, normal) = match part {
             Part::Base => (local - self.axis * along, -self.axis),

@@ -10,7 +10,7 @@ use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::interval::{Interval, between_planes, roots};
 
-/// A cylinder with two caps, ready to be hit.
+/// A prepared cylinder with two caps.
 #[derive(Clone, Copy, Debug)]
 pub struct Cylinder {
     base: Vec3,
@@ -60,7 +60,7 @@ impl Cylinder {
             .first_in_front()
     }
 
-    /// The stretch inside the infinite cylinder, to be known well where it is between the caps.
+    /// The interval of t inside the infinite cylinder, accurate between the caps.
     fn inside_side(&self, f: Vec3, d: Vec3, caps: &Interval<Part>) -> Option<Interval<Part>> {
         let r2 = self.radius * self.radius;
         let (from_axis, across) = (cross(f, self.axis), cross(d, self.axis));
@@ -78,11 +78,13 @@ impl Cylinder {
             .min(caps.leave.0);
         let from_axis = cross(f + d * nearest, self.axis);
         let b = -from_axis.dot(across);
+        // Compute the discriminant from the foot of the perpendicular.
         let foot = from_axis + across * (b / a);
         let inside = r2 - foot.dot(foot);
         if inside < 0.0 || inside.is_nan() {
             return None;
         }
+        // Solve the quadratic, with c as a product of differences.
         let length = from_axis.length();
         let c = (length - self.radius) * (length + self.radius);
         let (enter, leave) = roots(a, b, c, a * inside);
@@ -97,6 +99,7 @@ impl Cylinder {
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        // Project the point onto the cap or the side.
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
         let (local, normal) = match part {

@@ -5,7 +5,7 @@ use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::plane::Plane;
 
-/// A disc ready to be hit; its rim belongs to it.
+/// A prepared disc, rim included.
 #[derive(Clone, Copy, Debug)]
 pub struct Disc {
     plane: Plane,

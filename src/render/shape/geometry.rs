@@ -17,14 +17,14 @@ pub trait Geometry: Sized + Send + Sync {
     /// part.
     #[must_use]
     #[inline]
-    fn nearest(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+    fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         self.intersect(ray, shear, t_max)
     }
 
     /// Calls `visit` with roots above 0 and their parts: all up to `t_max` that may be the nearest.
     fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
-        if let Some((t, part)) = self.intersect(ray, shear, t_max) {
-            visit(t, part);
+        if let Some((t, prim_id)) = self.intersect(ray, shear, t_max) {
+            visit(t, prim_id);
         }
     }
 
@@ -34,9 +34,9 @@ pub trait Geometry: Sized + Send + Sync {
         0.0
     }
 
-    /// What is known of the point at `t`, a root on `part` of this shape.
+    /// What is known of the point at `t`, a root on `prim_id` of this shape.
     #[must_use]
-    fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction;
+    fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction;
 
     /// Whether its points have texture coordinates.
     #[must_use]
@@ -48,9 +48,10 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// What the shape knows of the point beyond its geometry, as far as that is asked.
     #[must_use]
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details;
+    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details;
 
-    /// How many flat parts it has that can be lights; each is a `part` of [`Geometry::intersect`].
+    /// How many flat parts it has that can be lights; each is a `prim_id` of
+    /// [`Geometry::intersect`].
     #[must_use]
     fn triangles(&self) -> usize {
         0
@@ -64,13 +65,13 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// How far rounding may have moved those corners.
     #[must_use]
-    fn blur(&self) -> f64 {
+    fn error_bound(&self) -> f64 {
         0.0
     }
 
     /// The root above 0 of such a part alone.
     #[must_use]
-    fn intersect_part(&self, _ray: &Ray, _part: u32) -> Option<f64> {
+    fn intersect_prim(&self, _ray: &Ray, _part: u32) -> Option<f64> {
         None
     }
 

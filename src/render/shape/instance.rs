@@ -1,5 +1,5 @@
-//! A mesh, placed: rays are taken to its own space, where all its instances share triangles and
-//! hierarchy.
+//! An instance of a mesh: rays are transformed to object space, where all instances share triangles
+//! and hierarchy.
 
 use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
@@ -9,7 +9,7 @@ use crate::render::shape::tie::{self, Nearest, Tie};
 use crate::render::shape::triangle::{Shear, Triangle};
 use std::sync::Arc;
 
-/// A mesh in the world.
+/// A prepared instance of a mesh.
 #[derive(Clone, Debug)]
 pub struct Instance {
     mesh: Arc<PreparedMesh>,
@@ -20,11 +20,11 @@ pub struct Instance {
     sizes: Vec3,
     /// The rows of the inverse of the axes.
     inverse: [Vec3; 3],
-    /// Whether the map turns left hands into right ones.
+    /// Whether the transform is a reflection.
     mirrors: bool,
     bounds: Bounds,
-    /// How far rounding may move a corner on its way to the world.
-    blur: f64,
+    /// A bound on the error of a vertex in world space.
+    error_bound: f64,
 }
 
 impl Instance {
@@ -49,7 +49,7 @@ impl Instance {
             inverse,
             mirrors,
             bounds,
-            blur: 0.0,
+            error_bound: 0.0,
         };
         let mesh = Arc::clone(&instance.mesh);
         let corners = mesh
@@ -58,10 +58,10 @@ impl Instance {
             .flat_map(|triangle| triangle.vertices());
         for corner in corners {
             let point = instance.to_world(*corner);
-            // The map rounds; the box must hold what the ray in object space may hit.
+            // Grow the box by the rounding error of the transform.
             let rounding = instance.rounding(*corner);
             instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
-            instance.blur = instance.blur.max(rounding);
+            instance.error_bound = instance.error_bound.max(rounding);
         }
         instance
     }
@@ -71,7 +71,7 @@ impl Instance {
         self.inverse
     }
 
-    /// How far rounding may move a point between the two spaces.
+    /// A bound on the error of a point transformed between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
         16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
     }
@@ -124,10 +124,9 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    /// As [`Instance::intersect`], but of roots as near as rounding can tell that of the first
-    /// triangle.
+    /// As [`Instance::intersect`], but ties within rounding go to the first triangle.
     #[must_use]
-    pub(in crate::render) fn nearest(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+    pub(in crate::render) fn closest_hit(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
         let local = self.to_object(ray);
         let shear = Shear::new(&local);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
@@ -140,16 +139,20 @@ impl Instance {
         match nearest.key {
             u32::MAX => None,
             _ if nearest.is_tied() => self.settle(ray, nearest.t),
-            part => Some((nearest.t, part)),
+            prim_id => Some((nearest.t, prim_id)),
         }
     }
 
-    /// The first of the roots as near as one at `t`.
+    /// Breaks the tie between the roots as close as the one at `t`.
     #[cold]
     fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
         let mut tie = Tie::new();
-        self.visit_roots(ray, t, &mut |t, part| {
-            tie.add(t, tie::error(ray, t, &self.interaction(ray, t, part)), part)
+        self.visit_roots(ray, t, &mut |t, prim_id| {
+            tie.add(
+                t,
+                tie::error(ray, t, &self.interaction(ray, t, prim_id)),
+                prim_id,
+            )
         });
         tie.first()
     }
@@ -175,18 +178,18 @@ impl Instance {
         });
     }
 
-    /// The root above 0 of triangle `part`.
+    /// The root above 0 of triangle `prim_id`.
     #[inline]
-    pub(in crate::render) fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+    pub(in crate::render) fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
         let ray = self.to_object(ray);
-        self.mesh.triangles()[part as usize].intersect(&ray, &Shear::new(&ray))
+        self.mesh.triangles()[prim_id as usize].intersect(&ray, &Shear::new(&ray))
     }
 
-    /// The point at `t` on triangle `part`.
+    /// The point at `t` on triangle `prim_id`.
     #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    pub fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let local_ray = self.to_object(ray);
-        let local = self.mesh.triangles()[part as usize].interaction(&local_ray, t);
+        let local = self.mesh.triangles()[prim_id as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
         let reach = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * self.sizes.dot(reach);
@@ -209,9 +212,9 @@ impl Instance {
         self.mesh.triangles().len()
     }
 
-    /// The corners of triangle `part` in the world.
-    pub(in crate::render) fn corners(&self, part: u32) -> [Vec3; 3] {
-        self.mesh.triangles()[part as usize]
+    /// The corners of triangle `prim_id` in the world.
+    pub(in crate::render) fn corners(&self, prim_id: u32) -> [Vec3; 3] {
+        self.mesh.triangles()[prim_id as usize]
             .vertices()
             .map(|corner| self.to_world(corner))
     }
@@ -221,11 +224,11 @@ impl Instance {
         !self.mesh.attributes.normals.is_empty()
     }
 
-    /// What the mesh says about a point of triangle `part`, as far as that is asked.
-    pub(in crate::render) fn details(&self, point: Vec3, part: u32, asked: Asked) -> Details {
-        let triangle = &self.mesh.triangles()[part as usize];
+    /// The requested details of a point of triangle `prim_id`.
+    pub(in crate::render) fn details(&self, point: Vec3, prim_id: u32, asked: Asked) -> Details {
+        let triangle = &self.mesh.triangles()[prim_id as usize];
         let mesh = &self.mesh.attributes;
-        let corners = self.mesh.corners(part);
+        let corners = self.mesh.corners(prim_id);
         let normals = at(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let has_no_coordinates =
@@ -272,7 +275,7 @@ impl Instance {
         }
     }
 
-    /// The direction in which u grows, and the side on which v does.
+    /// The tangent along u, and the side of the bitangent.
     fn tangent(
         &self,
         triangle: &Triangle,
@@ -299,13 +302,13 @@ impl Instance {
         self.bounds
     }
 
-    /// How far rounding may have moved its corners.
-    pub(in crate::render) fn blur(&self) -> f64 {
-        self.blur
+    /// A bound on the error of its vertices.
+    pub(in crate::render) fn error_bound(&self) -> f64 {
+        self.error_bound
     }
 }
 
-/// What of the [`Details`] someone asks for beyond normal and colour; what is not may be left out.
+/// The requested [`Details`] beyond normal and colour; others may be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Asked {
     /// The texture coordinates.
@@ -328,7 +331,7 @@ impl Asked {
     };
 }
 
-/// What a surface knows of a point beyond its geometry.
+/// The shading attributes of a point of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Details {
     /// The unit shading normal, where it is not the geometric one.

@@ -1,9 +1,9 @@
-//! Stretches of a ray inside a convex region: solids as intersections have no crack between their
-//! sides and caps.
+//! Intervals of a ray inside a convex region. Solids are intersections of such intervals, so they
+//! have no crack between side and caps.
 
 use crate::math::{Vec3, dot};
 
-/// The parameters between which a ray is inside, with what it crosses at either end.
+/// The interval of t inside a region, with the part crossed at either end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::render) struct Interval<Part> {
     pub(in crate::render) enter: (f64, Part),
@@ -11,8 +11,7 @@ pub(in crate::render) struct Interval<Part> {
 }
 
 impl<Part: Copy> Interval<Part> {
-    /// The part inside both; `None` where they do not meet. Where both end at the same parameter,
-    /// `self` wins.
+    /// The intersection of both; `None` if it is empty. If both end at the same t, `self` wins.
     pub(in crate::render) fn and(self, other: Self) -> Option<Self> {
         let enter = if other.enter.0 > self.enter.0 {
             other.enter
@@ -35,7 +34,7 @@ impl<Part: Copy> Interval<Part> {
         }
     }
 
-    /// The first end in front of the ray's start.
+    /// The first end with t > 0.
     pub(in crate::render) fn first_in_front(self) -> Option<(f64, Part)> {
         [self.enter, self.leave]
             .into_iter()

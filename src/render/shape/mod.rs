@@ -72,9 +72,9 @@ impl Geometry for Shape {
     }
 
     #[inline]
-    fn nearest(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
+    fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         if let Self::Instance(instance) = self {
-            instance.nearest(ray, t_max)
+            instance.closest_hit(ray, t_max)
         } else {
             self.intersect(ray, shear, t_max)
         }
@@ -83,26 +83,26 @@ impl Geometry for Shape {
     fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
         if let Self::Instance(instance) = self {
             instance.visit_roots(ray, t_max, visit);
-        } else if let Some((t, part)) = self.intersect(ray, shear, t_max) {
-            visit(t, part);
+        } else if let Some((t, prim_id)) = self.intersect(ray, shear, t_max) {
+            visit(t, prim_id);
         }
     }
 
-    fn error(&self, ray: &Ray, t: f64, part: u32) -> f64 {
-        tie::error(ray, t, &self.interaction(ray, t, part))
+    fn error(&self, ray: &Ray, t: f64, prim_id: u32) -> f64 {
+        tie::error(ray, t, &self.interaction(ray, t, prim_id))
     }
 
-    fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         match self {
             Self::Sphere(sphere, _) => sphere.interaction(ray, t),
             Self::Plane(plane) => plane.interaction(ray, t),
             Self::Triangle(triangle, _) => triangle.interaction(ray, t),
-            Self::Quad(quad) => quad.interaction(ray, t, part),
+            Self::Quad(quad) => quad.interaction(ray, t, prim_id),
             Self::Disc(disc) => disc.interaction(ray, t),
             Self::Cylinder(cylinder) => cylinder.interaction(ray, t),
             Self::Cone(cone) => cone.interaction(ray, t),
             Self::Torus(torus) => torus.interaction(ray, t),
-            Self::Instance(instance) => instance.interaction(ray, t, part),
+            Self::Instance(instance) => instance.interaction(ray, t, prim_id),
         }
     }
 
@@ -131,19 +131,19 @@ impl Geometry for Shape {
         }
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details {
+    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
         match self {
             Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
             Self::Quad(quad) => {
-                let [u, v] = quad.uv(ray, at.point, part);
+                let [u, v] = quad.uv(ray, at.point, prim_id);
                 Details {
                     uv: Some([u, v]),
                     tangent: quad.tangent(v),
                     ..Details::default()
                 }
             }
-            Self::Instance(instance) => instance.details(at.point, part, asked),
+            Self::Instance(instance) => instance.details(at.point, prim_id, asked),
             Self::Triangle(_, None)
             | Self::Plane(_)
             | Self::Disc(_)
@@ -167,10 +167,10 @@ impl Geometry for Shape {
         }
     }
 
-    fn corners(&self, part: u32) -> Option<[Vec3; 3]> {
+    fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
         match self {
             Self::Triangle(triangle, _) => Some(*triangle.vertices()),
-            Self::Instance(instance) => Some(instance.corners(part)),
+            Self::Instance(instance) => Some(instance.corners(prim_id)),
             Self::Sphere(..)
             | Self::Plane(_)
             | Self::Quad(_)
@@ -181,18 +181,18 @@ impl Geometry for Shape {
         }
     }
 
-    fn blur(&self) -> f64 {
+    fn error_bound(&self) -> f64 {
         if let Self::Instance(instance) = self {
-            instance.blur()
+            instance.error_bound()
         } else {
             0.0
         }
     }
 
     #[inline]
-    fn intersect_part(&self, ray: &Ray, part: u32) -> Option<f64> {
+    fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
         if let Self::Instance(instance) = self {
-            instance.intersect_part(ray, part)
+            instance.intersect_prim(ray, prim_id)
         } else {
             None
         }

@@ -1,5 +1,5 @@
-//! The plane: t from compensated dot products on the raw normal, so that no slope and no distance
-//! is cut off.
+//! The plane: t from compensated dot products with the raw normal, accurate at any slope and
+//! distance.
 
 use crate::math::{Vec3, cross, dot, two_difference, unit_scale};
 use crate::render::ray::{Interaction, Ray};
@@ -14,7 +14,7 @@ pub(in crate::render) struct Normal {
     unit: Vec3,
 }
 
-/// A plane ready to be hit.
+/// A prepared plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
     anchor: Vec3,
@@ -74,7 +74,7 @@ impl Plane {
         self.normal.unit
     }
 
-    /// The parameter of the plane along the ray, of any sign, right to within 10 u; `None` for a
+    /// The t of the plane along the ray, of any sign, with an error of at most 10 u; `None` for a
     /// parallel ray.
     #[must_use]
     #[inline]

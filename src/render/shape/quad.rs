@@ -9,7 +9,7 @@ use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::triangle::{Shear, Triangle};
 
-/// A quadrilateral ready to be hit.
+/// A prepared quadrilateral.
 #[derive(Clone, Copy, Debug)]
 #[expect(clippy::large_enum_variant, reason = "nearly all are flat")]
 pub enum Quad {
@@ -38,7 +38,7 @@ impl Quad {
                 vertices[t[2]] - vertices[t[0]],
             )
         };
-        // Split along the diagonal that lies inside: both halves then turn the same way.
+        // Split along the inner diagonal, so that both halves have the same winding.
         let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
         let inside = |split: &[[usize; 3]; 2]| normal(split[0]).dot(normal(split[1])) >= 0.0;
         let split = splits.into_iter().find(inside).unwrap_or(splits[0]);
@@ -56,7 +56,7 @@ impl Quad {
             Self::Flat { halves, .. } => {
                 let hit =
                     |half: &Option<(Triangle, [usize; 3])>| half.as_ref()?.0.intersect(ray, shear);
-                // Both lie in one plane: where both are hit they tie.
+                // Both halves lie in one plane, so two hits tie.
                 hit(&halves[0])
                     .map(|t| (t, 0))
                     .or_else(|| hit(&halves[1]).map(|t| (t, 1)))
@@ -65,11 +65,11 @@ impl Quad {
         }
     }
 
-    /// The point at `t` in half `part`, moved onto the surface.
+    /// The point at `t` in half `prim_id`, moved onto the surface.
     #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
+    pub fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         match self {
-            Self::Flat { halves, .. } => match (&halves[part as usize & 1], &halves[0]) {
+            Self::Flat { halves, .. } => match (&halves[prim_id as usize & 1], &halves[0]) {
                 (Some((triangle, _)), _) | (None, Some((triangle, _))) => {
                     triangle.interaction(ray, t)
                 }
@@ -85,12 +85,12 @@ impl Quad {
         }
     }
 
-    /// The texture coordinates at a point hit in half `part`.
-    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, part: u32) -> [f64; 2] {
+    /// The texture coordinates at a point hit in half `prim_id`.
+    pub(in crate::render) fn uv(&self, ray: &Ray, point: Vec3, prim_id: u32) -> [f64; 2] {
         const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         match self {
             Self::Flat { halves, .. } => {
-                halves[part as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
+                halves[prim_id as usize & 1].map_or([0.0; 2], |(triangle, corners)| {
                     let weights = triangle.weights(point);
                     [0, 1].map(|axis| (0..3).map(|k| weights[k] * CORNERS[corners[k]][axis]).sum())
                 })
@@ -139,7 +139,7 @@ impl Patch {
         let [q00, q10, q11, q01] = self.vertices.map(|vertex| vertex - ray.origin);
         let d = ray.direction;
         let (left, right) = (q01 - q00, q11 - q10);
-        // Solve a + b·u + c·u² = 0 for the lines of constant u that the ray meets.
+        // Solve a + b·u + c·u² = 0 for the lines of constant u on the ray.
         let a = cross(q00, d).dot(left);
         let c = cross(q10 - q00, q01 - q11).dot(d);
         let b = cross(q10, d).dot(right) - a - c;
@@ -153,12 +153,12 @@ impl Patch {
             if !(0.0..=1.0).contains(&u) {
                 return None;
             }
-            // Meet the ray with the line at u.
+            // Intersect the ray with the line at u.
             let (from, line) = (q00.lerp(q10, u), left.lerp(right, u));
             let normal = cross(d, line);
             let v = cross(normal, from).dot(d) / normal.dot(normal);
-            // Meet it with the tangent plane there: t then errs by no more than rounding of a
-            // point, even where the ray runs along the line.
+            // Intersect the tangent plane there: the error of t is then that of a rounded point,
+            // even if the ray is parallel to the line.
             let tangent_plane = cross(across(self.vertices, v), line);
             let t = tangent_plane.dot(from + line * v) / tangent_plane.dot(d);
             (t > 0.0 && (0.0..=1.0).contains(&v)).then_some((t, [u, v]))
@@ -180,9 +180,8 @@ impl Patch {
         [across(self.vertices, v), (q01 - q00).lerp(q11 - q10, u)]
     }
 
-    /// The coordinates nearest a point that all but lies on the patch, one Newton step from `uv`.
-    /// Where a ray grazes, t is well known, but u and v err along the ray by the root of a
-    /// rounding error.
+    /// Refines `uv` for a point close to the patch by one Newton step. For grazing rays, t is
+    /// accurate, but the error of u and v is the square root of a rounding error.
     fn nearest(&self, point: Vec3, uv: [f64; 2]) -> [f64; 2] {
         let rest = point - self.at(uv);
         let [across, upward] = self.tangents(uv);

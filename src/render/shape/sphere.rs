@@ -5,7 +5,7 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::math::{Double, U, Vec3};
+use crate::math::{DoubleDouble, U, Vec3};
 use crate::render::ray::{Interaction, Ray};
 
 /// A root is computed again when rounding may have been amplified by more than this.
@@ -15,7 +15,7 @@ const AMPLIFIED: f64 = 48.0;
 /// foot.
 const FAR: f64 = 4.0;
 
-/// A sphere ready to be hit.
+/// A prepared sphere.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
     /// Its centre.
@@ -47,17 +47,18 @@ impl Sphere {
         let foot = f + d * nearest;
         let foot2 = foot.dot(foot);
         let discriminant = r2 - foot2;
-        let reach = f.abs().element_sum();
-        let doubt = 16.0 * U * (r2 + foot2 + self.radius * reach + 16.0 * U * reach * reach);
-        if discriminant < -doubt {
+        let extent = f.abs().element_sum();
+        let error_bound =
+            16.0 * U * (r2 + foot2 + self.radius * extent + 16.0 * U * extent * extent);
+        if discriminant < -error_bound {
             return None;
         }
-        if discriminant <= doubt {
+        if discriminant <= error_bound {
             return self.intersect_precisely(ray);
         }
 
-        // Compute the roots without cancellation, from afar as a step back from the foot, and pick
-        // the first in front.
+        // Compute the roots without cancellation (from afar, as a step back from the foot), and
+        // take the first positive root.
         let c = f2 - r2;
         let a_discriminant = a * discriminant;
         let root = a_discriminant.sqrt();
@@ -78,7 +79,8 @@ impl Sphere {
             return None;
         }
 
-        // Compute the root again where the error of c or of the discriminant shows in it.
+        // Recompute the root in double-double if the error of c or of the discriminant is
+        // amplified.
         let is_quotient = (near > 0.0) == (b >= 0.0);
         let cancelled = is_quotient && f2 + r2 > AMPLIFIED * c.abs();
         let amplified = r2 * (r2 + f2) * a * a > AMPLIFIED * AMPLIFIED * a_discriminant * q * q;
@@ -89,30 +91,33 @@ impl Sphere {
         }
     }
 
-    /// As [`Self::intersect`] in double-double: right to within 1 u.
+    /// As [`Self::intersect`] in double-double, with an error of at most 1 u.
     #[cold]
     #[inline(never)]
     fn intersect_precisely(&self, ray: &Ray) -> Option<f64> {
-        let f = [0, 1, 2].map(|k| Double::difference(ray.origin[k], self.center[k]));
-        let d = [0, 1, 2].map(|k| Double::from(ray.direction[k]));
-        let dot = |u: [Double; 3], v: [Double; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let zero = Double::from(0.0);
-        let radius = Double::from(self.radius);
+        let f = [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.center[k]));
+        let d = [0, 1, 2].map(|k| DoubleDouble::from(ray.direction[k]));
+        let dot =
+            |u: [DoubleDouble; 3], v: [DoubleDouble; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        let zero = DoubleDouble::from(0.0);
+        let radius = DoubleDouble::from(self.radius);
         let a = dot(d, d);
         let b = zero - dot(f, d);
+        // Compute the discriminant from the foot of the perpendicular.
         let step = b / a;
         let foot = [0, 1, 2].map(|k| f[k] + d[k] * step);
         let discriminant = radius * radius - dot(foot, foot);
-        if discriminant.rounded().is_nan() || discriminant.rounded() < 0.0 {
+        if discriminant.to_f64().is_nan() || discriminant.to_f64() < 0.0 {
             return None;
         }
 
+        // Compute the roots without cancellation, and take the first positive root.
         let c = dot(f, f) - radius * radius;
         let root = (a * discriminant).sqrt();
-        let forward = b.rounded() >= 0.0;
+        let forward = b.to_f64() >= 0.0;
         let q = if forward { b + root } else { b - root };
-        let quotient = (c / q).rounded();
-        let other = (q / a).rounded();
+        let quotient = (c / q).to_f64();
+        let other = (q / a).to_f64();
         let (near, far) = if forward {
             (quotient, other)
         } else {

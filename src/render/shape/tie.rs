@@ -1,5 +1,5 @@
-//! Ties: where surfaces lie in one place to within rounding, the first of them is seen, in whatever
-//! order they are found.
+//! Ties: of surfaces that coincide within rounding, the first one is hit, in any order of
+//! traversal.
 //!
 //! Each hit has an interval of t that rounding may have moved it in. Of all hits whose interval
 //! meets that of the hit with the least upper end, that of the lowest key counts: a set that no
@@ -8,11 +8,11 @@
 use crate::math::U;
 use crate::render::ray::{Interaction, Ray};
 
-/// The half of an interval at most, as a share of t: where a ray all but runs along a surface its
-/// error knows no bound.
+/// The half of an interval at most, as a fraction of t: where a ray all but runs along a surface
+/// its error knows no bound.
 const WIDEST: f64 = 1.0 / 8_388_608.0;
 
-/// Intervals whose middles are farther apart, as a share, do not meet; walks of hierarchies look
+/// Intervals whose middles are farther apart, as a fraction, do not meet; walks of hierarchies look
 /// farther than that.
 pub(in crate::render) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 
@@ -25,7 +25,7 @@ pub(in crate::render) fn error(ray: &Ray, t: f64, at: &Interaction) -> f64 {
     (ROOT * t + 0.5 * at.offset / slope).min(WIDEST * t)
 }
 
-/// The nearest of some hits, and whether another is as near.
+/// The closest of some hits, and whether it ties with another.
 #[derive(Clone, Copy)]
 pub(in crate::render) struct Nearest<K> {
     pub(in crate::render) t: f64,
@@ -59,20 +59,20 @@ impl<K: Copy + Ord> Nearest<K> {
         }
     }
 
-    /// The t beyond which no hit is as near.
+    /// The largest t of a hit that may tie.
     #[inline]
     pub(in crate::render) fn reach(&self) -> f64 {
         self.t * CLOSE
     }
 
-    /// Whether another hit may be as near.
+    /// Whether another hit may tie.
     #[inline]
     pub(in crate::render) fn is_tied(&self) -> bool {
         self.next <= self.reach()
     }
 }
 
-/// All hits that may be the nearest.
+/// All hits that may be the closest.
 pub(in crate::render) struct Tie<K> {
     hits: Vec<(f64, f64, K)>,
     /// The least upper end of their intervals.

@@ -15,10 +15,10 @@ use crate::render::shape::plane::Normal;
 /// Steps of a bracketed search: bisection alone would need 60.
 const MAX_STEPS: usize = 100;
 
-/// What rounding does to a number about as large as a torus, in units of one.
+/// The rounding error of lengths in units of the torus.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
-/// A torus ready to be hit.
+/// A prepared torus.
 #[derive(Clone, Copy, Debug)]
 pub struct Torus {
     center: Vec3,
@@ -31,7 +31,7 @@ pub struct Torus {
 }
 
 /// A ray near the torus, in units of about its outer radius, as seen from the axis.
-struct Line {
+struct TorusRay {
     /// Of the point nearest to the centre: the square of its distance, its height along the axis,
     /// and its cross product with the axis, as long as it is off the axis.
     square: f64,
@@ -44,7 +44,7 @@ struct Line {
     minor: f64,
 }
 
-impl Line {
+impl TorusRay {
     /// The signed distance of the point at `s` from the surface, from the factored difference of
     /// squares: its digits survive where the ray only grazes.
     fn distance(&self, s: f64) -> f64 {
@@ -92,9 +92,9 @@ impl Line {
     /// no middle.
     fn root(&self, mut last: (f64, f64), mut other: (f64, f64)) -> f64 {
         let mut before;
-        let mut share = 0.5;
+        let mut fraction = 0.5;
         for _ in 0..MAX_STEPS {
-            let at = last.0 + share * (other.0 - last.0);
+            let at = last.0 + fraction * (other.0 - last.0);
             let there = (at, self.distance(at));
             if (there.1 < 0.0) == (last.1 < 0.0) {
                 before = last;
@@ -111,16 +111,16 @@ impl Line {
             if best.1.abs() <= ROUNDING || finest > 0.5 {
                 return best.0;
             }
-            share = share_of(last, other, before).clamp(finest, 1.0 - finest);
+            fraction = fraction_of(last, other, before).clamp(finest, 1.0 - finest);
         }
         last.0
     }
 }
 
-/// Where to look next between two points of opposite signs, as the share of the way from the last
-/// to the other: where the parabola through both and the point before has its root, if it is safe
-/// to ask, else in the middle.
-fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
+/// Where to look next between two points of opposite signs, as the fraction of the way from the
+/// last to the other: where the parabola through both and the point before has its root, if it is
+/// safe to ask, else in the middle.
+fn fraction_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
     let along = (last.0 - other.0) / (before.0 - other.0);
     let up = (last.1 - other.1) / (before.1 - other.1);
     let is_safe = up * up < along && (1.0 - up) * (1.0 - up) < 1.0 - along;
@@ -136,7 +136,7 @@ fn share_of(last: (f64, f64), other: (f64, f64), before: (f64, f64)) -> f64 {
 /// The real roots of `s³ + linear·s + constant` in `[low, high]`, in order, each found when it is
 /// asked for.
 fn cubic_roots(linear: f64, constant: f64, low: f64, high: f64) -> impl Iterator<Item = f64> {
-    // Bracket by the extremes of the cubic.
+    // Bracket the roots by the extrema of the cubic.
     let spread = (-linear / 3.0).max(0.0).sqrt();
     let borders = [
         low,
@@ -163,7 +163,7 @@ fn cubic_root(linear: f64, constant: f64, mut a: f64, mut b: f64) -> Option<f64>
         } else {
             a = at
         }
-        // A Newton step, or half the bracket where it leaves it.
+        // Take a Newton step, or bisect if the step leaves the bracket.
         let newton = at - height / (3.0 * at * at + linear);
         let next = if newton > a && newton < b {
             newton
@@ -203,11 +203,11 @@ impl Torus {
         if half2 < 0.0 || half2.is_nan() {
             return None;
         }
-        // Measure in a power of two near the outer radius: that rounds nothing.
+        // Scale by a power of two near the outer radius, which is exact.
         let unit = ldexp(1.0, libm::ilogb(outer));
         let length = length2.sqrt();
         let (from, step) = (foot / unit, d / length);
-        let line = Line {
+        let line = TorusRay {
             square: from.dot(from),
             height: from.dot(self.axis),
             off: cross(from, self.axis),

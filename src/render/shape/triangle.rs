@@ -3,7 +3,7 @@
 //! Whether a ray hits is decided as in Woop, Benthin, Wald, "Watertight ray/triangle intersection"
 //! (JCGT 2, 2013), with Kahan's products for the edge functions: two triangles compute the same
 //! value with opposite sign for a shared edge, and zero counts as inside, so no ray slips between.
-//! Where it hits is the plane's question.
+//! The plane of the triangle then gives t.
 
 use crate::math::{U, Vec3, difference_of_products};
 use crate::render::ray::{Interaction, Ray};
@@ -73,7 +73,7 @@ fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
     !outside && u + v + w != 0.0
 }
 
-/// A triangle ready to be hit: two lines of the cache.
+/// A prepared triangle, of the size of two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Triangle {
@@ -84,7 +84,7 @@ pub struct Triangle {
 const _: () = assert!(size_of::<Triangle>() == 128, "memory is what rays wait for");
 
 impl Triangle {
-    /// The triangle, or `None` if its corners are in line.
+    /// The triangle, or `None` if its vertices are collinear.
     #[must_use]
     pub fn new(vertices: [Vec3; 3]) -> Option<Self> {
         Some(Self {
@@ -104,11 +104,13 @@ impl Triangle {
     #[inline]
     pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
         let [a, b, c] = &self.vertices;
+        // Shear the vertices into the ray's frame.
         let (a, b, c) = (
             shear.apply(*a - ray.origin),
             shear.apply(*b - ray.origin),
             shear.apply(*c - ray.origin),
         );
+        // Compare the signs of the edge functions; compute them exactly where one is uncertain.
         let met = match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
             (Some(u), Some(v), Some(w)) if u == v && v == w => true,
             (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => {
@@ -116,6 +118,7 @@ impl Triangle {
             }
             _ => meets(a, b, c),
         };
+        // Intersect the plane of the triangle.
         if met {
             self.normal.through(self.vertices[0]).intersect(ray)
         } else {
@@ -123,10 +126,10 @@ impl Triangle {
         }
     }
 
-    /// The weights of the corners at a point of the triangle; they sum to 1.
+    /// The barycentric coordinates of a point of the triangle; they sum to 1.
     ///
-    /// Areas keep their ratios as seen along an axis: that nearest to the normal shows most of
-    /// them.
+    /// Ratios of areas do not change under projection along an axis; the axis closest to the normal
+    /// is the most accurate.
     #[must_use]
     pub fn weights(&self, point: Vec3) -> [f64; 3] {
         let [a, b, c] = self.vertices;
@@ -138,14 +141,14 @@ impl Triangle {
         [1.0 - second - third, second, third]
     }
 
-    /// The direction in which u grows and v stays, if the texture coordinates of the corners have
-    /// one.
+    /// The direction of u at constant v, unless the texture coordinates are degenerate.
     #[must_use]
     pub fn tangent(&self, uvs: [[f64; 2]; 3]) -> Option<Vec3> {
         let [a, b, c] = self.vertices;
         let (first, second) = (b - a, c - a);
         let [du1, dv1] = [uvs[1][0] - uvs[0][0], uvs[1][1] - uvs[0][1]];
         let [du2, dv2] = [uvs[2][0] - uvs[0][0], uvs[2][1] - uvs[0][1]];
+        // Invert the derivative of uv with respect to the edges.
         let area = du1 * dv2 - du2 * dv1;
         ((first * dv2 - second * dv1) / area).try_normalize()
     }

@@ -1,4 +1,4 @@
-//! Textures as the course looks them up by uv, and what maps do to the shading normal.
+//! Texture lookup by the rules of the course, and its normal and bump maps.
 
 use super::{Image, Texture};
 use crate::math::{Vec3, cross};
@@ -7,11 +7,11 @@ use crate::math::{Vec3, cross};
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Bump {
     pub(in crate::render) texture: Texture,
-    /// The height of white above black, as a share of the width of a texel.
+    /// The height of white above black, as a fraction of the width of a texel.
     pub(in crate::render) height: f64,
 }
 
-/// What a texture shows at `uv`, each channel in [0, 1].
+/// Looks a texture up at `uv`, each channel in [0, 1].
 pub(in crate::render) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
     match texture {
         Texture::Uv => Vec3::new(uv[0], 0.0, uv[1]),
@@ -20,9 +20,8 @@ pub(in crate::render) fn look_up(texture: &Texture, uv: [f64; 2]) -> Vec3 {
     }
 }
 
-/// The mean of the four texels around `uv`, weighted by nearness. The unit square spans from the
-/// middle of the first texel to that of the last in each direction, v = 1 at the top row, and
-/// repeats.
+/// Interpolates bilinearly between four texels. The unit square spans from the center of the first
+/// texel to the center of the last; v = 1 is the top row; the image repeats.
 fn bilinear(image: &Image, [u, v]: [f64; 2]) -> Vec3 {
     let (column, x) = split(repeated(u) * f64::from(image.width - 1), image.width);
     let (row, y) = split(
@@ -44,7 +43,7 @@ fn between(a: Vec3, b: Vec3, s: f64) -> Vec3 {
     a + (b - a) * s
 }
 
-/// The coordinate within [0, 1]; 1 stays 1, what is further repeats.
+/// Wraps a coordinate to [0, 1]; 1 stays 1.
 fn repeated(coordinate: f64) -> f64 {
     if (0.0..=1.0).contains(&coordinate) {
         coordinate
@@ -53,7 +52,7 @@ fn repeated(coordinate: f64) -> f64 {
     }
 }
 
-/// The texel at or before a place, and how far towards the next the place is.
+/// The texel below a coordinate, and the interpolation weight of the next.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -64,7 +63,7 @@ fn split(place: f64, count: u32) -> (usize, f64) {
     (texel as usize, place - texel)
 }
 
-/// A frame on a surface: directions of growing u and v, and the unit normal.
+/// The texture frame of a surface: the directions of u and v, and the unit normal.
 pub(in crate::render) struct Frame {
     pub(in crate::render) along_u: Vec3,
     pub(in crate::render) along_v: Vec3,
@@ -72,8 +71,7 @@ pub(in crate::render) struct Frame {
 }
 
 impl Frame {
-    /// The frame around a unit normal with a direction of growing u; `None` if that runs along the
-    /// normal.
+    /// The frame of a unit normal and a direction of u; `None` if they are parallel.
     pub(in crate::render) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
         let along_u = (tangent - normal * normal.dot(tangent)).try_normalize()?;
         Some(Self {
@@ -83,15 +81,14 @@ impl Frame {
         })
     }
 
-    /// The normal a normal map gives at `uv`.
+    /// The normal of a normal map at `uv`.
     pub(in crate::render) fn mapped(&self, map: &Texture, uv: [f64; 2]) -> Vec3 {
         let local = look_up(map, uv) * 2.0 - 1.0;
         (self.along_u * local.x + self.along_v * local.y + self.normal * local.z)
             .normalize_or(self.normal)
     }
 
-    /// The normal of a height field: it leans away from where the height grows, by central
-    /// differences of a texel.
+    /// The normal of a height field, by central differences over a texel.
     pub(in crate::render) fn bumped(&self, bump: &Bump, [u, v]: [f64; 2]) -> Vec3 {
         let [du, dv] = match &bump.texture {
             Texture::Uv | Texture::Sampled { .. } => [1e-3; 2],

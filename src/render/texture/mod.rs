@@ -1,4 +1,4 @@
-//! Textures: values looked up at texture coordinates, by the rules of the course and of glTF.
+//! Textures: lookup at texture coordinates, by the rules of the course and of glTF.
 
 pub(in crate::render) mod bilinear;
 pub(in crate::render) mod sampled;
@@ -6,7 +6,7 @@ pub(in crate::render) mod sampled;
 use crate::image::{Texel, Texels};
 use std::sync::Arc;
 
-/// A texture with its image at hand.
+/// A texture that holds its image.
 #[derive(Clone, Debug)]
 pub(in crate::render) enum Texture {
     /// The colour (u, 0, v).
@@ -16,13 +16,13 @@ pub(in crate::render) enum Texture {
     /// An image as glTF samples it, v = 0 at its top row.
     Sampled {
         image: Arc<Image>,
-        /// What lies beyond the unit square, along u and v.
+        /// Wrap modes along u and v.
         wrap: [Wrap; 2],
         filter: Filter,
     },
 }
 
-/// A picture of at least one pixel.
+/// An image of at least one texel.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Image {
     pub(in crate::render) width: u32,
@@ -30,23 +30,23 @@ pub(in crate::render) struct Image {
     pub(in crate::render) texels: Texels,
 }
 
-/// What lies beyond the unit square.
+/// The wrap mode outside of the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) enum Wrap {
-    /// The image again.
+    /// Repeat the image.
     Repeat,
-    /// The image again, mirrored at each edge.
+    /// Repeat the image, mirrored at each edge.
     Mirror,
-    /// The texel at the edge.
+    /// Clamp to the texel at the edge.
     Clamp,
 }
 
-/// How texels blend.
+/// The filter of a lookup.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::render) enum Filter {
-    /// The four nearest by their nearness.
+    /// Bilinear interpolation of four texels.
     Linear,
-    /// The nearest alone.
+    /// The nearest texel.
     Nearest,
 }
 

@@ -1,4 +1,4 @@
-//! Textures as glTF samples them: wrapping, filtering, and which of them hold colours.
+//! Texture sampling by the rules of glTF: wrap modes, filters and colour spaces.
 
 use super::{Filter, Image, Texture, Wrap};
 use crate::color::srgb_decoded;
@@ -6,66 +6,71 @@ use crate::image::Texel;
 use crate::math::Lanes;
 use std::sync::LazyLock;
 
-/// What the numbers of a texture are.
+/// The colour space of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum Content {
-    /// Colours, coded by sRGB where they are bytes.
-    Color,
-    /// Numbers.
+pub(in crate::render) enum ColorSpace {
+    /// Colours; bytes are encoded with sRGB.
+    Srgb,
+    /// Numbers, without an encoding.
     Linear,
 }
 
-/// Where on a surface textures are looked up: its two sets of coordinates.
-pub(in crate::render) type Places = [Option<[f64; 2]>; 2];
+/// The two sets of texture coordinates at a point; `None` for a missing set.
+pub(in crate::render) type UvSets = [Option<[f64; 2]>; 2];
 
-/// A texture as a material of glTF uses it: where on it a surface looks, and what its numbers are.
+/// A texture in a glTF material: its texture coordinates and its colour space.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct Map {
     pub(in crate::render) texture: Texture,
-    /// Which of the [`Places`].
+    /// The index into [`UvSets`].
     pub(in crate::render) set: usize,
-    /// The rows of the affine map from the coordinates of the surface to those of the texture; none
-    /// for the identity.
+    /// The rows of the affine map from the surface's coordinates to the texture's; `None` for the
+    /// identity.
     pub(in crate::render) texture_from_surface: Option<[[f64; 3]; 2]>,
-    pub(in crate::render) content: Content,
+    pub(in crate::render) color_space: ColorSpace,
 }
 
 impl Map {
-    /// What it shows, red, green, blue and alpha in [0, 1], or as they are for float images; `None`
-    /// without coordinates.
-    pub(in crate::render) fn look_up(&self, places: &Places) -> Option<[f64; 4]> {
-        let [u, v] = places[self.set]?;
+    /// Looks the texture up: red, green, blue and alpha, in [0, 1] except for float images. `None`
+    /// without texture coordinates.
+    pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
+        let [u, v] = uvs[self.set]?;
         let uv = match self.texture_from_surface {
             None => [u, v],
             Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
         };
         let value = match &self.texture {
             Texture::Uv => [uv[0].clamp(0.0, 1.0), 0.0, uv[1].clamp(0.0, 1.0), 1.0],
-            // The course counts v upwards.
+            // In the course, v grows upwards.
             Texture::Image(image) => {
                 let uv = [uv[0], 1.0 - uv[1]];
-                sample(image, uv, [Wrap::Repeat; 2], Filter::Linear, self.content)
+                sample(
+                    image,
+                    uv,
+                    [Wrap::Repeat; 2],
+                    Filter::Linear,
+                    self.color_space,
+                )
             }
             Texture::Sampled {
                 image,
                 wrap,
                 filter,
-            } => sample(image, uv, *wrap, *filter, self.content),
+            } => sample(image, uv, *wrap, *filter, self.color_space),
         };
         Some(value)
     }
 }
 
-/// The texel or the mean of the four around a place, v = 0 at the top, texel middles half a texel
-/// inside.
+/// Samples an image: v = 0 is its top edge, texel centers lie half a texel inside.
 pub(in crate::render) fn sample(
     image: &Image,
     uv: [f64; 2],
     wrap: [Wrap; 2],
     filter: Filter,
-    content: Content,
+    color_space: ColorSpace,
 ) -> [f64; 4] {
-    let places = |axis: usize, size: u32| {
+    let uvs = |axis: usize, size: u32| {
         let place = within(uv[axis], wrap[axis]) * f64::from(size);
         let corner = floor(if filter == Filter::Nearest {
             place
@@ -79,9 +84,9 @@ pub(in crate::render) fn sample(
             single(place - 0.5 - corner),
         )
     };
-    let (left, right, s) = places(0, image.width);
-    let (top, bottom, t) = places(1, image.height);
-    let at = |column: usize, row: usize| decoded(image.texel(column, row), content);
+    let (left, right, s) = uvs(0, image.width);
+    let (top, bottom, t) = uvs(1, image.height);
+    let at = |column: usize, row: usize| decoded(image.texel(column, row), color_space);
     let value = if filter == Filter::Nearest {
         at(left, top)
     } else {
@@ -97,7 +102,7 @@ pub(in crate::render) fn sample(
     value.as_dvec4().to_array()
 }
 
-/// The coordinate brought near the unit interval, or to [0, 2] where each other image is mirrored.
+/// Wraps a coordinate to the unit interval, or to [0, 2] for mirrored repetition.
 fn within(coordinate: f64, wrap: Wrap) -> f64 {
     match wrap {
         Wrap::Repeat => coordinate - floor(coordinate),
@@ -106,7 +111,7 @@ fn within(coordinate: f64, wrap: Wrap) -> f64 {
     }
 }
 
-/// The texel that stands for one beside a place that [`within`] gave.
+/// Wraps the index of a texel next to a coordinate from [`within`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -152,21 +157,21 @@ fn whole(place: f64) -> i64 {
     clippy::cast_possible_truncation,
     reason = "a share, of which 24 bits are enough"
 )]
-fn single(share: f64) -> f32 {
-    share as f32
+fn single(fraction: f64) -> f32 {
+    fraction as f32
 }
 
 /// Red, green, blue and alpha.
 #[inline]
-fn decoded(texel: Texel, content: Content) -> Lanes {
+fn decoded(texel: Texel, color_space: ColorSpace) -> Lanes {
     let ([r, g, b], alpha) = match texel {
         Texel::Rgb8(color) => (color, 255),
         Texel::Rgba8([r, g, b, a]) => ([r, g, b], a),
         Texel::Rgb32f([r, g, b]) => return Lanes::new(r, g, b, 1.0),
     };
     let alpha = f32::from(alpha) / 255.0;
-    match content {
-        Content::Color => {
+    match color_space {
+        ColorSpace::Srgb => {
             let decoded: &[f32; 256] = &DECODED;
             Lanes::new(
                 decoded[usize::from(r)],
@@ -175,7 +180,7 @@ fn decoded(texel: Texel, content: Content) -> Lanes {
                 alpha,
             )
         }
-        Content::Linear => {
+        ColorSpace::Linear => {
             (Lanes::new(f32::from(r), f32::from(g), f32::from(b), 0.0) / 255.0).with_w(alpha)
         }
     }
@@ -217,7 +222,7 @@ mod tests {
     }
 
     fn red(u: f64, wrap: Wrap, filter: Filter) -> f64 {
-        sample(&row(), [u, 0.5], [wrap; 2], filter, Content::Linear)[0]
+        sample(&row(), [u, 0.5], [wrap; 2], filter, ColorSpace::Linear)[0]
     }
 
     #[test]
@@ -253,9 +258,17 @@ mod tests {
             height: 1,
             texels: Texels::Rgba8(vec![128; 4].into()),
         };
-        let value = |content| sample(&image, [0.5; 2], [Wrap::Repeat; 2], Filter::Linear, content);
-        let [r, _, _, a] = value(Content::Color);
+        let value = |color_space| {
+            sample(
+                &image,
+                [0.5; 2],
+                [Wrap::Repeat; 2],
+                Filter::Linear,
+                color_space,
+            )
+        };
+        let [r, _, _, a] = value(ColorSpace::Srgb);
         assert!((r - 0.215_860_5).abs() < 1e-6 && a == f64::from(128.0_f32 / 255.0));
-        assert_eq!(value(Content::Linear), [f64::from(128.0_f32 / 255.0); 4]);
+        assert_eq!(value(ColorSpace::Linear), [f64::from(128.0_f32 / 255.0); 4]);
     }
 }

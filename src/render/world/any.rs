@@ -2,7 +2,7 @@
 
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
-use crate::render::film::heartbeat::Proceed;
+use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::progressive::ProgressiveFilm;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::integrator::aov::Aov;
@@ -69,50 +69,50 @@ impl AnyWorld {
         }
     }
 
-    /// Renders a picture; `None` if `proceed` said stop.
+    /// Renders a picture; `None` if `on_pixel` said stop.
     ///
-    /// `proceed` is called from all threads, after each pixel and within long ones.
+    /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
-    pub fn render(&self, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
+    pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
         match self {
-            Self::Basic(world) => world.render(job, proceed),
-            Self::All(world) => world.render(job, proceed),
-            Self::Plain(world) => world.render_by_few(job, proceed),
-            Self::F32(world) => world.render_by_few(job, proceed),
+            Self::Basic(world) => world.render(job, on_pixel),
+            Self::All(world) => world.render(job, on_pixel),
+            Self::Plain(world) => world.render_by_few(job, on_pixel),
+            Self::F32(world) => world.render_by_few(job, on_pixel),
         }
     }
 
-    /// Renders layers of a part of the picture; `None` if `proceed` said stop.
+    /// Renders layers of a part of the picture; `None` if `on_pixel` said stop.
     ///
-    /// `proceed` is called from all threads after each pixel.
+    /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
-    pub fn layers(&self, wanted: &[Aov], crop: Crop, proceed: &Proceed<'_>) -> Option<Layers> {
+    pub fn layers(&self, wanted: &[Aov], crop: Crop, on_pixel: &OnPixel<'_>) -> Option<Layers> {
         let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
         if plan.rules == Rules::NONE {
-            return each!(self, world => world.layers(wanted, crop, proceed));
+            return each!(self, world => world.layers(wanted, crop, on_pixel));
         }
         // Rules keep the colours; only a plan without them keeps all that a layer may show.
         Self::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE))
-            .layers(wanted, crop, proceed)
+            .layers(wanted, crop, on_pixel)
     }
 
     /// Takes samples until both halves of each pixel have those wanted: `wanted(i)` is how many
-    /// each strand of the halves of pixel i is to have at least. False if `proceed` said stop;
+    /// each replicate of the halves of pixel i is to have at least. False if `on_pixel` said stop;
     /// the film is then of no use.
     ///
-    /// `proceed` is called from all threads, after each pixel and within long ones.
+    /// `on_pixel` is called from all threads, after each pixel and within long ones.
     pub fn grow(
         &self,
         film: &mut ProgressiveFilm,
         wanted: &(dyn Fn(usize) -> [u32; 2] + Sync),
-        proceed: &Proceed<'_>,
+        on_pixel: &OnPixel<'_>,
     ) -> bool {
-        each!(self, world => world.grow(film, wanted, proceed))
+        each!(self, world => world.grow(film, wanted, on_pixel))
     }
 }
 
 /// Renders a scene as planned; see [`AnyWorld::render`].
 #[must_use]
-pub fn render(scene: &Proof, plan: &Plan, job: &Job, proceed: &Proceed<'_>) -> Option<Film> {
-    AnyWorld::prepare(scene, plan).render(job, proceed)
+pub fn render(scene: &Proof, plan: &Plan, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
+    AnyWorld::prepare(scene, plan).render(job, on_pixel)
 }

@@ -12,25 +12,25 @@ use crate::render::material::standard::{
 };
 use crate::render::shape::instance::Asked;
 use crate::render::texture::bilinear::Bump;
-use crate::render::texture::sampled::{Content, Places};
+use crate::render::texture::sampled::{ColorSpace, UvSets};
 use crate::valid::{self, Maps, Mode, Phong, Proof, Standard};
 
 /// The materials of a scene as its integrator sees them, one for each.
-pub(super) enum Seen {
+pub(super) enum MaterialsFor {
     Whitted(Vec<Phong>),
     Paths(Vec<Standard>),
 }
 
 /// What the materials of a scene are to the integrator that is planned.
-pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> Seen {
+pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> MaterialsFor {
     let materials = scene.materials().iter();
     if let Some(paths) = &plan.paths {
-        return Seen::Paths(paths.materials.clone());
+        return MaterialsFor::Paths(paths.materials.clone());
     }
     match scene.settings().mode {
-        Mode::Path(_) => Seen::Paths(materials.map(facts::material::standard).collect()),
+        Mode::Path(_) => MaterialsFor::Paths(materials.map(facts::material::standard).collect()),
         Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-            Seen::Whitted(materials.map(facts::material::phong).collect())
+            MaterialsFor::Whitted(materials.map(facts::material::phong).collect())
         }
     }
 }
@@ -277,11 +277,11 @@ impl Slots<'_> {
     }
 
     /// What a map shows.
-    fn source(&self, map: Option<&valid::Map>, content: Content) -> Option<Source> {
+    fn source(&self, map: Option<&valid::Map>, color_space: ColorSpace) -> Option<Source> {
         /// Anywhere: a map that is folded shows the same everywhere.
-        const ANYWHERE: Places = [Some([0.5; 2]); 2];
+        const ANYWHERE: UvSets = [Some([0.5; 2]); 2];
         let map = map?;
-        let prepared = self.textures.map(map, content);
+        let prepared = self.textures.map(map, color_space);
         if self.is_looked_up(map) {
             return Some(Source::Map(prepared));
         }
@@ -293,7 +293,7 @@ impl Slots<'_> {
     }
 
     fn scaled(&self, factor: f64, map: Option<&valid::Map>, channel: usize) -> Number {
-        let (factor, map) = match self.source(map, Content::Linear) {
+        let (factor, map) = match self.source(map, ColorSpace::Linear) {
             None => (factor, None),
             Some(Source::Value(value)) => (factor * value[channel], None),
             Some(Source::Map(map)) => (factor, Some((map, channel))),
@@ -302,7 +302,7 @@ impl Slots<'_> {
     }
 
     fn tint(&self, factor: Vec3, map: Option<&valid::Map>) -> Tint {
-        let (factor, map) = match self.source(map, Content::Color) {
+        let (factor, map) = match self.source(map, ColorSpace::Srgb) {
             None => (factor, None),
             Some(Source::Value([r, g, b, _])) => (factor * Vec3::new(r, g, b), None),
             Some(Source::Map(map)) => (factor, Some(map)),
@@ -312,7 +312,7 @@ impl Slots<'_> {
 
     fn rgba(&self, factor: [UnitInterval; 4], map: Option<&valid::Map>) -> Rgba {
         let factor = factor.map(UnitInterval::get);
-        let (factor, map) = match self.source(map, Content::Color) {
+        let (factor, map) = match self.source(map, ColorSpace::Srgb) {
             None => (factor, None),
             Some(Source::Value(value)) => ([0, 1, 2, 3].map(|k| factor[k] * value[k]), None),
             Some(Source::Map(map)) => (factor, Some(map)),
@@ -321,7 +321,7 @@ impl Slots<'_> {
     }
 
     fn normal(&self, map: Option<&valid::Map>, scale: f64) -> Option<NormalMap> {
-        let map = self.source(map, Content::Linear)?;
+        let map = self.source(map, ColorSpace::Linear)?;
         Some(NormalMap { map, scale })
     }
 
@@ -330,7 +330,7 @@ impl Slots<'_> {
             return Reflection::Specular(self.rgba(factor, m.specular_glossiness_map.as_ref()));
         }
         let (roughness, metallic) = (m.roughness.get(), m.metallic.get());
-        let source = self.source(m.metallic_roughness_map.as_ref(), Content::Linear);
+        let source = self.source(m.metallic_roughness_map.as_ref(), ColorSpace::Linear);
         let (roughness, metallic, map) = match source {
             None => (roughness, metallic, None),
             Some(Source::Value([_, g, b, _])) => (roughness * g, metallic * b, None),
@@ -358,18 +358,18 @@ impl Slots<'_> {
         AnisotropyLayer {
             strength: m.anisotropy.get(),
             turn: [cos(m.anisotropy_rotation), sin(m.anisotropy_rotation)],
-            map: self.source(m.anisotropy_map.as_ref(), Content::Linear),
+            map: self.source(m.anisotropy_map.as_ref(), ColorSpace::Linear),
         }
     }
 
     fn iridescence(&self, m: &Standard) -> IridescenceLayer {
-        let [least, greatest] = m.iridescence_thickness.map(|thickness| thickness.get());
+        let [min, max] = m.iridescence_thickness.map(|thickness| thickness.get());
         let map = m.iridescence_thickness_map.as_ref();
         IridescenceLayer {
             factor: self.number(m.iridescence, m.iridescence_map.as_ref(), 0),
             ior: m.iridescence_ior.get(),
-            least,
-            spread: self.scaled(greatest - least, map, 1),
+            min,
+            spread: self.scaled(max - min, map, 1),
         }
     }
 }

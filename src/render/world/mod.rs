@@ -2,9 +2,9 @@
 //! it.
 
 pub(in crate::render) mod any;
+mod flattened;
 mod light;
 mod material;
-mod merged;
 mod plain;
 mod prepare;
 pub(in crate::render) mod shape;
@@ -22,8 +22,8 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
 use crate::valid::Proof;
+use flattened::Flattened;
 use light::LightList;
-use merged::Merged;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +32,8 @@ pub struct Hit {
     pub t: f64,
     /// The surface: an index into [`World::surfaces`].
     pub surface: usize,
-    /// Which part of the surface, for shapes of several.
-    pub part: u32,
+    /// The primitive of the surface, for shapes with several.
+    pub prim_id: u32,
 }
 
 /// A surface of the world.
@@ -66,45 +66,45 @@ pub struct World<S = Shape> {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
-    merged: Option<Merged>,
+    flattened: Option<Flattened>,
 }
 
 /// The `t_max` that ends a walk.
 const OVER: f64 = -1.0;
 
-/// The part of no surface.
+/// The primitive of a ray that starts at no surface.
 pub(in crate::render) const NOWHERE: (usize, u32) = (usize::MAX, u32::MAX);
 
 impl<S: Geometry> World<S> {
-    /// The nearest hit with t > 0; of several as near as rounding can tell, that of the first
-    /// surface and its first part. Rays that are none hit nothing.
+    /// The closest hit with t > 0. Ties within rounding go to the first surface and its first
+    /// primitive. Non-finite rays hit nothing.
     #[must_use]
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest_from(ray, NOWHERE)
+    pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        self.closest_hit_from(ray, NOWHERE)
     }
 
-    /// As [`World::nearest`], for a ray that starts at a part of a surface: if that is a merged
-    /// triangle, it is flat, so the ray can't come back to it.
-    pub(in crate::render) fn nearest_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
-        // A NaN passes every slab test, so such a ray would visit all there is.
+    /// As [`World::closest_hit`], for a ray that starts at a primitive of a surface. A flattened
+    /// triangle is flat, so the ray can't hit it again.
+    pub(in crate::render) fn closest_hit_from(&self, ray: &Ray, from: (usize, u32)) -> Option<Hit> {
+        // A NaN passes every slab test, so such a ray would visit every node.
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             return None;
         }
-        let (ray, unit) = ray.tamed();
-        let mut nearest = self.nearest_apart(&ray);
-        if let Some(Merged { parts, hierarchy }) = &self.merged {
+        let (ray, unit) = ray.rescaled();
+        let mut nearest = self.closest_hit_apart(&ray);
+        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
             hierarchy.walk::<true>(&ray, nearest.t, |item| {
-                let [surface, part] = parts[item as usize];
-                let key = (surface as usize, part);
+                let [surface, prim_id] = prims[item as usize];
+                let key = (surface as usize, prim_id);
                 if key != from
-                    && let Some(t) = self.surfaces[key.0].shape.intersect_part(&ray, part)
+                    && let Some(t) = self.surfaces[key.0].shape.intersect_prim(&ray, prim_id)
                 {
                     nearest.add(t, key);
                 }
                 nearest.t
             });
         }
-        let (t, (surface, part)) = match nearest.key {
+        let (t, (surface, prim_id)) = match nearest.key {
             NOWHERE => return None,
             _ if nearest.is_tied() => self.settle(&ray, from, nearest.t)?,
             key => (nearest.t, key),
@@ -112,26 +112,26 @@ impl<S: Geometry> World<S> {
         Some(Hit {
             t: t * unit,
             surface,
-            part,
+            prim_id,
         })
     }
 
-    /// The nearest hit on what is not merged; beyond all if there is none.
+    /// The closest hit on surfaces that are not flattened; infinite if there is none.
     #[inline]
-    fn nearest_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
+    fn closest_hit_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
-        if self.is_all_merged() {
+        if self.is_all_flattened() {
             return nearest;
         }
         let shear = Shear::new(ray);
         let mut visit = |surface: u32| {
             let surface = surface as usize;
-            if let Some((t, part)) =
+            if let Some((t, prim_id)) =
                 self.surfaces[surface]
                     .shape
-                    .nearest(ray, &shear, nearest.reach())
+                    .closest_hit(ray, &shear, nearest.reach())
             {
-                nearest.add(t, (surface, part));
+                nearest.add(t, (surface, prim_id));
             }
             nearest.t
         };
@@ -144,36 +144,38 @@ impl<S: Geometry> World<S> {
         nearest
     }
 
-    /// The first of the hits as near as one at `t`.
+    /// Breaks the tie between the hits as close as the one at `t`.
     #[cold]
     #[inline(never)]
     fn settle(&self, ray: &Ray, from: (usize, u32), t: f64) -> Option<(f64, (usize, u32))> {
         let (mut tie, shear) = (Tie::new(), Shear::new(ray));
-        let mut add = |t: f64, surface: usize, part: u32| {
+        let mut add = |t: f64, surface: usize, prim_id: u32| {
             tie.add(
                 t,
-                self.surfaces[surface].shape.error(ray, t, part),
-                (surface, part),
+                self.surfaces[surface].shape.error(ray, t, prim_id),
+                (surface, prim_id),
             );
         };
         let mut visit = |surface: u32| {
             let surface = surface as usize;
             let shape = &self.surfaces[surface].shape;
-            shape.visit_roots(ray, &shear, t * CLOSE, &mut |t, part| add(t, surface, part));
+            shape.visit_roots(ray, &shear, t * CLOSE, &mut |t, prim_id| {
+                add(t, surface, prim_id)
+            });
         };
         self.unbounded.iter().for_each(|surface| visit(*surface));
         self.bvh.walk(ray, t, |item, _| {
             visit(self.bounded[item as usize]);
             t
         });
-        if let Some(Merged { parts, hierarchy }) = &self.merged {
+        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
             hierarchy.walk::<true>(ray, t, |item| {
-                let [surface, part] = parts[item as usize];
+                let [surface, prim_id] = prims[item as usize];
                 let surface = surface as usize;
-                if (surface, part) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_part(ray, part)
+                if (surface, prim_id) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_prim(ray, prim_id)
                 {
-                    add(t, surface, part);
+                    add(t, surface, prim_id);
                 }
                 t
             });
@@ -181,9 +183,9 @@ impl<S: Geometry> World<S> {
         tie.first()
     }
 
-    /// Whether no surface stands apart from the triangles of meshes.
+    /// Whether all surfaces are flattened.
     #[inline]
-    fn is_all_merged(&self) -> bool {
+    fn is_all_flattened(&self) -> bool {
         self.unbounded.is_empty() && self.bounded.is_empty()
     }
 
@@ -193,53 +195,53 @@ impl<S: Geometry> World<S> {
     /// of `to` does not count: a light on a surface is not hidden by it.
     #[must_use]
     pub fn occluded(&self, from: Vec3, to: Vec3) -> bool {
-        segment(from, to).is_some_and(|(ray, t_max)| self.any(&ray, t_max))
+        segment(from, to).is_some_and(|(ray, t_max)| self.any_hit(&ray, t_max))
     }
 
     /// Whether anything is hit with 0 < t < `t_max`.
-    pub(in crate::render) fn any(&self, ray: &Ray, t_max: f64) -> bool {
-        self.passing(ray, t_max, NOWHERE, |_| 0.0) == 0.0
+    pub(in crate::render) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
+        self.transmittance(ray, t_max, NOWHERE, |_| 0.0) == 0.0
     }
 
-    /// The product of what `pass` says of all that is hit with 0 < t < `t_max`, in any order; no
-    /// more is asked once that is 0. Only triangles of meshes that are [`World::is_merged`] are
-    /// asked about: all else lets nothing pass. The ray starts at the part of a surface given.
-    pub(in crate::render) fn passing(
+    /// The product of `pass` over all hits with 0 < t < `t_max`, in any order, until it is 0. Only
+    /// flattened triangles are asked; all other surfaces are opaque. The ray starts at the
+    /// primitive `from`.
+    pub(in crate::render) fn transmittance(
         &self,
         ray: &Ray,
         t_max: f64,
         from: (usize, u32),
         mut pass: impl FnMut(Hit) -> f64,
     ) -> f64 {
-        let (ray, unit) = ray.tamed();
+        let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
-        if self.is_blocked_apart(&ray, t_max) {
+        if self.any_hit_apart(&ray, t_max) {
             return 0.0;
         }
-        let mut share = 1.0;
-        if let Some(Merged { parts, hierarchy }) = &self.merged {
+        let mut transmittance = 1.0;
+        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
             hierarchy.walk::<true>(&ray, t_max, |item| {
-                let [surface, part] = parts[item as usize];
+                let [surface, prim_id] = prims[item as usize];
                 let surface = surface as usize;
-                if (surface, part) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_part(&ray, part)
+                if (surface, prim_id) != from
+                    && let Some(t) = self.surfaces[surface].shape.intersect_prim(&ray, prim_id)
                     && t < t_max
                 {
-                    share *= pass(Hit {
+                    transmittance *= pass(Hit {
                         t: t * unit,
                         surface,
-                        part,
+                        prim_id,
                     });
                 }
-                if share > 0.0 { t_max } else { OVER }
+                if transmittance > 0.0 { t_max } else { OVER }
             });
         }
-        share
+        transmittance
     }
 
-    /// Whether anything that is not merged is hit with 0 < t < `t_max`.
-    fn is_blocked_apart(&self, ray: &Ray, t_max: f64) -> bool {
-        if self.is_all_merged() {
+    /// Whether a surface that is not flattened is hit with 0 < t < `t_max`.
+    fn any_hit_apart(&self, ray: &Ray, t_max: f64) -> bool {
+        if self.is_all_flattened() {
             return false;
         }
         let shear = Shear::new(ray);
@@ -261,10 +263,13 @@ impl<S: Geometry> World<S> {
     }
 
     /// Whether the triangles of a surface stand in the world one by one.
-    pub(in crate::render) fn is_merged(&self, surface: usize) -> bool {
-        let parts = self.merged.as_ref().map_or(&[][..], |merged| &merged.parts);
-        let first = parts.partition_point(|[other, _]| (*other as usize) < surface);
-        parts
+    pub(in crate::render) fn is_flattened(&self, surface: usize) -> bool {
+        let prims = self
+            .flattened
+            .as_ref()
+            .map_or(&[][..], |flattened| &flattened.prims);
+        let first = prims.partition_point(|[other, _]| (*other as usize) < surface);
+        prims
             .get(first)
             .is_some_and(|[other, _]| *other as usize == surface)
     }

@@ -12,7 +12,7 @@ use crate::render::shape::plain::real::{Real, Vector};
 use crate::render::shape::plain::sphere::Sphere;
 use crate::render::shape::plain::torus::Torus;
 use crate::render::shape::plain::triangle::Triangle;
-use crate::render::shape::plain::{Form, PlainShape};
+use crate::render::shape::plain::{PlainForm, PlainShape};
 use crate::valid;
 use std::sync::Arc;
 
@@ -24,49 +24,55 @@ impl<R: Real> Prepare for PlainShape<R> {
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Self> {
-        let twin_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.twin);
-        let twin = Shape::prepare(shape, &meshes.iter().map(twin_mesh).collect::<Vec<_>>())?;
+        let robust_mesh = |mesh: &Arc<Mesh<R>>| Arc::clone(&mesh.robust);
+        let robust = Shape::prepare(shape, &meshes.iter().map(robust_mesh).collect::<Vec<_>>())?;
         Some(Self {
-            form: form(shape, &twin, meshes)?,
-            twin: Box::new(twin),
+            form: form(shape, &robust, meshes)?,
+            robust: Box::new(robust),
         })
     }
 }
 
-fn form<R: Real>(shape: &valid::Shape, twin: &Shape, meshes: &[Arc<Mesh<R>>]) -> Option<Form<R>> {
-    Some(match (shape, twin) {
-        (valid::Shape::Sphere(sphere), _) => Form::Sphere(Sphere {
+fn form<R: Real>(
+    shape: &valid::Shape,
+    robust: &Shape,
+    meshes: &[Arc<Mesh<R>>],
+) -> Option<PlainForm<R>> {
+    Some(match (shape, robust) {
+        (valid::Shape::Sphere(sphere), _) => PlainForm::Sphere(Sphere {
             center: Vector::of(sphere.center),
             radius: R::of(sphere.radius.get()),
         }),
-        (valid::Shape::Plane(plane), Shape::Plane(twin)) => {
-            Form::Plane(Plane::new(plane.center, twin.normal()))
+        (valid::Shape::Plane(plane), Shape::Plane(robust)) => {
+            PlainForm::Plane(Plane::new(plane.center, robust.normal()))
         }
-        (valid::Shape::Triangle(triangle), _) => Form::Triangle(Triangle::new(&triangle.vertices)),
-        (valid::Shape::Quad(quad), Shape::Quad(twin)) => {
-            Form::Quad(Box::new(Quad::new(twin, quad.vertices)))
+        (valid::Shape::Triangle(triangle), _) => {
+            PlainForm::Triangle(Triangle::new(&triangle.vertices))
+        }
+        (valid::Shape::Quad(quad), Shape::Quad(robust)) => {
+            PlainForm::Quad(Box::new(Quad::new(robust, quad.vertices)))
         }
         (valid::Shape::Disc(disc), _) => {
             let normal = unit(disc.normal)?;
-            Form::Disc(Disc::new(disc.center, normal, disc.radius.get()))
+            PlainForm::Disc(Disc::new(disc.center, normal, disc.radius.get()))
         }
         (valid::Shape::Cylinder(cylinder), _) => {
             let (height, radius) = (cylinder.height.get(), cylinder.radius.get());
             let axis = unit(cylinder.axis)?;
-            Form::Cylinder(Box::new(Cylinder::new(cylinder.base, axis, height, radius)))
+            PlainForm::Cylinder(Box::new(Cylinder::new(cylinder.base, axis, height, radius)))
         }
         (valid::Shape::Cone(cone), _) => {
-            Form::Cone(Box::new(Cone::new(cone.base, cone.up, cone.radius.get())))
+            PlainForm::Cone(Box::new(Cone::new(cone.base, cone.up, cone.radius.get())))
         }
-        (valid::Shape::Torus(torus), _) => Form::Torus(Torus {
+        (valid::Shape::Torus(torus), _) => PlainForm::Torus(Torus {
             center: Vector::of(torus.center),
             axis: Vector::of(unit(torus.axis)?),
             major: R::of(torus.major.get()),
             minor: R::of(torus.minor.get()),
         }),
-        (valid::Shape::Instance(instance), Shape::Instance(twin)) => {
+        (valid::Shape::Instance(instance), Shape::Instance(robust)) => {
             let (mesh, origin) = (&meshes[instance.mesh], instance.world_from_object[3]);
-            Form::Instance(Box::new(Instance::new(mesh, twin, origin)))
+            PlainForm::Instance(Box::new(Instance::new(mesh, robust, origin)))
         }
         (valid::Shape::Plane(_) | valid::Shape::Quad(_) | valid::Shape::Instance(_), _) => {
             return None;

@@ -1,7 +1,7 @@
 //! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
 
-use super::material::{PhongList, Seen, materials_for, standard};
-use super::merged::{Merged, merging};
+use super::flattened::{Flattened, flattened_surfaces};
+use super::material::{MaterialsFor, PhongList, materials_for, standard};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Surface, World, light};
@@ -19,12 +19,12 @@ impl<S: Prepare> World<S> {
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, &textures);
         let (surfaces, phongs, standards) = match materials_for(scene, plan) {
-            Seen::Whitted(materials) => {
+            MaterialsFor::Whitted(materials) => {
                 let mut list = PhongList::new(materials, plan);
                 let surfaces = surfaces(scene, plan, |material, has_uv| list.of(material, has_uv));
                 (surfaces, list.prepared(&textures), Vec::new())
             }
-            Seen::Paths(materials) => {
+            MaterialsFor::Paths(materials) => {
                 let paths = plan.paths.as_ref();
                 let materials = materials.iter().enumerate();
                 let prepared =
@@ -33,12 +33,12 @@ impl<S: Prepare> World<S> {
                 (surfaces, Vec::new(), prepared.collect())
             }
         };
-        let Places {
+        let Lookup {
             unbounded,
             bounded,
             bvh,
-            merged,
-        } = Places::of(scene, &surfaces);
+            flattened,
+        } = Lookup::of(scene, &surfaces);
         Self {
             scene: scene.clone(),
             plan: plan.clone(),
@@ -50,7 +50,7 @@ impl<S: Prepare> World<S> {
             unbounded,
             bounded,
             bvh,
-            merged,
+            flattened,
         }
     }
 }
@@ -84,21 +84,21 @@ fn surfaces<S: Prepare>(
 }
 
 /// Where rays look for the surfaces of a world.
-struct Places {
+struct Lookup {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,
-    merged: Option<Merged>,
+    flattened: Option<Flattened>,
 }
 
-impl Places {
+impl Lookup {
     fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>]) -> Self {
         let (mut unbounded, mut bounded) = (Vec::new(), Vec::new());
         let (mut boxes, mut apart) = (Vec::new(), Vec::new());
-        let merges = merging(scene);
+        let flattens = flattened_surfaces(scene);
         for (index, surface) in (0_u32..).zip(surfaces) {
             match surface.shape.bounds() {
-                _ if merges[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
+                _ if flattens[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
                 Some(bounds) => {
                     bounded.push(index);
                     boxes.push(bounds);
@@ -110,7 +110,7 @@ impl Places {
             unbounded,
             bounded,
             bvh: Bvh::build(&boxes),
-            merged: Merged::new(surfaces, &apart),
+            flattened: Flattened::new(surfaces, &apart),
         }
     }
 }

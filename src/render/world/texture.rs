@@ -1,6 +1,6 @@
 //! The textures of a world: each with its image at hand.
 
-use crate::render::texture::sampled::{Content, Map};
+use crate::render::texture::sampled::{ColorSpace, Map};
 use crate::render::texture::{Filter, Image, Texture, Wrap};
 use crate::valid::{self, Proof};
 use std::sync::Arc;
@@ -31,7 +31,7 @@ impl Textures {
     }
 
     /// A map of a material of glTF.
-    pub(super) fn map(&self, map: &valid::Map, content: Content) -> Map {
+    pub(super) fn map(&self, map: &valid::Map, color_space: ColorSpace) -> Map {
         let valid::Map {
             texture,
             set,
@@ -42,7 +42,7 @@ impl Textures {
             set: set.index(),
             texture_from_surface: Some(texture_from_surface)
                 .filter(|rows| *rows != valid::Map::IDENTITY),
-            content,
+            color_space,
         }
     }
 }

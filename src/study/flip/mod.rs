@@ -33,7 +33,7 @@ pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64>
 }
 
 /// A pixel as seen.
-struct Seen {
+struct PixelFeatures {
     /// CIELAB after the eye's blur, a and b scaled by Hunt's effect.
     color: Vec3,
     /// The strength of the edge here.
@@ -46,7 +46,7 @@ struct Seen {
 const Q_COLOR: f64 = 0.7;
 
 /// The difference of a pixel, where `largest` is that of green and blue.
-fn difference(reference: &Seen, test: &Seen, largest: f64) -> f64 {
+fn difference(reference: &PixelFeatures, test: &PixelFeatures, largest: f64) -> f64 {
     const Q_FEATURE: f64 = 0.5;
     // Redistribute the colour error: the lower 40 % of its range takes 95 % of the scale.
     const KNEE: f64 = 0.4;
@@ -100,7 +100,7 @@ impl Eye {
     }
 
     /// Every pixel of a picture as seen.
-    fn look(&self, image: &Image) -> Vec<Seen> {
+    fn look(&self, image: &Image) -> Vec<PixelFeatures> {
         let (width, height) = (image.width as usize, image.height as usize);
         let opponent: Vec<_> = image
             .pixels
@@ -109,7 +109,7 @@ impl Eye {
             .collect();
         let plane = |channel: usize| {
             let values = opponent.iter().map(|p| p[channel]).collect();
-            Plane {
+            Channel {
                 width,
                 height,
                 values,
@@ -127,7 +127,7 @@ impl Eye {
                 let seen =
                     Vec3::from_array([0, 1, 2].map(|channel: usize| blurred[channel].values[i]));
                 let linear = xyz_to_linear(opponent_to_xyz(seen)).clamp(Vec3::ZERO, Vec3::ONE);
-                Seen {
+                PixelFeatures {
                     color: hunt(linear_to_lab(linear)),
                     edge: edges[i],
                     point: points[i],
@@ -186,7 +186,7 @@ impl FeatureFilter {
     }
 
     /// The strength of edges and points: the lengths of the first and of the second derivatives.
-    fn strengths(&self, luminance: &Plane) -> [Vec<f64>; 2] {
+    fn strengths(&self, luminance: &Channel) -> [Vec<f64>; 2] {
         [&self.first, &self.second].map(|derivative| {
             let across = luminance.convolve(derivative, &self.smooth);
             let along = luminance.convolve(&self.smooth, derivative);
@@ -211,13 +211,13 @@ fn balanced(weights: Vec<f64>) -> Vec<f64> {
 }
 
 /// One number for each pixel.
-struct Plane {
+struct Channel {
     width: usize,
     height: usize,
     values: Vec<f64>,
 }
 
-impl Plane {
+impl Channel {
     fn blur(&self, gaussians: &[(f64, Vec<f64>)]) -> Self {
         let mut sum = vec![0.0; self.values.len()];
         for (weight, line) in gaussians {

@@ -103,10 +103,10 @@ pub(super) fn knob(report: &KnobReport) -> String {
     // A logarithmic axis has no 0; a depth of 0 stands beside 1.
     let x = |value: u32| report.knob.samples(value).max(0.5);
     let points: Vec<_> = report
-        .rungs
+        .levels
         .iter()
-        .filter(|rung| rung.error > 0.0)
-        .map(|rung| (x(rung.value), rung))
+        .filter(|level| level.error > 0.0)
+        .map(|level| (x(level.value), level))
         .collect();
     let xs = span(points.iter().map(|point| point.0));
     let ys = span(points.iter().map(|point| point.1.error));
@@ -133,13 +133,13 @@ pub(super) fn knob(report: &KnobReport) -> String {
             let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
-        let mark = |(x, rung): &(f64, &super::super::reference::Rung)| {
-            let style = if rung.resolved {
+        let mark = |(x, level): &(f64, &super::super::reference::Level)| {
+            let style = if level.resolved {
                 ACCENT.filled()
             } else {
                 MUTED.stroke_width(1)
             };
-            Circle::new((*x, rung.error), 4, style)
+            Circle::new((*x, level.error), 4, style)
         };
         chart.draw_series(points.iter().map(mark))?;
         Ok(())

@@ -43,7 +43,7 @@ fn front(study: &Study) -> String {
     let mut rows = String::new();
     for row in &study.rows {
         let class = if row.front { "front" } else { "other" };
-        let cells: String = cells(row, &used, study.part.share)
+        let cells: String = cells(row, &used, study.part.fraction)
             .iter()
             .map(|cell| format!("<td>{cell}</td>"))
             .collect();
@@ -72,13 +72,13 @@ fn front(study: &Study) -> String {
     )
 }
 
-fn cells(row: &Row, used: &[Knob], share: f64) -> Vec<String> {
+fn cells(row: &Row, used: &[Knob], fraction: f64) -> Vec<String> {
     let star = if row.front { "★" } else { "" };
     let own = if row.own { " own" } else { "" };
     let limit = if row.judged { "" } else { "≤ " };
     let knobs = used.iter().map(|knob| knob.cell(row.setting.get(*knob)));
     let measured = [
-        table::count(row.rays.all() as f64 / share),
+        table::count(row.rays.all() as f64 / fraction),
         format!(
             "{} ± {:.1} %",
             seconds(row.seconds.value),

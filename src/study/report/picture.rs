@@ -2,7 +2,7 @@
 //! data URIs.
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
-use crate::image::{Form, Image, Picture};
+use crate::image::{FileFormat, Image, Picture};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 
@@ -40,9 +40,9 @@ fn glow(value: f64) -> [f64; 3] {
         .rev()
         .find(|stop| f64::from(*stop) <= place)
         .unwrap_or(0);
-    let share = place - f64::from(below);
+    let fraction = place - f64::from(below);
     let (from, to) = (STOPS[below as usize], STOPS[below as usize + 1]);
-    [0, 1, 2].map(|c| from[c] * (1.0 - share) + to[c] * share)
+    [0, 1, 2].map(|c| from[c] * (1.0 - fraction) + to[c] * fraction)
 }
 
 /// Tiles in rows of about as many as there are rows; black where there is none.
@@ -95,7 +95,7 @@ fn shrunk(image: Image) -> Image {
 fn uri(image: &Image) -> String {
     // A picture too large to encode is left out.
     let bytes = Picture::opaque(image.clone())
-        .encode(&Form::Png8)
+        .encode(&FileFormat::Png8)
         .unwrap_or_default();
     format!("data:image/png;base64,{}", BASE64_STANDARD.encode(bytes))
 }

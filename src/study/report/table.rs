@@ -23,7 +23,7 @@ pub fn table(study: &Study) -> String {
     study
         .rows
         .iter()
-        .for_each(|row| text += &format!("{}\n", line(row, &used, study.part.share)));
+        .for_each(|row| text += &format!("{}\n", line(row, &used, study.part.fraction)));
     text += "\n";
     study
         .knobs
@@ -90,13 +90,13 @@ fn width(knob: Knob) -> usize {
     if knob == Knob::Precision { 7 } else { 6 }
 }
 
-fn line(row: &Row, used: &[Knob], share: f64) -> String {
+fn line(row: &Row, used: &[Knob], fraction: f64) -> String {
     let mut line = String::from(if row.front { "*" } else { " " });
     used.iter()
         .for_each(|knob| write_cell(&mut line, &knob.cell(row.setting.get(*knob)), width(*knob)));
     let limit = if row.judged { "" } else { "≤" };
     let cells = [
-        count(row.rays.all() as f64 / share),
+        count(row.rays.all() as f64 / fraction),
         seconds(row.seconds.value),
         format!("{:.1}", 100.0 * row.ratio.relative()),
         if row.own {
@@ -137,9 +137,9 @@ pub(super) fn part(study: &Study) -> String {
             let uncertainty = study
                 .own()
                 .map_or(0.0, |row| 100.0 * row.errors.rmse_uncertainty);
-            let share = 100.0 * study.part.share;
+            let fraction = 100.0 * study.part.fraction;
             format!(
-                "{tiles} random tiles, {share:.1} % of the picture of {width}×{height} pixels, were looked at: all errors \
+                "{tiles} random tiles, {fraction:.1} % of the picture of {width}×{height} pixels, were looked at: all errors \
                  together may be {uncertainty:.0} % less or more for the whole."
             )
         }
@@ -159,7 +159,7 @@ pub(super) fn reference(study: &Study) -> String {
 /// What is known of a knob, in one sentence.
 pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
     let name = report.knob.name();
-    let last = report.rungs.last().map_or(0, |rung| rung.value);
+    let last = report.levels.last().map_or(0, |level| level.value);
     if let Some(reason) = &report.idle {
         return format!("{name}: not used by this scene: {reason}");
     }
@@ -183,10 +183,10 @@ pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
             format!("{name}: paths go deeper than {last}, which was as far as the study went")
         }
         (None, Knob::Precision, _) => {
-            let robust = report.rungs.len().saturating_sub(1);
-            let words: Vec<_> = report.rungs[..robust]
+            let robust = report.levels.len().saturating_sub(1);
+            let words: Vec<_> = report.levels[..robust]
                 .iter()
-                .map(|rung| report.knob.cell(rung.value))
+                .map(|level| report.knob.cell(level.value))
                 .collect();
             format!(
                 "{name}: rows are by {} arithmetic too where that adds no error",

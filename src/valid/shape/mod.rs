@@ -1,4 +1,4 @@
-//! The proof of the shapes: radii above 0, directions that are some, faces with an area.
+//! The proof of the shapes: radii above 0, directions of nonzero length, faces with an area.
 
 mod area;
 mod check;

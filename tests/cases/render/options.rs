@@ -5,9 +5,8 @@
 
 use libtest_mimic::Failed;
 use rtc::color::Tone;
-use rtc::image::Backdrop;
-use rtc::passes::Overrides;
-use rtc::passes::{Integrator, Sun, View};
+use rtc::image::BackgroundFill;
+use rtc::passes::{Integrator, Overrides, Sun, View};
 use rtc::plan::Arithmetic;
 use rtc::render::Aov;
 use std::fs;
@@ -19,7 +18,7 @@ pub(super) struct Options {
     pub(super) overrides: Overrides,
     pub(super) tone: Option<Tone>,
     pub(super) stops: f64,
-    pub(super) backdrop: Backdrop,
+    pub(super) background: BackgroundFill,
     /// The layer shown, and the values that are black and white in it.
     pub(super) aov: Option<(Aov, [f64; 2])>,
     pub(super) arithmetic: Arithmetic,
@@ -44,7 +43,7 @@ impl Options {
             overrides: Overrides::default(),
             tone: None,
             stops: 0.0,
-            backdrop: Backdrop::Film,
+            background: BackgroundFill::Film,
             aov: None,
             arithmetic: Arithmetic::default(),
             integrator: None,
@@ -72,7 +71,7 @@ impl Options {
             "depth" => self.overrides.depth = Some(value.parse().ok()?),
             "tonemap" => self.tone = Some(tone(value)?),
             "exposure" => self.stops = value.parse().ok()?,
-            "background" => self.backdrop = backdrop(value)?,
+            "background" => self.background = background(value)?,
             "aov" => self.aov = Some(aov(value)?),
             "arithmetic" => self.arithmetic = arithmetic(value)?,
             "integrator" => self.integrator = Some(integrator(value)?),
@@ -148,11 +147,11 @@ fn tone(text: &str) -> Option<Tone> {
     })
 }
 
-fn backdrop(text: &str) -> Option<Backdrop> {
+fn background(text: &str) -> Option<BackgroundFill> {
     if text == "transparent" {
-        return Some(Backdrop::Transparent);
+        return Some(BackgroundFill::Transparent);
     }
-    numbers(text).map(Backdrop::Color)
+    numbers(text).map(BackgroundFill::Color)
 }
 
 fn arithmetic(text: &str) -> Option<Arithmetic> {

@@ -6,12 +6,12 @@ use libtest_mimic::Failed;
 use rtc::color::Tone;
 use rtc::diag::Sink;
 use rtc::front::pixels;
-use rtc::image::{Association, Backdrop, Form, Image, Layers, Look, Picture};
+use rtc::image::{Association, BackgroundFill, FileFormat, Image, Layers, Look, Picture};
 use rtc::ir::Lowered;
-use rtc::passes::{Stage, Surroundings};
+use rtc::passes::{EnvironmentOverride, Stage};
 use rtc::pipeline::{self, Renderer};
 use rtc::plan::{Plan, Rules};
-use rtc::render::{Aov, Behind, Crop, Job, Values};
+use rtc::render::{Aov, Background, Crop, Job, Values};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::{Mode, Proof};
 use std::collections::BTreeSet;
@@ -35,7 +35,7 @@ pub(super) fn shoot(case: &Path) -> Result<Shot, Failed> {
     };
     Ok(Shot {
         png: picture
-            .encode(&Form::Png8)
+            .encode(&FileFormat::Png8)
             .map_err(|error| error.to_string())?,
         tolerance: match scene.settings().mode {
             Mode::Path(_) => 1,
@@ -81,17 +81,17 @@ fn stage(
     map: &SourceMap,
     sink: &mut Sink,
 ) -> Result<(), Failed> {
-    let mut surroundings = options.env_color.map(Surroundings::Color);
+    let mut environment = options.env_color.map(EnvironmentOverride::Color);
     if let Some(name) = &options.env {
         let bytes = fs::read(case.with_file_name(name))?;
         let image = pixels::environment(name, &bytes, map.budget())
             .map_err(|fault| pixels::no_environment(&fault, name).message)?;
-        surroundings = Some(Surroundings::Picture(image));
+        environment = Some(EnvironmentOverride::Picture(image));
     }
     let stage = Stage {
         view: options.view,
         integrator: options.integrator,
-        surroundings,
+        environment,
         suns: options.suns.clone(),
         without_lights: false,
     };
@@ -109,10 +109,10 @@ fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
         } else {
             Values::Linear
         },
-        behind: if options.backdrop == Backdrop::Film {
-            Behind::Surroundings
+        background: if options.background == BackgroundFill::Film {
+            Background::Environment
         } else {
-            Behind::Nothing
+            Background::Nothing
         },
         ..Job::default()
     };
@@ -120,7 +120,7 @@ fn colors(renderer: &Renderer, scene: &Proof, options: &Options) -> Picture {
     let look = Look {
         stops: options.stops,
         tone,
-        backdrop: options.backdrop,
+        background: options.background,
     };
     look.develop(film.image, film.coverage, Association::Straight)
 }

@@ -15,7 +15,7 @@ impl Dice {
         let mut scene = self.scene();
         self.complete(&mut scene);
         if self.chance(3) {
-            scene.settings.mode = Mode::Path(ir::Path {
+            scene.settings.mode = Mode::Path(ir::PathSettings {
                 samples: 1 + self.roll(3),
                 multiple_scattering: self.chance(2),
             });

@@ -3,8 +3,8 @@
 
 use super::Dice;
 use rtc::ir::{
-    self, Alpha, Emitter, Environment, Filter, ImageId, Map, Material, MaterialId, Mode, Path,
-    Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
+    self, Alpha, Emitter, Environment, Filter, ImageId, Map, Material, MaterialId, Mode,
+    PathSettings, Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
 };
 
 /// Textures that a map may show.
@@ -31,7 +31,7 @@ impl Dice {
         scene.environment = self.chance(2).then(|| self.environment());
         scene.meshes.iter_mut().for_each(|mesh| self.paint(mesh));
         scene.settings.max_depth = self.pick(&[0, 1, 2, 4]);
-        scene.settings.mode = Mode::Path(Path {
+        scene.settings.mode = Mode::Path(PathSettings {
             samples: self.pick(&[1, 3]),
             multiple_scattering: self.chance(2),
         });

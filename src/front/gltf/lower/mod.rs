@@ -95,7 +95,7 @@ fn empty() -> Scene {
             radius: 1.0,
         }),
         settings: ir::Settings {
-            mode: Mode::Path(ir::Path {
+            mode: Mode::Path(ir::PathSettings {
                 samples: SAMPLES,
                 multiple_scattering: true,
             }),

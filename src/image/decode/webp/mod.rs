@@ -80,7 +80,7 @@ fn codes(parts: Parts<'_>) -> Result<u64, DecodeError> {
 }
 
 impl WebP<'_> {
-    pub(super) fn passing(&self, size: Size) -> u64 {
+    pub(super) fn scratch(&self, size: Size) -> u64 {
         size.pixels()
             .saturating_mul(self.pixel)
             .saturating_add(self.codes)
@@ -112,7 +112,7 @@ mod tests {
         let (size, webp) = open(&file, 1 << 12).unwrap();
         // Four codes of about 256 symbols that are as likely: each a table of 2⁸ to 2¹⁰ entries.
         assert!((4 << 10..32 << 10).contains(&webp.codes), "{}", webp.codes);
-        assert_eq!(webp.passing(size), 48 * 64 * 5 + webp.codes);
+        assert_eq!(webp.scratch(size), 48 * 64 * 5 + webp.codes);
         let mut decoded = vec![0; pixels.len()];
         webp.decode(&mut decoded).unwrap();
         assert_eq!(decoded, pixels);

@@ -113,9 +113,9 @@ impl Code {
                 memory: 0,
             });
         }
-        let share = |(length, count): (usize, &u16)| u32::from(*count) << (LONGEST - length);
-        let shares: u32 = counts.iter().enumerate().map(share).sum();
-        (shares == 1 << LONGEST).then(|| Self {
+        let fraction = |(length, count): (usize, &u16)| u32::from(*count) << (LONGEST - length);
+        let fractions: u32 = counts.iter().enumerate().map(fraction).sum();
+        (fractions == 1 << LONGEST).then(|| Self {
             memory: tables(&counts),
             counts,
             symbols,

@@ -1,14 +1,14 @@
-//! Rules on lights, on aiming at them and on what hides them.
+//! Rules on lights, light sampling and shadows.
 
 use super::PathRule;
 use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
-use crate::plan::body::{Body, Form};
+use crate::plan::body::{Body, BodyForm};
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
-use crate::plan::space::{ROOM, Sides, Space};
+use crate::plan::space::{MARGIN, Sides, Space};
 use crate::valid::{Falloff, Punctual};
 
 fn place(light: usize) -> Place {
@@ -105,7 +105,7 @@ pub(super) const ALONE: PathRule = PathRule {
     },
 };
 
-/// Leaves so much of the lights that have more; their places.
+/// Reduces lights to `rest`; returns the places of the changed ones.
 fn leave(draft: &mut Draft<'_>, rest: LightLeft, which: impl Fn(&usize) -> bool) -> Vec<Place> {
     let left = |light: &usize| draft.lights[*light] == LightLeft::All;
     let out: Vec<_> = (0..draft.lights.len()).filter(left).filter(which).collect();
@@ -113,7 +113,7 @@ fn leave(draft: &mut Draft<'_>, rest: LightLeft, which: impl Fn(&usize) -> bool)
     out.into_iter().map(place).collect()
 }
 
-/// Whether the only surface of a scene surely hides no light from itself.
+/// Whether the only surface of a scene surely casts no shadow on itself.
 fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
     let (body, material) = (
         &draft.bodies[surface],
@@ -127,11 +127,11 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
     let is_plain = material.transmission == UnitInterval::ZERO && material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
-        Form::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
-        Form::Ball(..) | Form::Convex => {
+        BodyForm::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
+        BodyForm::Ball(..) | BodyForm::Convex => {
             body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
         }
-        Form::Other => false,
+        BodyForm::Other => false,
     };
     is_plain && is_perspective && spares
 }
@@ -140,7 +140,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
 fn is_black(texels: &Texels) -> bool {
     match texels {
         Texels::Rgb8(bytes) | Texels::Rgb32f(bytes) => bytes.iter().all(|byte| *byte == 0),
-        // Alpha of a picture of all directions has no meaning.
+        // The alpha of an environment image has no meaning.
         Texels::Rgba8(bytes) => bytes.chunks(4).all(|texel| texel[..3] == [0; 3]),
     }
 }
@@ -153,7 +153,7 @@ fn intensity(light: &Punctual) -> Vec3 {
     }
 }
 
-/// Where a light stands, unless it is infinitely far away.
+/// The position of a light, unless it is infinitely far away.
 fn position(light: &Punctual) -> Option<Vec3> {
     match light {
         Punctual::Sun(_) => None,
@@ -166,15 +166,15 @@ fn point(at: Vec3) -> Space {
     Space::around(at, Vec3::ZERO)
 }
 
-/// Whether a light surely sends nothing to a surface.
+/// Whether a light surely does not reach a surface.
 fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
     let Some(space) = body.space() else {
         return false;
     };
     let is_beyond = |position: Vec3, falloff: Falloff| match falloff {
         Falloff::Ranged(range) => {
-            let margin = 8.0 * ROOM * (space.size() + position.abs().max_element());
-            space.distance(position) > range.get() * (1.0 + ROOM) + margin
+            let margin = 8.0 * MARGIN * (space.size() + position.abs().max_element());
+            space.distance(position) > range.get() * (1.0 + MARGIN) + margin
         }
         Falloff::None | Falloff::Square => false,
     };
@@ -191,14 +191,14 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
 /// Whether the ball around a box lies outside of a cone, given by its apex, its axis and the cosine
 /// of its half angle.
 fn is_beside(space: &Space, apex: Vec3, axis: Vec3, cosine: f64) -> bool {
-    /// Far more than rounding moves a cosine.
-    const MARGIN: f64 = 1e-9;
+    /// Far above the rounding error of a cosine.
+    const SLACK: f64 = 1e-9;
     let center = space.min * 0.5 + space.max * 0.5;
-    let radius = (space.max - center).length() * (1.0 + MARGIN) + ROOM * space.size();
+    let radius = (space.max - center).length() * (1.0 + SLACK) + MARGIN * space.size();
     let (to, sine) = (center - apex, (1.0 - cosine * cosine).max(0.0).sqrt());
     let along = to.dot(axis);
     let across = (to.length_squared() - along * along).max(0.0).sqrt();
-    // The distance from the side of the cone, where that is the nearest of it; never more.
+    // A lower bound on the distance to the cone: the distance to its side.
     let outside = across * cosine - along * sine;
-    outside > radius + MARGIN * to.length()
+    outside > radius + SLACK * to.length()
 }

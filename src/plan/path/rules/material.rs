@@ -12,7 +12,7 @@ fn place(material: usize) -> Place {
     Place::new(Noun::Material, material, Field::Whole)
 }
 
-/// Changes the materials that something is made of; the places of those that are not as before.
+/// Simplifies the materials that are in use; returns the places of the changed ones.
 fn simplify(
     draft: &mut Draft<'_>,
     simplified: impl Fn(&Draft<'_>, usize, &Standard) -> Standard,
@@ -44,7 +44,7 @@ fn without_zeros(draft: &Draft<'_>, index: usize, material: &Standard) -> Standa
     let is_zero = |map, channel| draft.channel(index, map, channel)[1] == 0.0;
     let are_zero = |map| (0..3).all(|channel| is_zero(map, channel));
     if is_zero(material.transmission_map.as_ref(), 0) {
-        // Whether the camera sees the back hangs on the factor alone.
+        // Only the factor decides whether the camera sees back faces.
         new.double_sided = !material.is_seen_from_one_side();
         new.transmission = UnitInterval::ZERO;
     }
@@ -115,14 +115,14 @@ pub(super) const OPAQUE: PathRule = PathRule {
     },
 };
 
-/// Whether a material covers all that is behind it.
+/// Whether a material is opaque.
 fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
-    /// More than rounding moves what filtering blends.
+    /// A margin above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
-    let [least, greatest] = draft.channel(index, material.base_color_map.as_ref(), 3);
+    let [min, max] = draft.channel(index, material.base_color_map.as_ref(), 3);
     let corners = draft.uses[index].least_alpha;
-    let alpha = material.base_color[3].get() * least * corners;
-    let is_exact = least == greatest && corners == 1.0;
+    let alpha = material.base_color[3].get() * min * corners;
+    let is_exact = min == max && corners == 1.0;
     match material.alpha {
         Alpha::Opaque => true,
         Alpha::Mask(cutoff) => alpha > cutoff.get() + MARGIN || (is_exact && alpha >= cutoff.get()),

@@ -1,5 +1,5 @@
-//! The rules for traced paths: each proves of a scene that something adds exactly nothing, and
-//! takes it out of the draft. They are tried in this order, until none changes anything.
+//! The rules for traced paths. Each rule proves that a part of the scene adds exactly nothing, and
+//! removes it from the draft. The rules run in this order until none changes the draft.
 
 mod light;
 mod material;
@@ -10,17 +10,18 @@ use super::draft::Draft;
 use crate::ir::Place;
 use crate::plan::rules::Rule;
 
-/// A rule: its name, what it says, and its proof.
+/// A rule: its name, its text and its proof.
 pub(in crate::plan) struct PathRule {
-    /// What switches it on and off.
+    /// The switch of the rule.
     pub(in crate::plan) rule: Rule,
     /// The name that users know it by.
     pub(in crate::plan) name: &'static str,
-    /// What it says, and why it is right.
+    /// The text: what the rule says, and why it is right.
     pub(in crate::plan) text: &'static str,
     /// Why an effect is not needed then: lower case, no full stop.
     pub(in crate::plan) because: &'static str,
-    /// Takes out what is proven to add nothing; the values that decided, none if nothing changed.
+    /// Removes the parts that add nothing; returns the values that decided, none if nothing
+    /// changed.
     pub(super) apply: fn(&mut Draft<'_>) -> Vec<Place>,
 }
 

@@ -1,4 +1,4 @@
-//! Rules on how far paths go, and on what they can meet.
+//! Rules on the depth of paths, and on the surfaces they can meet.
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
@@ -10,7 +10,7 @@ fn depth() -> Place {
     Place::new(Noun::Settings, 0, Field::MaxDepth)
 }
 
-/// Whether a ray that goes on may find light by itself, where it ends or where it leaves the scene.
+/// Whether a scattered ray may find light at a surface or in the environment.
 fn finds_light(draft: &Draft<'_>) -> bool {
     let glows = |material: &crate::valid::Standard| {
         material.unlit || material.emissive != crate::math::Vec3::ZERO
@@ -77,7 +77,7 @@ pub(super) const CULL: PathRule = PathRule {
     },
 };
 
-/// Ends all paths at their first hit, if that is proven to be enough.
+/// Ends all paths at their first hit, if that is proven to be sufficient.
 fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<Place> {
     if !is_enough || draft.max_depth == 0 {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! Rules on maps: those that no surface can look up, that multiply 0, or that show one value.
+//! Rules on maps: maps without texture coordinates, maps that multiply 0, and constant maps.
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
@@ -55,7 +55,7 @@ fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
             is_shaded && m.specular_color != Vec3::ZERO,
         ),
         (&mut new.transmission_map, is_shaded && !is_clear),
-        // No renderer here looks at how thick a body is said to be: rays find that out.
+        // No integrator reads the thickness of a volume: rays measure it.
         (&mut new.thickness_map, false),
         (&mut new.clearcoat_map, is_shaded && weighs(m.clearcoat)),
         (

@@ -7,7 +7,7 @@
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::accel::bvh::{Item, split, to_u32};
-use crate::render::accel::lanes::{Beam, Boxes, Corners, Cube, NoBeam};
+use crate::render::accel::lanes::{Beam, Boxes, Corners, NoBeam, QuantizationFrame};
 use crate::render::ray::Ray;
 use arrayvec::ArrayVec;
 
@@ -19,7 +19,7 @@ const HEURISTIC_DEPTH: usize = 16;
 
 /// What a walk has left for later, with where the ray enters it: each level leaves at most three
 /// children.
-type Open = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
+type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 16) * (WIDTH - 1) + 1 }>;
 
 /// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
 /// it.
@@ -44,7 +44,7 @@ struct Leaf {
 /// The hierarchy.
 #[derive(Debug)]
 pub(in crate::render) struct Bvh4 {
-    cube: Cube,
+    frame: QuantizationFrame,
     nodes: Vec<Node>,
     leaves: Vec<Leaf>,
     root: u32,
@@ -52,13 +52,13 @@ pub(in crate::render) struct Bvh4 {
 
 impl Bvh4 {
     /// Builds the hierarchy of some triangles, each known by its index, and corners that may be
-    /// wrong by `blur`; `None` if there is none.
+    /// wrong by `error_bound`; `None` if there is none.
     pub(in crate::render) fn build(
         count: usize,
-        blur: f64,
+        error_bound: f64,
         corners: impl Fn(u32) -> [Vec3; 3],
     ) -> Option<Self> {
-        let bounds = |index| Bounds::of(&corners(index)).grown(blur);
+        let bounds = |index| Bounds::of(&corners(index)).grown(error_bound);
         let mut items = (0..to_u32(count))
             .map(|index| Item {
                 index,
@@ -68,9 +68,9 @@ impl Bvh4 {
         if items.is_empty() {
             return None;
         }
-        let cube = Cube::around(items.iter().map(|item| item.bounds), blur);
+        let frame = QuantizationFrame::around(items.iter().map(|item| item.bounds), error_bound);
         let mut wide = Self {
-            cube,
+            frame,
             nodes: Vec::new(),
             leaves: Vec::new(),
             root: 0,
@@ -102,7 +102,7 @@ impl Bvh4 {
         let boxes = parts.iter().map(|part| whole(part)).collect::<Vec<_>>();
         let here = self.nodes.len();
         self.nodes.push(Node {
-            boxes: self.cube.boxes(&boxes),
+            boxes: self.frame.boxes(&boxes),
             links: [LEAF; WIDTH],
         });
         for (child, part) in parts.into_iter().enumerate() {
@@ -123,7 +123,7 @@ impl Bvh4 {
             .for_each(|(index, item)| *index = item.index);
         let link = LEAF | to_u32(self.leaves.len()) << 2 | to_u32(items.len() - 1);
         self.leaves.push(Leaf {
-            corners: self.cube.corners(&triangles),
+            corners: self.frame.corners(&triangles),
             items: indices,
         });
         link
@@ -139,7 +139,7 @@ impl Bvh4 {
         mut t_max: f64,
         mut visit: impl FnMut(u32) -> f64,
     ) {
-        let beam = match Beam::new(&self.cube, ray) {
+        let beam = match Beam::new(&self.frame, ray) {
             Ok(beam) => beam,
             Err(NoBeam::Missed) => return,
             Err(NoBeam::Untold) => {
@@ -157,7 +157,7 @@ impl Bvh4 {
             }
         };
         let mut limit = beam.limit(t_max);
-        let mut open = Open::new();
+        let mut open = TraversalStack::new();
         let mut link = self.root;
         loop {
             if link & LEAF == 0 {
@@ -203,7 +203,12 @@ impl Bvh4 {
 
 /// The nearest of the children met; the others are left for later.
 #[inline(always)]
-fn nearest(open: &mut Open, mut met: u32, enter: &[f32; WIDTH], links: &[u32; WIDTH]) -> u32 {
+fn nearest(
+    open: &mut TraversalStack,
+    mut met: u32,
+    enter: &[f32; WIDTH],
+    links: &[u32; WIDTH],
+) -> u32 {
     let lane = met.trailing_zeros() as usize & (WIDTH - 1);
     let mut first = (enter[lane], links[lane]);
     met &= met - 1;

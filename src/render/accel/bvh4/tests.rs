@@ -25,10 +25,10 @@ fn triangles(family: usize) -> Vec<Triangle> {
     let (name, scale, place, _) = FAMILIES[family];
     let one = |index: u64| {
         let key = Key::new([u32::try_from(family).unwrap(), 7], index);
-        let cube =
+        let frame =
             |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
-        let (a, width) = (cube(0), if name == "slivers" { 1e-7 } else { 0.3 });
-        let corners = [a, a + cube(3) * 0.3, a + cube(3) * 0.1 + cube(6) * width];
+        let (a, width) = (frame(0), if name == "slivers" { 1e-7 } else { 0.3 });
+        let corners = [a, a + frame(3) * 0.3, a + frame(3) * 0.1 + frame(6) * width];
         let flat = |p: Vec3| {
             if name == "in one plane" {
                 p.with_z(0.25)

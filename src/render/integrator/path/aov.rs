@@ -5,12 +5,12 @@ use super::state::PathState;
 use crate::math::Vec3;
 use crate::render::film::Seeds;
 use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{First, FirstHit, Seen};
+use crate::render::integrator::aov::{CameraHit, First, FirstHit};
 use crate::render::sampler::sobol::Sobol;
 use crate::render::shape::geometry::Geometry;
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> {
-    fn first_hit(&mut self, id: &SampleId) -> Seen {
+    fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = Sobol::new(id.pixel, id.index, Seeds::NONE);
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
         let first = self.closest_hit(&mut state).map(|vertex| {
@@ -24,7 +24,7 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> 
                 surface: self.world.surfaces[vertex.hit.surface].index,
             }
         });
-        Seen {
+        CameraHit {
             direction: state.ray.direction,
             first,
         }

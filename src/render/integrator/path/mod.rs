@@ -1,8 +1,8 @@
-//! The path integrator: the light that arrives along all paths, by next-event estimation and
-//! scattering together (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., §13.4).
+//! The path integrator: multiple importance sampling of next-event estimation and BSDF sampling
+//! (Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., §13.4).
 //!
-//! No path goes on, and no light is taken, on another side of the surface itself than its kind
-//! demands: closed meshes let no light in, whatever the normals of their corners.
+//! Reflection and transmission are checked against the geometric normal, so that shading normals
+//! leak no light into closed meshes.
 
 mod aov;
 mod scatter;
@@ -14,46 +14,46 @@ use super::Integrator;
 use crate::math::{Vec3, cos_sin_turns};
 use crate::plan::{Effect, PathFeatures};
 use crate::render::camera::{image_point, ray_through};
-use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::film::pixel::{Sample, SampleId, Stream};
-use crate::render::film::{Behind, Counts, Seeds};
+use crate::render::film::{Background, Counts, Seeds};
 use crate::render::light::Lights;
 use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::Path;
+use crate::valid::PathSettings;
 use state::PathState;
 use visibility::AlphaTested;
 
-/// How light is looked for. All strategies find the same light; only the noise differs.
+/// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// By both, weighted by the power heuristic (Veach, Guibas, 1995).
+    /// Both, weighted by the power heuristic (Veach, Guibas, 1995).
     #[default]
     Mis,
-    /// By next-event estimation, wherever a surface scatters widely enough for that.
+    /// Next-event estimation, except for delta lobes.
     Nee,
-    /// By sampling the BSDF, but for lights without extent.
+    /// BSDF sampling, except for punctual lights.
     BsdfSampling,
 }
 
-/// Follows paths through a world, with the [`PathFeatures`] `F`.
+/// Traces paths through a world, with the [`PathFeatures`] `F`.
 pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: Path,
+    path: PathSettings,
     strategy: Strategy,
     alpha_tested: AlphaTested,
-    /// Whether vertices know all that surfaces know, not only what their materials need.
+    /// Whether vertices have all details, not only those that their materials need.
     knows_all: bool,
-    /// What a ray of the camera that meets nothing shows.
-    behind: Behind,
-    /// Whether anything arrives from where no surface stands.
+    /// The background for camera rays that hit nothing.
+    background: Background,
+    /// Whether the environment emits light.
     has_environment: bool,
-    /// How often a path may go on.
+    /// The maximum number of bounces.
     max_bounces: u32,
-    /// What is planned; this tracer may be able to do more.
+    /// The planned features; `F` may have more.
     planned: PathFeatures,
     /// Tells of the pixel under way, and whether to go on with it.
     heartbeat: Heartbeat<'world>,
@@ -64,9 +64,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(in crate::render) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        path: Path,
+        path: PathSettings,
         strategy: Strategy,
-        proceed: &'world Proceed<'world>,
+        on_pixel: &'world OnPixel<'world>,
     ) -> Self {
         let plan = world.plan.paths.as_ref();
         let useless = u32::from(plan.is_some_and(|plan| !plan.last_ray));
@@ -77,21 +77,21 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             strategy,
             alpha_tested: AlphaTested::of(world),
             knows_all: false,
-            behind: Behind::default(),
+            background: Background::default(),
             has_environment: plan.is_none_or(|plan| plan.environment),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
-            heartbeat: Heartbeat::new(proceed),
+            heartbeat: Heartbeat::new(on_pixel),
             counts: Counts::default(),
         }
     }
 
-    /// The same, with something else behind all surfaces.
-    pub(in crate::render) fn before(self, behind: Behind) -> Self {
-        Self { behind, ..self }
+    /// The same tracer with another background.
+    pub(in crate::render) fn before(self, background: Background) -> Self {
+        Self { background, ..self }
     }
 
-    /// The same, with all that surfaces know at the vertices of its paths.
+    /// The same tracer with all details at its vertices.
     pub(in crate::render) fn knowing_all(self) -> Self {
         Self {
             knows_all: true,
@@ -152,7 +152,7 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
     fn sample(&mut self, id: &SampleId) -> Sample {
         let seeds = match id.stream {
             Stream::Picture(seeds) => seeds,
-            Stream::Strand { number, .. } => Seeds {
+            Stream::Replicate { number, .. } => Seeds {
                 pixel: number,
                 lens: number,
                 path: number,
@@ -165,8 +165,8 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
         let (ray, hits) = (self.camera_ray(id.pixel, &sobol), self.counts.hits);
         let radiance = self.radiance(ray, sobol);
         let hit = self.counts.hits > hits;
-        let is_shown = self.behind == Behind::Surroundings || hit;
-        // A number that overflowed says nothing.
+        let is_shown = self.background == Background::Environment || hit;
+        // Drop samples that overflowed.
         let is_shown = is_shown && radiance.is_finite();
         Sample {
             radiance: if is_shown { radiance } else { Vec3::ZERO },

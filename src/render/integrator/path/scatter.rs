@@ -1,25 +1,25 @@
-//! What happens at a vertex: light is found, and the path turns.
+//! Scattering at a vertex: next-event estimation and BSDF sampling.
 
 use super::state::PathState;
 use super::vertex::PathVertex;
 use super::{PathTracer, Strategy};
 use crate::math::{Vec3, exp};
 use crate::plan::{Effect, PathFeatures};
-use crate::render::bsdf::{Lobes, Standard};
+use crate::render::bsdf::{Lobes, StandardParameters};
 use crate::render::light::Incident;
-use crate::render::material::point::Frame;
+use crate::render::material::point::ShadingFrame;
 use crate::render::shape::geometry::Geometry;
 
 /// The BSDF at a vertex, in its frame of shading.
 struct Shading<const F: u32> {
-    frame: Frame,
+    frame: ShadingFrame,
     bsdf: Lobes<F>,
     /// The direction to the viewer in the frame.
     wo: Vec3,
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    /// Adds light from where no surface stands.
+    /// Adds the radiance of the environment to a path that leaves the scene.
     pub(super) fn add_escaped_radiance(&mut self, state: &mut PathState) {
         if !self.has_environment {
             return;
@@ -32,9 +32,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// Finds light at a vertex and turns the path; false if it ends there.
+    /// Adds light at a vertex and samples the next direction; false if the path ends there.
     pub(super) fn scatter(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> bool {
-        // Absorb what the medium on the way takes.
+        // Attenuate by the medium along the ray (Beer-Lambert).
         if state.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
             state.beta *= (state.absorption * -state.travelled).map(exp);
@@ -50,14 +50,14 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         let [choice, light] = state.pair(0);
         let shading = self.shading(state, vertex);
-        // Sample the light of one light.
+        // Sample one light.
         if self.does(PathFeatures::AIM) && !shading.bsdf.is_delta() {
             state.radiance += state.beta * self.direct(state, vertex, &shading, light);
         }
         state.bounces < self.max_bounces && self.turn(state, vertex, &shading, choice)
     }
 
-    /// Adds the radiance that a surface sends out by itself.
+    /// Adds the emitted radiance of a surface.
     fn add_emission(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) {
         let emission = vertex.point.emission();
         if emission == Vec3::ZERO {
@@ -70,12 +70,12 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         let (hit, wo) = (vertex.hit, -state.ray.direction);
         let square = state.travelled * state.travelled;
         let lights = self.lights;
-        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.part, -wo, square);
+        let light_pdf = || lights.pdf_of_surface(hit.surface, hit.prim_id, -wo, square);
         let weight = self.weight_of_scattering(state.pdf, light_pdf);
         state.radiance += state.beta * emission * weight;
     }
 
-    /// Samples the BSDF for the direction in which the path goes on; false if it ends.
+    /// Samples the BSDF for the next direction; false if the path ends.
     fn turn(
         &mut self,
         state: &mut PathState,
@@ -93,8 +93,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return false;
         };
         let wi = frame.to_world(sample.wi).normalize();
-        // Light that the shading normal lets through and the surface itself does not, or the
-        // reverse, would leak.
+        // End the path where shading and geometric normal disagree on reflection or transmission:
+        // light would leak.
         let through = sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
@@ -109,7 +109,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Vec3::ZERO
             };
         }
-        (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.part));
+        (state.ray, state.from) = (at.ray(wi), (hit.surface, hit.prim_id));
         *if through {
             &mut self.counts.refracted
         } else {
@@ -118,7 +118,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         state.russian_roulette()
     }
 
-    /// The material at a vertex as the viewer sees it.
+    /// The BSDF at a vertex.
     #[inline]
     fn shading(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> Shading<F> {
         let PathVertex {
@@ -139,7 +139,12 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// Counts what was evaluated of a material.
     #[inline]
-    fn count_shading(&mut self, vertex: &PathVertex<'_>, standard: &Standard, bsdf: &Lobes<F>) {
+    fn count_shading(
+        &mut self,
+        vertex: &PathVertex<'_>,
+        standard: &StandardParameters,
+        bsdf: &Lobes<F>,
+    ) {
         let material = vertex.point.material;
         let mut count = |effect: Effect, is_there: bool| {
             if is_there {
@@ -160,7 +165,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         debug_assert!(!material.is_unlit, "a path ends on an unlit surface");
     }
 
-    /// The light that one light sends to a vertex and on along the path.
+    /// The direct light of one sampled light at a vertex.
     fn direct(
         &mut self,
         state: &PathState,
@@ -200,7 +205,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
     }
 
-    /// The weight of light that scattering found with a density, and aiming could have.
+    /// The MIS weight of light found by BSDF sampling, given both densities.
     fn weight_of_scattering(&mut self, pdf: Option<f64>, light_pdf: impl FnOnce() -> f64) -> f64 {
         if !self.does(PathFeatures::AIM) {
             return 1.0;

@@ -1,4 +1,4 @@
-//! A path under way.
+//! The state of a path.
 
 use crate::math::Vec3;
 use crate::render::ray::Ray;
@@ -8,26 +8,27 @@ use crate::render::world::NOWHERE;
 /// Bounces before Russian roulette may end a path.
 const RR_MIN_DEPTH: u32 = 3;
 
-/// Pairs of numbers that a vertex takes.
+/// Pairs of random numbers per vertex.
 const PAIRS: u32 = 4;
 
-/// A path under way.
+/// The state of a path.
 pub(super) struct PathState {
     pub(super) ray: Ray,
     /// The primitive where the ray starts.
     pub(super) from: (usize, u32),
-    /// The throughput: the factor by which what the ray sees counts.
+    /// The throughput `beta`: the factor on the radiance along the ray.
     pub(super) beta: Vec3,
     /// The radiance found so far.
     pub(super) radiance: Vec3,
     pub(super) sobol: Sobol,
-    /// How often it has gone on from a surface.
+    /// The number of bounces so far.
     pub(super) bounces: u32,
-    /// The density with which the BSDF took the ray; `None` if no light could have been aimed at so.
+    /// The density of the ray's direction in BSDF sampling; `None` if light sampling could not have
+    /// found it.
     pub(super) pdf: Option<f64>,
     /// The coefficient of absorption along the ray, per unit of length.
     pub(super) absorption: Vec3,
-    /// The one colour that dispersion left.
+    /// The wavelength channel that dispersion picked.
     pub(super) channel: Option<usize>,
     /// How far the ray has come, surfaces that it went through included.
     pub(super) travelled: f64,
@@ -55,7 +56,7 @@ impl PathState {
         self.sobol.pair(CORNERS + PAIRS * self.bounces + pair)
     }
 
-    /// Keeps one colour, which stands for all three.
+    /// Picks one colour channel, weighted by 3.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -70,8 +71,7 @@ impl PathState {
         self.channel = Some(channel);
     }
 
-    /// Russian roulette: ends the path with a probability that grows as its throughput falls; false
-    /// if it ends.
+    /// Russian roulette: ends paths of low throughput at random; false if the path ends.
     pub(super) fn russian_roulette(&mut self) -> bool {
         let largest = self.beta.max_element();
         if self.bounces < RR_MIN_DEPTH || largest >= 1.0 {

@@ -3,20 +3,20 @@
 use super::PathTracer;
 use super::state::PathState;
 use crate::plan::{Effect, PathFeatures};
-use crate::render::material::point::Point;
+use crate::render::material::point::MaterialPoint;
 use crate::render::material::standard::{Alpha, StandardMaterial};
 use crate::render::ray::Interaction;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::world::Hit;
 
-/// Alpha-tested surfaces that a ray goes through at most.
+/// The maximum number of skipped surfaces along a ray.
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;
 
-/// Where a path meets a surface.
+/// A vertex of a path: a hit, with everything that shading needs.
 pub(in crate::render) struct PathVertex<'world> {
     pub(super) at: Interaction,
-    pub(super) point: Point<'world>,
+    pub(super) point: MaterialPoint<'world>,
     pub(super) details: Details,
     pub(super) hit: Hit,
 }
@@ -28,11 +28,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(super) fn closest_hit(&mut self, state: &mut PathState) -> Option<PathVertex<'world>> {
         state.travelled = 0.0;
         for skipped in 0..MAX_SKIPPED {
-            let hit = self.world.nearest_from(&state.ray, state.from)?;
+            let hit = self.world.closest_hit_from(&state.ray, state.from)?;
             let surface = &self.world.surfaces[hit.surface];
-            let at = surface.shape.interaction(&state.ray, hit.t, hit.part);
+            let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
             let asked = self.asked(surface.material);
-            let details = surface.shape.details(&state.ray, &at, hit.part, asked);
+            let details = surface.shape.details(&state.ray, &at, hit.prim_id, asked);
             let point = self.point(surface.material, &details);
             state.travelled += hit.t;
             let opacity = if skips_back(state, &at, point.material) {
@@ -41,7 +41,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 self.opacity(&point)
             };
             if opacity < 1.0 && state.sobol.uniform(state.bounces, skipped) >= opacity {
-                (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.part));
+                (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
                 continue;
             }
             return Some(PathVertex {
@@ -54,7 +54,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         None
     }
 
-    /// What a material needs to know of a surface.
+    /// The surface details that a material needs.
     pub(super) fn asked(&self, material: usize) -> Asked {
         if self.knows_all {
             Asked::ALL
@@ -64,7 +64,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// A material at a point of a surface.
-    pub(super) fn point(&mut self, material: usize, details: &Details) -> Point<'world> {
+    pub(super) fn point(&mut self, material: usize, details: &Details) -> MaterialPoint<'world> {
         let material = &self.world.standards[material];
         if material.base_color.map.is_some() {
             self.counts.add(Effect::Textures);
@@ -72,11 +72,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         if details.color.is_some() {
             self.counts.add(Effect::VertexColors);
         }
-        Point::new(material, details)
+        MaterialPoint::new(material, details)
     }
 
-    /// The probability that a ray meets the surface at a point.
-    pub(super) fn opacity(&mut self, point: &Point<'_>) -> f64 {
+    /// The opacity at a point: the probability that the alpha test keeps the hit.
+    pub(super) fn opacity(&mut self, point: &MaterialPoint<'_>) -> f64 {
         if !Self::can(PathFeatures::ALPHA) || point.material.alpha == Alpha::Opaque {
             return 1.0;
         }
@@ -85,7 +85,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 }
 
-/// Whether a ray of the camera meets the back of what is seen from one side.
+/// Whether a camera ray hits the back of a single-sided material.
 fn skips_back(state: &PathState, at: &Interaction, material: &StandardMaterial) -> bool {
     state.bounces == 0 && state.ray.direction.dot(at.normal) > 0.0 && material.is_seen_from_one_side
 }

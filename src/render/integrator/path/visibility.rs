@@ -1,4 +1,4 @@
-//! What stands between a vertex and a light.
+//! Visibility between a vertex and a light.
 
 use super::PathTracer;
 use super::vertex::{MAX_SKIPPED, PathVertex};
@@ -9,13 +9,13 @@ use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::{Hit, World, segment};
 
-/// Which surfaces of a world a ray may go through.
+/// The alpha-tested surfaces of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum AlphaTested {
     None,
-    /// Triangles that stand in the world one by one.
+    /// Only flattened triangles.
     Triangles,
-    /// Others as well.
+    /// Other surfaces as well.
     Solids,
 }
 
@@ -27,14 +27,14 @@ impl AlphaTested {
         };
         let tested = (0..world.surfaces.len()).filter(is_tested);
         tested.fold(Self::None, |all, surface| match all {
-            Self::None | Self::Triangles if world.is_merged(surface) => Self::Triangles,
+            Self::None | Self::Triangles if world.is_flattened(surface) => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,
         })
     }
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    /// The fraction of light that arrives from a place, or from infinitely far away.
+    /// The transmittance to a point, or to infinity.
     pub(super) fn visibility(
         &mut self,
         vertex: &PathVertex<'world>,
@@ -46,7 +46,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         }
         self.counts.shadow += 1;
         let ray = vertex.at.ray(wi);
-        let from = (vertex.hit.surface, vertex.hit.part);
+        let from = (vertex.hit.surface, vertex.hit.prim_id);
         let is_tested = Self::can(PathFeatures::ALPHA);
         if is_tested && self.alpha_tested == AlphaTested::Solids {
             return self.transmittance_one_by_one(ray, from, wi, place);
@@ -57,21 +57,21 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         };
         let world = self.world;
         if is_tested && self.alpha_tested == AlphaTested::Triangles {
-            world.passing(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
+            world.transmittance(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
         } else {
-            world.passing(&ray, t_max, from, |_| 0.0)
+            world.transmittance(&ray, t_max, from, |_| 0.0)
         }
     }
 
-    /// Where a ray meets a surface, and the fraction of light that the surface lets through there.
+    /// The interaction of a hit, and the transmittance of the surface there.
     fn transmittance(&mut self, ray: &Ray, hit: &Hit) -> (Option<Interaction>, f64) {
         let surface = &self.world.surfaces[hit.surface];
         if self.world.standards[surface.material].alpha == Alpha::Opaque {
             return (None, 0.0);
         }
-        let at = surface.shape.interaction(ray, hit.t, hit.part);
+        let at = surface.shape.interaction(ray, hit.t, hit.prim_id);
         let asked = self.asked(surface.material);
-        let details = surface.shape.details(ray, &at, hit.part, asked);
+        let details = surface.shape.details(ray, &at, hit.prim_id, asked);
         let point = self.point(surface.material, &details);
         (Some(at), 1.0 - self.opacity(&point))
     }
@@ -91,19 +91,19 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Some(None) => return transmittance,
                 Some(Some(to_place)) => to_place,
             };
-            // Nothing stands before the light.
-            if self.world.passing(&end, t_max, from, |_| 0.0) > 0.0 {
+            // Stop if the rest of the segment is clear.
+            if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
                 return transmittance;
             }
-            let Some(hit) = self.world.nearest_from(&ray, from) else {
+            let Some(hit) = self.world.closest_hit_from(&ray, from) else {
                 return transmittance;
             };
-            let (at, passing) = self.transmittance(&ray, &hit);
-            transmittance *= passing;
+            let (at, fraction) = self.transmittance(&ray, &hit);
+            transmittance *= fraction;
             let Some(at) = at.filter(|_| transmittance > 0.0) else {
                 return 0.0;
             };
-            (ray, from) = (at.ray(wi), (hit.surface, hit.part));
+            (ray, from) = (at.ray(wi), (hit.surface, hit.prim_id));
         }
         0.0
     }

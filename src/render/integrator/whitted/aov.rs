@@ -3,32 +3,32 @@
 use super::Tracer;
 use crate::render::film::Seeds;
 use crate::render::film::pixel::SampleId;
-use crate::render::integrator::aov::{First, FirstHit, Seen};
+use crate::render::integrator::aov::{CameraHit, First, FirstHit};
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::Asked;
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
-    fn first_hit(&mut self, id: &SampleId) -> Seen {
+    fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let camera = self.scene().camera();
         let [cell, k] = self.grid.split(id.index);
         let ray = self
             .grid
             .cell(camera, id.pixel, self.grid.place_of(cell), Seeds::NONE)
             .ray(camera, k);
-        let first = self.world.nearest(&ray).map(|hit| {
-            let view = self.view_of(&ray, hit, Key::new(id.pixel, 0));
+        let first = self.world.closest_hit(&ray).map(|hit| {
+            let shading_point = self.shading_point_of(&ray, hit, Key::new(id.pixel, 0));
             let shape = &self.world.surfaces[hit.surface].shape;
-            let details = shape.details(&ray, &view.interaction, hit.part, Asked::ALL);
+            let details = shape.details(&ray, &shading_point.interaction, hit.prim_id, Asked::ALL);
             First {
-                albedo: view.color * view.material.kd.get(),
-                normal: view.normal,
-                point: view.interaction.point,
+                albedo: shading_point.color * shading_point.material.kd.get(),
+                normal: shading_point.normal,
+                point: shading_point.interaction.point,
                 uv: details.uv,
-                surface: view.surface,
+                surface: shading_point.surface,
             }
         });
-        Seen {
+        CameraHit {
             direction: ray.direction,
             first,
         }

@@ -1,14 +1,14 @@
 //! The branches of a camera ray: mirrored and refracted rays, put off until their turn comes.
 
 use super::Tracer;
-use super::shade::View;
+use super::shade::ShadingPoint;
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Rule};
 use crate::render::bsdf::optics::{reflect, refract};
 use crate::render::integrator::Integrator;
 use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::sampler::{Key, Lobe, is_above};
+use crate::render::sampler::{Key, PhongLobeSampler, is_above};
 use crate::render::shape::geometry::Geometry;
 
 /// One path under way.
@@ -38,7 +38,7 @@ pub(super) enum Pending {
 /// The directions of a lobe not yet followed.
 #[derive(Clone, Copy)]
 pub(super) struct GlossyBatch {
-    lobe: Lobe,
+    lobe: PhongLobeSampler,
     from: Interaction,
     /// The normals above which all directions lie.
     normals: [Vec3; 2],
@@ -50,51 +50,57 @@ pub(super) struct GlossyBatch {
 
 impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// Puts off the mirrored and refracted paths that go on from here.
-    pub(super) fn branch(&mut self, path: &Branch, view: &View<'_>) {
+    pub(super) fn branch(&mut self, path: &Branch, shading_point: &ShadingPoint<'_>) {
         if path.bounces_left == 0 || path.beta == 0.0 {
             return;
         }
         let direction = path.ray.direction;
-        let refracted = transmit(direction, view, self.scene().settings().shadows);
+        let refracted = transmit(direction, shading_point, self.scene().settings().shadows);
         let mirror_weight = match refracted {
-            Some(_) => view.ks,
-            None => view.ks + view.material.kt.get(),
+            Some(_) => shading_point.ks,
+            None => shading_point.ks + shading_point.material.kt.get(),
         };
-        let mirror = mirror_direction(direction, view);
-        self.push_mirror(path, view, mirror, mirror_weight);
+        let mirror = mirror_direction(direction, shading_point);
+        self.push_mirror(path, shading_point, mirror, mirror_weight);
         if let Some(refracted) = refracted {
             self.push_ray(
                 path,
-                &view.interaction,
+                &shading_point.interaction,
                 refracted,
-                view.material.kt.get(),
+                shading_point.material.kt.get(),
                 BranchKind::Refracted,
             );
         }
     }
 
-    fn push_mirror(&mut self, path: &Branch, view: &View<'_>, mirror: Vec3, weight: f64) {
+    fn push_mirror(
+        &mut self,
+        path: &Branch,
+        shading_point: &ShadingPoint<'_>,
+        mirror: Vec3,
+        weight: f64,
+    ) {
         let PhongMaterial {
             n, glossy_samples, ..
-        } = view.material;
+        } = shading_point.material;
         if !Self::can(Features::SAMPLED) || glossy_samples.get() == 1 || weight == 0.0 {
             self.push_ray(
                 path,
-                &view.interaction,
+                &shading_point.interaction,
                 mirror,
                 weight,
                 BranchKind::Mirrored,
             );
             return;
         }
-        let lobe = Lobe::new(mirror, *n, glossy_samples.get(), path.key);
+        let lobe = PhongLobeSampler::new(mirror, *n, glossy_samples.get(), path.key);
         // With shadows no light comes through a surface that mirrors.
         let geometric = if self.scene().settings().shadows {
-            view.geometric()
+            shading_point.geometric()
         } else {
-            view.normal
+            shading_point.normal
         };
-        let normals = [view.normal, geometric];
+        let normals = [shading_point.normal, geometric];
         let above = lobe.count_above(normals, || self.goes_on());
         let ray = Ray {
             direction: mirror,
@@ -110,7 +116,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         };
         let fan = GlossyBatch {
             lobe,
-            from: view.interaction,
+            from: shading_point.interaction,
             normals,
             next: 0,
             count: glossy_samples.get(),
@@ -194,12 +200,13 @@ impl GlossyBatch {
 
 /// The mirror direction at the shading normal, or at the geometric one where that would lead into
 /// the surface.
-fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
-    let mirror = reflect(direction, view.normal);
-    let leads_inside =
-        mirror.dot(view.interaction.normal) * direction.dot(view.interaction.normal) > 0.0;
+fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
+    let mirror = reflect(direction, shading_point.normal);
+    let leads_inside = mirror.dot(shading_point.interaction.normal)
+        * direction.dot(shading_point.interaction.normal)
+        > 0.0;
     if leads_inside {
-        reflect(direction, view.interaction.normal)
+        reflect(direction, shading_point.interaction.normal)
     } else {
         mirror
     }
@@ -211,18 +218,18 @@ fn mirror_direction(direction: Vec3, view: &View<'_>) -> Vec3 {
 /// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does
 /// where the shading normal would keep on this side of the surface what is to go through. So an eta
 /// of 1 bends no ray, whatever the shading normal.
-fn transmit(direction: Vec3, view: &View<'_>, sided: bool) -> Option<Vec3> {
-    let PhongMaterial { kt, eta, .. } = view.material;
+fn transmit(direction: Vec3, shading_point: &ShadingPoint<'_>, sided: bool) -> Option<Vec3> {
+    let PhongMaterial { kt, eta, .. } = shading_point.material;
     if kt.get() == 0.0 {
         return None;
     }
-    let enters = direction.dot(view.interaction.normal) <= 0.0;
+    let enters = direction.dot(shading_point.interaction.normal) <= 0.0;
     let (from, to) = if enters {
         (1.0, eta.get())
     } else {
         (eta.get(), 1.0)
     };
-    let (shading, geometric) = (view.normal, view.geometric());
+    let (shading, geometric) = (shading_point.normal, shading_point.geometric());
     if direction.dot(shading) < 0.0 {
         match refract(direction, shading, from, to) {
             Some(refracted) if !sided || refracted.dot(geometric) < 0.0 => return Some(refracted),

@@ -11,7 +11,7 @@ use crate::math::Vec3;
 use crate::plan::{Effect, Features, Plan, Rule};
 use crate::render::camera::grid::Grid;
 use crate::render::film::Counts;
-use crate::render::film::heartbeat::{Heartbeat, Proceed};
+use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
@@ -21,7 +21,7 @@ use crate::render::world::{Hit, World};
 use crate::valid::{Mode, Proof};
 use branch::{Branch, BranchKind, Pending};
 use pixel::PixelState;
-use shade::View;
+use shade::ShadingPoint;
 
 /// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
 /// its memory.
@@ -42,13 +42,13 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
 }
 
 impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
-    /// A tracer of the world, watched by `proceed`.
+    /// A tracer of the world, watched by `on_pixel`.
     #[must_use]
     pub(in crate::render) fn new(
         world: &'world World<S>,
-        proceed: &'world Proceed<'world>,
+        on_pixel: &'world OnPixel<'world>,
     ) -> Self {
-        let (heartbeat, counts) = (Heartbeat::new(proceed), Counts::default());
+        let (heartbeat, counts) = (Heartbeat::new(on_pixel), Counts::default());
         Self {
             world,
             pending: Vec::new(),
@@ -116,32 +116,32 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             key,
             kind: BranchKind::Mirrored,
         };
-        if let Some(view) = self.view(&first.ray, first.key) {
+        if let Some(shading_point) = self.shading_point(&first.ray, first.key) {
             self.counts.hits += 1;
             self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| {
-                !plan.surfaces[view.surface]
+                !plan.surfaces[shading_point.surface]
             });
-            sum += self.local(&view);
+            sum += self.local(&shading_point);
             if Self::can(Features::BOUNCE) {
-                self.branch(&first, &view);
+                self.branch(&first, &shading_point);
             }
         }
         while Self::can(Features::BOUNCE)
             && let Some(path) = self.next_branch()
         {
             self.weightless = path.beta == 0.0;
-            if let Some(view) = self.view(&path.ray, path.key) {
-                let value = self.local(&view) * path.beta;
-                self.verify_bounce(&path, &view, value);
+            if let Some(shading_point) = self.shading_point(&path.ray, path.key) {
+                let value = self.local(&shading_point) * path.beta;
+                self.verify_bounce(&path, &shading_point, value);
                 sum += value;
-                self.branch(&path, &view);
+                self.branch(&path, &shading_point);
             }
         }
         sum
     }
 
     /// Looks whether a bounce that counts meets what the plan leaves out.
-    fn verify_bounce(&self, path: &Branch, view: &View<'_>, value: Vec3) {
+    fn verify_bounce(&self, path: &Branch, shading_point: &ShadingPoint<'_>, value: Vec3) {
         let bounces = self.world.plan.max_depth - path.bounces_left;
         self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
             bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
@@ -149,22 +149,27 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         self.verify(
             Effect::Surfaces,
             "a bounce meets a surface left out",
-            |plan| bounces <= plan.max_depth && !plan.surfaces[view.surface],
+            |plan| bounces <= plan.max_depth && !plan.surfaces[shading_point.surface],
         );
     }
 
     /// What a ray sees, with the maps of its material applied.
-    fn view(&mut self, ray: &Ray, key: Key) -> Option<View<'world>> {
-        let hit = self.world.nearest(ray)?;
-        Some(self.view_of(ray, hit, key))
+    fn shading_point(&mut self, ray: &Ray, key: Key) -> Option<ShadingPoint<'world>> {
+        let hit = self.world.closest_hit(ray)?;
+        Some(self.shading_point_of(ray, hit, key))
     }
 
     /// What a ray sees at a hit.
-    pub(in crate::render) fn view_of(&mut self, ray: &Ray, hit: Hit, key: Key) -> View<'world> {
+    pub(in crate::render) fn shading_point_of(
+        &mut self,
+        ray: &Ray,
+        hit: Hit,
+        key: Key,
+    ) -> ShadingPoint<'world> {
         let surface = &self.world.surfaces[hit.surface];
-        let interaction = surface.shape.interaction(ray, hit.t, hit.part);
+        let interaction = surface.shape.interaction(ray, hit.t, hit.prim_id);
         let material = &self.world.phongs[surface.material];
-        let mut view = View {
+        let mut shading_point = ShadingPoint {
             interaction,
             normal: interaction.normal,
             to_viewer: -ray.direction,
@@ -179,37 +184,37 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         {
             let details = surface
                 .shape
-                .details(ray, &interaction, hit.part, Asked::ALL);
-            self.apply_maps(&mut view, &details);
+                .details(ray, &interaction, hit.prim_id, Asked::ALL);
+            self.apply_maps(&mut shading_point, &details);
         }
         if ray.direction.dot(interaction.normal) > 0.0 {
-            view.normal = -view.normal;
+            shading_point.normal = -shading_point.normal;
         }
-        view
+        shading_point
     }
 
     /// Replaces normal, colour and ks by those of the surface's maps; without uv a surface keeps
     /// its own.
-    fn apply_maps(&mut self, view: &mut View<'_>, details: &Details) {
+    fn apply_maps(&mut self, shading_point: &mut ShadingPoint<'_>, details: &Details) {
         if details.normal.is_some() {
             self.counts.add(Effect::NormalInterpolation);
         }
-        view.normal = details.normal.unwrap_or(view.normal);
-        let (Some(uv), Some(maps)) = (details.uv, view.material.maps.as_deref()) else {
+        shading_point.normal = details.normal.unwrap_or(shading_point.normal);
+        let (Some(uv), Some(maps)) = (details.uv, shading_point.material.maps.as_deref()) else {
             return;
         };
         if maps.color.is_some() || maps.specular.is_some() {
             self.counts.add(Effect::Textures);
         }
         if let Some(map) = &maps.color {
-            view.color = look_up(map, uv);
+            shading_point.color = look_up(map, uv);
         }
         if let Some(map) = &maps.specular {
-            view.ks *= look_up(map, uv).x.max(0.0);
+            shading_point.ks *= look_up(map, uv).x.max(0.0);
         }
         let Some(frame) = details
             .tangent
-            .and_then(|tangent| Frame::new(view.normal, tangent))
+            .and_then(|tangent| Frame::new(shading_point.normal, tangent))
         else {
             return;
         };
@@ -217,19 +222,21 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             self.counts.add(Effect::NormalMapping);
         }
         if let Some(map) = &maps.normal {
-            view.normal = frame.mapped(map, uv);
+            shading_point.normal = frame.mapped(map, uv);
         } else if let Some(bump) = &maps.bump {
-            view.normal = frame.bumped(bump, uv);
+            shading_point.normal = frame.bumped(bump, uv);
         }
     }
 
-    fn local(&mut self, view: &View<'_>) -> Vec3 {
+    fn local(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         match &self.scene().settings().mode {
-            Mode::Gooch(parameters) if Self::can(Features::GOOCH) => self.gooch(view, parameters),
-            Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(view),
+            Mode::Gooch(parameters) if Self::can(Features::GOOCH) => {
+                self.gooch(shading_point, parameters)
+            }
+            Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(shading_point),
             Mode::Normal | Mode::Zbuffer => {
                 self.counts.add(Effect::NormalBuffer);
-                (view.normal + Vec3::ONE) * 0.5
+                (shading_point.normal + Vec3::ONE) * 0.5
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Tracer;
 use crate::math::Vec3;
-use crate::plan::{Effect, Features, Sight};
+use crate::plan::{Effect, Features, PixelClass};
 use crate::render::camera::grid::{Cell, Grid};
 use crate::render::camera::{camera_ray, image_point, lens_at};
 use crate::render::film::heartbeat::Heartbeat;
@@ -33,7 +33,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     fn sample(&mut self, id: &SampleId) -> Sample {
         match id.stream {
             Stream::Picture(seeds) => self.sample_of_picture(id, seeds),
-            Stream::Strand { number, .. } => self.sample_of_strand(id, number),
+            Stream::Replicate { number, .. } => self.sample_of_replicate(id, number),
         }
     }
 
@@ -53,7 +53,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     }
 }
 
-/// Keeps the numbers of strands apart from those of the paths through them.
+/// Keeps the numbers of replicates apart from those of the paths through them.
 const STRAND: u64 = u64::MAX - 2;
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
@@ -81,7 +81,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 
     /// A sample of a sequence without end.
-    fn sample_of_strand(&mut self, id: &SampleId, number: u64) -> Sample {
+    fn sample_of_replicate(&mut self, id: &SampleId, number: u64) -> Sample {
         let camera = self.scene().camera();
         let sequence = Sequence::new(Key::new(id.pixel, number).child(STRAND));
         let [x, y, u, v] = sequence.point(id.index);
@@ -94,7 +94,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     fn begin_pixel(&mut self, pixel: [u32; 2]) {
         let several = Self::can(Features::CAMERA) && self.grid.samples() > 1;
-        let is_uniform = several && self.world.plan.region.sight(pixel) == Sight::Uniform;
+        let is_uniform = several && self.world.plan.region.class_of(pixel) == PixelClass::Uniform;
         self.pixel = PixelState {
             is_uniform,
             ..PixelState::default()
@@ -144,11 +144,12 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
             let differs = |last: Sample| last.radiance != sample.radiance;
-            self.pixel.last.is_some_and(differs) && plan.region.sight(pixel) == Sight::Uniform
+            self.pixel.last.is_some_and(differs)
+                && plan.region.class_of(pixel) == PixelClass::Uniform
         });
         let what = "a pixel that shows nothing shows something";
         self.verify(Effect::Surfaces, what, |plan| {
-            sample.hit && plan.region.sight(pixel) == Sight::Nothing
+            sample.hit && plan.region.class_of(pixel) == PixelClass::Nothing
         });
     }
 }

@@ -13,7 +13,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::valid::Gooch;
 
 /// A point seen from one side.
-pub(in crate::render) struct View<'world> {
+pub(in crate::render) struct ShadingPoint<'world> {
     /// The point.
     pub(in crate::render) interaction: Interaction,
     /// The unit shading normal on the side of the viewer.
@@ -48,7 +48,7 @@ struct Incidence {
     r_dot_v: f64,
 }
 
-impl View<'_> {
+impl ShadingPoint<'_> {
     /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
     /// that.
     pub(in crate::render) fn geometric(&self) -> Vec3 {
@@ -89,7 +89,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// in its own light. So a closed mesh lets no light in, whatever the normals of its
     /// corners.
     #[must_use]
-    pub(in crate::render) fn phong(&mut self, view: &View<'_>) -> Vec3 {
+    pub(in crate::render) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
         let samples = world.scene.settings().light_samples.get();
         let mut sum = Vec3::ZERO;
@@ -106,22 +106,24 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
             if !self.goes_on() {
                 break;
             }
-            let mut term = view.color * view.material.ka.get();
+            let mut term = shading_point.color * shading_point.material.ka.get();
             let ambient = term;
             if Self::can(Features::LIGHT) && plan.direct {
                 let shadowed = Hidden {
                     light: index,
-                    maybe: plan.shadowed[view.surface],
+                    maybe: plan.shadowed[shading_point.surface],
                 };
                 if !Self::can(Features::SAMPLED) || light.radius.get() == 0.0 || samples == 1 {
-                    term += self.direct(view, light.position, shadowed);
+                    term += self.direct(shading_point, light.position, shadowed);
                 } else {
-                    let key = view.key.child(index as u64);
+                    let key = shading_point.key.child(index as u64);
                     let points = DiscPoints::new(samples, key, self.spread);
-                    let points = on_soft_light(light, view.interaction.point, samples, points);
+                    let points =
+                        on_soft_light(light, shading_point.interaction.point, samples, points);
                     let direct = points.map_while(|point| {
                         self.counts.add(Effect::SoftLight);
-                        self.goes_on().then(|| self.direct(view, point, shadowed))
+                        self.goes_on()
+                            .then(|| self.direct(shading_point, point, shadowed))
                     });
                     term += direct.sum::<Vec3>() / f64::from(samples);
                 }
@@ -137,51 +139,65 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 
     /// What one point of a light adds, for a light of colour 1.
-    fn direct(&mut self, view: &View<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
-        let diffuse = view.color * view.material.kd.get();
-        let shines =
-            Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs));
+    fn direct(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> Vec3 {
+        let diffuse = shading_point.color * shading_point.material.kd.get();
+        let shines = Self::can(Features::HIGHLIGHT)
+            && (shading_point.ks > 0.0 || !self.applies(Rule::HighlightKs));
         if diffuse == Vec3::ZERO && !shines && self.applies(Rule::ShadowUnlit) {
             return Vec3::ZERO;
         }
         self.counts.add(Effect::DirectLight);
-        let Some(incidence) = view.incidence(light) else {
+        let Some(incidence) = shading_point.incidence(light) else {
             return Vec3::ZERO;
         };
-        if self.scene().settings().shadows && !self.is_lit(view, light, incidence.n_dot_l, shadowed)
+        if self.scene().settings().shadows
+            && !self.is_lit(shading_point, light, incidence.n_dot_l, shadowed)
         {
             return Vec3::ZERO;
         }
-        let mut term = view.color * (view.material.kd.get() * incidence.n_dot_l.max(0.0));
+        let mut term =
+            shading_point.color * (shading_point.material.kd.get() * incidence.n_dot_l.max(0.0));
         if shines {
             self.counts.add(Effect::Highlight);
-            term += Vec3::splat(view.ks * highlight(incidence.r_dot_v, view.material.n.get()));
+            term += Vec3::splat(
+                shading_point.ks * highlight(incidence.r_dot_v, shading_point.material.n.get()),
+            );
         }
         term
     }
 
     /// Whether a surface faces a light and nothing stands between.
-    fn is_lit(&mut self, view: &View<'_>, light: Vec3, n_dot_l: f64, shadowed: Hidden) -> bool {
-        let faces = n_dot_l > 0.0 && (!Self::can(Features::MAPS) || view.is_before(light));
+    fn is_lit(
+        &mut self,
+        shading_point: &ShadingPoint<'_>,
+        light: Vec3,
+        n_dot_l: f64,
+        shadowed: Hidden,
+    ) -> bool {
+        let faces = n_dot_l > 0.0 && (!Self::can(Features::MAPS) || shading_point.is_before(light));
         if !faces && self.applies(Rule::ShadowFacing) {
             return false;
         }
-        let sees = !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(view, light);
+        let sees =
+            !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(shading_point, light);
         self.verify(
             Effect::Shadows,
             "a shadow ray left out is blocked",
             |plan| {
                 let light = &plan.lights[shadowed.light];
-                let shows = view.ks > 0.0 || view.color * view.material.kd.get() != Vec3::ZERO;
-                faces && !sees && light.direct && !light.shadowed[view.surface] && shows
+                let shows = shading_point.ks > 0.0
+                    || shading_point.color * shading_point.material.kd.get() != Vec3::ZERO;
+                faces && !sees && light.direct && !light.shadowed[shading_point.surface] && shows
             },
         );
         faces && sees
     }
 
-    fn sees(&mut self, view: &View<'_>, light: Vec3) -> bool {
+    fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3) -> bool {
         self.counts.shadow += 1;
-        let start = view.interaction.start(light - view.interaction.point);
+        let start = shading_point
+            .interaction
+            .start(light - shading_point.interaction.point);
         !self.world.occluded(start, light)
     }
 
@@ -189,25 +205,33 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// (SIGGRAPH 1998), in the course's form: `Σ cool·(1 − N·L)/2 + warm·(1 + N·L)/2 +
     /// ks·max(0, R·V)ⁿ·c_l`.
     #[must_use]
-    pub(in crate::render) fn gooch(&mut self, view: &View<'_>, parameters: &Gooch) -> Vec3 {
+    pub(in crate::render) fn gooch(
+        &mut self,
+        shading_point: &ShadingPoint<'_>,
+        parameters: &Gooch,
+    ) -> Vec3 {
         let Gooch { b, y, alpha, beta } = *parameters;
-        let (kd, n) = (view.material.kd.get(), view.material.n.get());
+        let (kd, n) = (
+            shading_point.material.kd.get(),
+            shading_point.material.n.get(),
+        );
         let mut sum = Vec3::ZERO;
         for light in &self.world.lights.course {
             if !self.goes_on() {
                 break;
             }
-            let Some(incidence) = view.incidence(light.position) else {
+            let Some(incidence) = shading_point.incidence(light.position) else {
                 continue;
             };
-            let tone = light.color * view.color * kd;
+            let tone = light.color * shading_point.color * kd;
             let cool = Vec3::new(0.0, 0.0, b) + tone * alpha;
             let warm = Vec3::new(y, y, 0.0) + tone * beta;
             sum +=
                 cool * (0.5 * (1.0 - incidence.n_dot_l)) + warm * (0.5 * (1.0 + incidence.n_dot_l));
-            if Self::can(Features::HIGHLIGHT) && (view.ks > 0.0 || !self.applies(Rule::HighlightKs))
+            if Self::can(Features::HIGHLIGHT)
+                && (shading_point.ks > 0.0 || !self.applies(Rule::HighlightKs))
             {
-                sum += light.color * (view.ks * highlight(incidence.r_dot_v, n));
+                sum += light.color * (shading_point.ks * highlight(incidence.r_dot_v, n));
             }
         }
         sum

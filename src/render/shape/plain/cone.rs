@@ -1,7 +1,7 @@
 //! The capped cone: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
 
-use super::line::Line;
 use super::plane::Disc;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use super::roots::quadratic;
 use crate::math::Vec3;
@@ -32,11 +32,11 @@ impl<R: Real> Cone<R> {
         }
     }
 
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
         let [side, base] = PARTS;
-        let f = line.origin - self.base;
-        let (above, rise) = (f.dot(self.axis), line.direction.dot(self.axis));
-        let (from_axis, across) = (f - self.axis * above, line.direction - self.axis * rise);
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
         // Subtract the square of the cone's own radius, slope·(height − above − rise·t).
         let (width, narrowing) = (self.slope * (self.height - above), self.slope * rise);
         let a = across.dot(across) - narrowing * narrowing;
@@ -52,15 +52,15 @@ impl<R: Real> Cone<R> {
             }
         };
         let [first, second] = quadratic(a, b, c)?.map(within);
-        line.first([
+        ray.first([
             (first, side),
             (second, side),
-            (self.cap.parameter(line), base),
+            (self.cap.parameter(ray), base),
         ])
     }
 
-    pub(super) fn normal(&self, point: Vector<R>, part: u32) -> Vector<R> {
-        if part == PARTS[1] {
+    pub(super) fn normal(&self, point: Vector<R>, prim_id: u32) -> Vector<R> {
+        if prim_id == PARTS[1] {
             return self.cap.plane.normal;
         }
         let local = point - self.base;

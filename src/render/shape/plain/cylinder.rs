@@ -1,8 +1,8 @@
 //! The capped cylinder: the quadratic of what is left of ray and point across the axis, and two
 //! discs.
 
-use super::line::Line;
 use super::plane::Disc;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use super::roots::quadratic;
 use crate::math::Vec3;
@@ -34,11 +34,11 @@ impl<R: Real> Cylinder<R> {
         }
     }
 
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
         let [side, base, top] = PARTS;
-        let f = line.origin - self.base;
-        let (above, rise) = (f.dot(self.axis), line.direction.dot(self.axis));
-        let (from_axis, across) = (f - self.axis * above, line.direction - self.axis * rise);
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
         let b = R::of(2.0) * from_axis.dot(across);
         let c = from_axis.dot(from_axis) - self.radius * self.radius;
         let none = R::of(f64::NAN);
@@ -51,14 +51,14 @@ impl<R: Real> Cylinder<R> {
             }
         };
         let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
-        let [low, high] = self.caps.map(|cap| cap.parameter(line));
-        line.first([(first, side), (second, side), (low, base), (high, top)])
+        let [low, high] = self.caps.map(|cap| cap.parameter(ray));
+        ray.first([(first, side), (second, side), (low, base), (high, top)])
     }
 
-    pub(super) fn normal(&self, point: Vector<R>, part: u32) -> Vector<R> {
+    pub(super) fn normal(&self, point: Vector<R>, prim_id: u32) -> Vector<R> {
         let local = point - self.base;
-        match part {
-            1 | 2 => self.caps[part as usize - 1].plane.normal,
+        match prim_id {
+            1 | 2 => self.caps[prim_id as usize - 1].plane.normal,
             _ => (local - self.axis * local.dot(self.axis)).normalized(),
         }
     }

@@ -1,6 +1,6 @@
 //! A mesh, placed: its triangles in plain arithmetic, its hierarchy that of the robust one.
 
-use super::line::Line;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use super::triangle::Triangle;
 use crate::math::Vec3;
@@ -14,19 +14,19 @@ use std::sync::Arc;
 pub struct Mesh<R> {
     /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
     /// of them.
-    pub(in crate::render) twin: Arc<PreparedMesh>,
+    pub(in crate::render) robust: Arc<PreparedMesh>,
     triangles: Vec<Triangle<R>>,
 }
 
 impl<R: Real> Mesh<R> {
-    pub(in crate::render) fn new(twin: PreparedMesh) -> Self {
-        let triangles = twin
+    pub(in crate::render) fn new(robust: PreparedMesh) -> Self {
+        let triangles = robust
             .triangles()
             .iter()
             .map(|triangle| Triangle::new(triangle.vertices()))
             .collect();
         Self {
-            twin: Arc::new(twin),
+            robust: Arc::new(robust),
             triangles,
         }
     }
@@ -43,42 +43,42 @@ pub(in crate::render) struct Instance<R> {
 impl<R: Real> Instance<R> {
     pub(in crate::render) fn new(
         mesh: &Arc<Mesh<R>>,
-        twin: &instance::Instance,
+        robust: &instance::Instance,
         origin: Vec3,
     ) -> Self {
         Self {
             mesh: Arc::clone(mesh),
             origin: Vector::of(origin),
-            rows: twin.inverse().map(Vector::of),
+            rows: robust.inverse().map(Vector::of),
         }
     }
 
     /// The line in object space; its `t` are those of the world.
-    fn to_object(&self, line: &Line<R>) -> Line<R> {
+    fn to_object(&self, ray: &PlainRay<R>) -> PlainRay<R> {
         let rows = |v: Vector<R>| {
             let [x, y, z] = self.rows.map(|row| row.dot(v));
             Vector { x, y, z }
         };
-        Line {
-            origin: rows(line.origin - self.origin),
-            direction: rows(line.direction),
-            length2: line.length2,
+        PlainRay {
+            origin: rows(ray.origin - self.origin),
+            direction: rows(ray.direction),
+            length2: ray.length2,
         }
     }
 
-    pub(super) fn intersect(&self, line: &Line<R>, t_max: f64) -> Option<(f64, u32)> {
-        let line = self.to_object(line);
-        let ray = Ray {
-            origin: line.origin.wide(),
-            direction: line.direction.wide(),
+    pub(super) fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(f64, u32)> {
+        let ray = self.to_object(ray);
+        let robust_ray = Ray {
+            origin: ray.origin.wide(),
+            direction: ray.direction.wide(),
         };
         let mut best = (t_max, u32::MAX);
         self.mesh
-            .twin
+            .robust
             .hierarchy()?
-            .walk::<false>(&ray, t_max, |item| {
+            .walk::<false>(&robust_ray, t_max, |item| {
                 if let Some(t) = self.mesh.triangles[item as usize]
-                    .intersect(&line)
+                    .intersect(&ray)
                     .map(R::wide)
                     && (t < best.0 || (t == best.0 && item < best.1))
                 {
@@ -89,8 +89,8 @@ impl<R: Real> Instance<R> {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    pub(super) fn normal(&self, part: u32) -> Vector<R> {
-        let n = self.mesh.triangles[part as usize].normal();
+    pub(super) fn normal(&self, prim_id: u32) -> Vector<R> {
+        let n = self.mesh.triangles[prim_id as usize].normal();
         let [x, y, z] = self.rows;
         (x * n.x + y * n.y + z * n.z).normalized()
     }

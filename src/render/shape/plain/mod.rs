@@ -8,9 +8,9 @@
 pub(in crate::render) mod cone;
 pub(in crate::render) mod cylinder;
 pub(in crate::render) mod instance;
-mod line;
 pub(in crate::render) mod plane;
 pub(in crate::render) mod quad;
+mod ray;
 pub(in crate::render) mod real;
 mod roots;
 pub(in crate::render) mod sphere;
@@ -24,20 +24,20 @@ use crate::render::shape::Shape;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::shape::triangle::Shear;
-use line::Line;
+use ray::PlainRay;
 use real::{Real, Vector};
 
 /// A shape of any kind, ready to be hit by the plain formulas in `R`.
 #[derive(Clone, Debug)]
 pub struct PlainShape<R> {
-    pub(in crate::render) form: Form<R>,
+    pub(in crate::render) form: PlainForm<R>,
     /// Answers what is not a question of arithmetic.
-    pub(in crate::render) twin: Box<Shape>,
+    pub(in crate::render) robust: Box<Shape>,
 }
 
 /// How rays meet it.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Form<R> {
+pub(in crate::render) enum PlainForm<R> {
     Sphere(sphere::Sphere<R>),
     Plane(plane::Plane<R>),
     Triangle(triangle::Triangle<R>),
@@ -49,18 +49,18 @@ pub(in crate::render) enum Form<R> {
     Instance(Box<instance::Instance<R>>),
 }
 
-impl<R: Real> Form<R> {
-    fn normal(&self, line: &Line<R>, point: Vector<R>, part: u32) -> Vector<R> {
+impl<R: Real> PlainForm<R> {
+    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
         match self {
             Self::Sphere(sphere) => sphere.normal(point),
             Self::Plane(plane) => plane.normal,
             Self::Triangle(triangle) => triangle.normal(),
-            Self::Quad(quad) => quad.normal(line, part),
+            Self::Quad(quad) => quad.normal(ray, prim_id),
             Self::Disc(disc) => disc.plane.normal,
-            Self::Cylinder(cylinder) => cylinder.normal(point, part),
-            Self::Cone(cone) => cone.normal(point, part),
+            Self::Cylinder(cylinder) => cylinder.normal(point, prim_id),
+            Self::Cone(cone) => cone.normal(point, prim_id),
             Self::Torus(torus) => torus.normal(point),
-            Self::Instance(instance) => instance.normal(part),
+            Self::Instance(instance) => instance.normal(prim_id),
         }
     }
 }
@@ -68,26 +68,26 @@ impl<R: Real> Form<R> {
 impl<R: Real> Geometry for PlainShape<R> {
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        let line = Line::of(ray);
+        let ray = PlainRay::of(ray);
         let hit = match &self.form {
-            Form::Sphere(sphere) => sphere.intersect(&line),
-            Form::Plane(plane) => plane.intersect(&line),
-            Form::Triangle(triangle) => triangle.intersect(&line).map(|t| (t, 0)),
-            Form::Quad(quad) => quad.intersect(&line),
-            Form::Disc(disc) => disc.intersect(&line),
-            Form::Cylinder(cylinder) => cylinder.intersect(&line),
-            Form::Cone(cone) => cone.intersect(&line),
-            Form::Torus(torus) => torus.intersect(&line),
-            Form::Instance(instance) => return instance.intersect(&line, t_max),
+            PlainForm::Sphere(sphere) => sphere.intersect(&ray),
+            PlainForm::Plane(plane) => plane.intersect(&ray),
+            PlainForm::Triangle(triangle) => triangle.intersect(&ray).map(|t| (t, 0)),
+            PlainForm::Quad(quad) => quad.intersect(&ray),
+            PlainForm::Disc(disc) => disc.intersect(&ray),
+            PlainForm::Cylinder(cylinder) => cylinder.intersect(&ray),
+            PlainForm::Cone(cone) => cone.intersect(&ray),
+            PlainForm::Torus(torus) => torus.intersect(&ray),
+            PlainForm::Instance(instance) => return instance.intersect(&ray, t_max),
         };
-        hit.map(|(t, part)| (t.wide(), part))
+        hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
 
     /// The point as the ray gives it; rays from there start at the point itself.
-    fn interaction(&self, ray: &Ray, t: f64, part: u32) -> Interaction {
-        let line = Line::<R>::of(ray);
-        let point = line.at(R::of(t));
-        let normal = self.form.normal(&line, point, part).wide();
+    fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
+        let ray = PlainRay::<R>::of(ray);
+        let point = ray.at(R::of(t));
+        let normal = self.form.normal(&ray, point, prim_id).wide();
         Interaction {
             point: point.wide(),
             normal,
@@ -97,18 +97,18 @@ impl<R: Real> Geometry for PlainShape<R> {
     }
 
     fn has_uv(&self) -> bool {
-        self.twin.has_uv()
+        self.robust.has_uv()
     }
 
     fn has_shading_normals(&self) -> bool {
-        self.twin.has_shading_normals()
+        self.robust.has_shading_normals()
     }
 
-    fn details(&self, ray: &Ray, at: &Interaction, part: u32, asked: Asked) -> Details {
-        self.twin.details(ray, at, part, asked)
+    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
+        self.robust.details(ray, at, prim_id, asked)
     }
 
     fn bounds(&self) -> Option<Bounds> {
-        self.twin.bounds()
+        self.robust.bounds()
     }
 }

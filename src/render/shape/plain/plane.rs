@@ -1,6 +1,6 @@
 //! The plane N·p = N·c, and the disc in it.
 
-use super::line::Line;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use crate::math::Vec3;
 
@@ -21,14 +21,14 @@ impl<R: Real> Plane<R> {
     }
 
     #[inline]
-    pub(super) fn parameter(&self, line: &Line<R>) -> R {
-        (self.level - self.normal.dot(line.origin)) / self.normal.dot(line.direction)
+    pub(super) fn parameter(&self, ray: &PlainRay<R>) -> R {
+        (self.level - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction)
     }
 
     #[inline]
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
-        let t = self.parameter(line);
-        line.counts(t).then_some((t, 0))
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
+        let t = self.parameter(ray);
+        ray.counts(t).then_some((t, 0))
     }
 }
 
@@ -50,9 +50,9 @@ impl<R: Real> Disc<R> {
 
     /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
     #[inline]
-    pub(super) fn parameter(&self, line: &Line<R>) -> R {
-        let t = self.plane.parameter(line);
-        let local = line.at(t) - self.center;
+    pub(super) fn parameter(&self, ray: &PlainRay<R>) -> R {
+        let t = self.plane.parameter(ray);
+        let local = ray.at(t) - self.center;
         if local.dot(local) <= self.radius * self.radius {
             t
         } else {
@@ -61,8 +61,8 @@ impl<R: Real> Disc<R> {
     }
 
     #[inline]
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
-        let t = self.parameter(line);
-        line.counts(t).then_some((t, 0))
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
+        let t = self.parameter(ray);
+        ray.counts(t).then_some((t, 0))
     }
 }

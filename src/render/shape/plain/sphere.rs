@@ -1,6 +1,6 @@
 //! The sphere by b² − 4ac.
 
-use super::line::Line;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use super::roots::quadratic;
 
@@ -12,12 +12,12 @@ pub(in crate::render) struct Sphere<R> {
 
 impl<R: Real> Sphere<R> {
     #[inline]
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
-        let f = line.origin - self.center;
-        let b = R::of(2.0) * f.dot(line.direction);
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
+        let f = ray.origin - self.center;
+        let b = R::of(2.0) * f.dot(ray.direction);
         let c = f.dot(f) - self.radius * self.radius;
-        let roots = quadratic(line.length2, b, c)?;
-        roots.into_iter().find(|t| line.counts(*t)).map(|t| (t, 0))
+        let roots = quadratic(ray.length2, b, c)?;
+        roots.into_iter().find(|t| ray.counts(*t)).map(|t| (t, 0))
     }
 
     pub(super) fn normal(&self, point: Vector<R>) -> Vector<R> {

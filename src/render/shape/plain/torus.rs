@@ -1,6 +1,6 @@
 //! The torus: its quartic in t, solved in closed form where the ray starts.
 
-use super::line::Line;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use super::roots::quartic;
 
@@ -15,10 +15,10 @@ pub(in crate::render) struct Torus<R> {
 
 impl<R: Real> Torus<R> {
     /// The first root of (|p|² + R² − r²)² = 4R²ρ² along the line that counts.
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<(R, u32)> {
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<(R, u32)> {
         let (two, four) = (R::of(2.0), R::of(4.0));
-        let f = line.origin - self.center;
-        let d = line.direction;
+        let f = ray.origin - self.center;
+        let d = ray.direction;
         let (above, rise) = (f.dot(self.axis), d.dot(self.axis));
         let (a, b, f2) = (d.dot(d), f.dot(d), f.dot(f));
         let (major2, minor2) = (self.major * self.major, self.minor * self.minor);
@@ -30,7 +30,7 @@ impl<R: Real> Torus<R> {
         let c2 = (two * a * k + four * b * b - four * major2 * (a - rise * rise)) / c4;
         let c1 = (four * b * k - R::of(8.0) * major2 * (b - above * rise)) / c4;
         let c0 = (k * k - four * major2 * (f2 - above * above)) / c4;
-        line.first(quartic(c3, c2, c1, c0).map(|t| (t, 0)))
+        ray.first(quartic(c3, c2, c1, c0).map(|t| (t, 0)))
     }
 
     pub(super) fn normal(&self, point: Vector<R>) -> Vector<R> {

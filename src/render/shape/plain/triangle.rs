@@ -1,7 +1,7 @@
 //! The triangle of Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2,
 //! 1997).
 
-use super::line::Line;
+use super::ray::PlainRay;
 use super::real::{Real, Vector};
 use crate::math::Vec3;
 
@@ -21,27 +21,27 @@ impl<R: Real> Triangle<R> {
     }
 
     #[inline]
-    pub(super) fn intersect(&self, line: &Line<R>) -> Option<R> {
+    pub(super) fn intersect(&self, ray: &PlainRay<R>) -> Option<R> {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let [first, second] = self.edges;
-        let across = line.direction.cross(second);
+        let across = ray.direction.cross(second);
         let determinant = first.dot(across);
         if determinant == zero {
             return None;
         }
         let inverse = one / determinant;
-        let from_corner = line.origin - self.corner;
+        let from_corner = ray.origin - self.corner;
         let u = from_corner.dot(across) * inverse;
         if u < zero || u > one {
             return None;
         }
         let upward = from_corner.cross(first);
-        let v = line.direction.dot(upward) * inverse;
+        let v = ray.direction.dot(upward) * inverse;
         if v < zero || u + v > one {
             return None;
         }
         let t = second.dot(upward) * inverse;
-        line.counts(t).then_some(t)
+        ray.counts(t).then_some(t)
     }
 
     pub(super) fn normal(&self) -> Vector<R> {

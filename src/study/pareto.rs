@@ -20,12 +20,12 @@ const SAME_COST: f64 = 1.02;
 /// most for the work; until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
     model: &Model,
-    least: Setting,
+    min: Setting,
     knobs: &[Knob],
     most_rays: f64,
     least_error: f64,
 ) -> Vec<Setting> {
-    let mut path = vec![least];
+    let mut path = vec![min];
     loop {
         let now = path[path.len() - 1];
         let (error, rays) = (model.error(now), model.rays(now));
@@ -33,7 +33,7 @@ pub(super) fn candidates(
             return path;
         }
         let raised = knobs.iter().filter_map(|knob| {
-            let value = knob.ladder().find(|value| *value > now.get(*knob))?;
+            let value = knob.levels().find(|value| *value > now.get(*knob))?;
             Some(now.with(*knob, value))
         });
         let affordable = raised

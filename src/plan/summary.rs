@@ -5,7 +5,7 @@ use crate::valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
 
 /// What a surface may show.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct MaterialSummary {
     /// ka·C is not 0 everywhere.
     pub(super) ambient: bool,
     /// kd·C is not 0 everywhere.
@@ -30,7 +30,7 @@ pub(super) struct Look {
     pub(super) specular_map: Option<usize>,
 }
 
-impl Look {
+impl MaterialSummary {
     pub(super) fn of(
         surface: &Surface,
         material: &Phong,

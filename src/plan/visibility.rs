@@ -1,14 +1,14 @@
 //! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of
 //! mirrors.
 
-use super::body::{Body, Form};
+use super::body::{Body, BodyForm};
 use super::rules::{Rule, Rules};
 use super::space::Sides;
 use super::window::{Shown, Window};
 use super::{Facts, MAX_PAIRS};
 
 /// What rays may meet.
-pub(super) struct Reach {
+pub(super) struct Visibility {
     /// Per surface, whether a camera ray or a ray that bounced may meet it.
     pub(super) reached: Vec<bool>,
     /// Per surface, from which sides.
@@ -19,7 +19,7 @@ pub(super) struct Reach {
     pub(super) capped: bool,
 }
 
-impl Reach {
+impl Visibility {
     /// What rays may meet, where each surface shows as given, with at most `depth` bounces.
     pub(super) fn new(facts: &Facts<'_>, window: &Window, shown: &[Shown], depth: u32) -> Self {
         let lens = window.lens();
@@ -35,16 +35,16 @@ impl Reach {
             }
         };
         let sides = facts.bodies.iter().zip(&reached).map(seen).collect();
-        let reach = Self {
+        let visibility = Self {
             reached,
             sides,
             depth: 0,
             capped: false,
         };
         if depth == 0 {
-            reach
+            visibility
         } else {
-            reach.bounce(facts, depth)
+            visibility.bounce(facts, depth)
         }
     }
 
@@ -54,8 +54,12 @@ impl Reach {
     /// a side it is looked at from, so by induction no ray leaves the set.
     fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
         let count = facts.bodies.len();
-        let mirrors = facts.looks.iter().filter(|look| look.mirrors()).count();
-        let is_reached = |mirror: usize| self.reached[mirror] && facts.looks[mirror].mirrors();
+        let mirrors = facts
+            .summaries
+            .iter()
+            .filter(|summary| summary.mirrors())
+            .count();
+        let is_reached = |mirror: usize| self.reached[mirror] && facts.summaries[mirror].mirrors();
         let mut open = (0..count)
             .filter(|surface| is_reached(*surface))
             .collect::<Vec<_>>();
@@ -78,7 +82,7 @@ impl Reach {
                 let sides = self.sides[*target].with(sides);
                 let is_news = sides != self.sides[*target];
                 (self.reached[*target], self.sides[*target]) = (true, sides);
-                if is_news && facts.looks[*target].mirrors() && !open.contains(target) {
+                if is_news && facts.summaries[*target].mirrors() && !open.contains(target) {
                     open.push(*target);
                 }
             }
@@ -91,8 +95,8 @@ impl Reach {
 impl Facts<'_> {
     /// The surfaces that rays off a mirror looked at from `sides` may meet.
     fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
-        let (body, look) = (&self.bodies[mirror], &self.looks[mirror]);
-        let scatters = look.refracts || (look.glossy && look.is_bent());
+        let (body, summary) = (&self.bodies[mirror], &self.summaries[mirror]);
+        let scatters = summary.refracts || (summary.glossy && summary.is_bent());
         let others = |may_show: &dyn Fn(&Body) -> bool| {
             let others = (0..self.bodies.len()).filter(|surface| *surface != mirror);
             others
@@ -105,7 +109,7 @@ impl Facts<'_> {
             Some(sides)
         };
         match (body.form, one_side) {
-            (Form::Flat(flat), Some(side))
+            (BodyForm::Flat(flat), Some(side))
                 if !scatters && self.rules.contains(Rule::MirrorUnreached) =>
             {
                 others(&|body| {
@@ -113,12 +117,12 @@ impl Facts<'_> {
                         .is_none_or(|space| flat.sides(space) != side.opposite())
                 })
             }
-            (Form::Ball(..) | Form::Convex, Some(Sides::FRONT))
+            (BodyForm::Ball(..) | BodyForm::Convex, Some(Sides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
             }
-            (Form::Flat(_) | Form::Ball(..) | Form::Convex | Form::Other, _) => {
+            (BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other, _) => {
                 (0..self.bodies.len()).collect()
             }
         }
@@ -162,9 +166,9 @@ pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
         return depth;
     }
     let weight = facts
-        .looks
+        .summaries
         .iter()
-        .map(|look| look.weight)
+        .map(|summary| summary.weight)
         .fold(0.0, f64::max);
     let light = facts
         .sources
@@ -172,9 +176,9 @@ pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
         .map(|light| light.color.max_element())
         .sum::<f64>();
     let brightest = facts
-        .looks
+        .summaries
         .iter()
-        .map(|look| look.brightest)
+        .map(|summary| summary.brightest)
         .fold(0.0, f64::max)
         * light;
     let mut rest = brightest * weight / (1.0 - weight);

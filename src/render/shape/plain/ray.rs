@@ -4,16 +4,16 @@ use super::real::{Real, Vector};
 use crate::plan::NEAREST;
 use crate::render::ray::Ray;
 
-/// A ray.
+/// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<R> {
+pub(super) struct PlainRay<R> {
     pub(super) origin: Vector<R>,
     pub(super) direction: Vector<R>,
     /// The square of the direction's length in the world.
     pub(super) length2: R,
 }
 
-impl<R: Real> Line<R> {
+impl<R: Real> PlainRay<R> {
     #[inline]
     pub(super) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);
