@@ -234,10 +234,8 @@ mod tests {
                 .into_iter()
                 .all(|text| stops(text).is_err())
         );
-        assert_eq!(
-            backdrop("0.5,1, 2"),
-            Ok(BackgroundFill::Color([0.5, 1.0, 2.0]))
-        );
+        let fill = BackgroundFill::Color([0.5, 1.0, 2.0]);
+        assert_eq!(backdrop("0.5,1, 2"), Ok(fill));
         assert!(
             ["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
                 .into_iter()

@@ -65,10 +65,7 @@ fn no_bounce(
         };
         return Some(Verdict::pruned(effect, rule, words, facts));
     }
-    if let Some(mirror) = findings
-        .first_unseen(MaterialSummary::mirrors)
-        .filter(|_| asked)
-    {
+    if asked && let Some(mirror) = findings.first_unseen(MaterialSummary::mirrors) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
         return Some(Verdict::pruned(
             effect,
