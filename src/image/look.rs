@@ -47,12 +47,12 @@ impl Look {
         association: Association,
     ) -> Picture {
         let exposure = libm::exp2(self.stops.clamp(-64.0, 64.0));
-        for (pixel, fraction) in film.pixels.iter_mut().zip(&coverage) {
-            let fraction = f64::from(*fraction);
+        for (pixel, alpha) in film.pixels.iter_mut().zip(&coverage) {
+            let alpha = f64::from(*alpha);
             let weight = if self.background == BackgroundFill::Film {
                 1.0
             } else {
-                fraction
+                alpha
             };
             // What covers the pixel in part is toned as if it covered it whole.
             let scale = if weight > 0.0 { exposure / weight } else { 0.0 };
@@ -60,11 +60,9 @@ impl Look {
             *pixel = match (self.background, association) {
                 (BackgroundFill::Film, _)
                 | (BackgroundFill::Transparent, Association::Straight) => shown,
-                (BackgroundFill::Transparent, Association::Associated) => {
-                    shown.map(|v| v * fraction)
-                }
+                (BackgroundFill::Transparent, Association::Associated) => shown.map(|v| v * alpha),
                 (BackgroundFill::Color(color), _) => {
-                    [0, 1, 2].map(|k| shown[k] * fraction + color[k] * (1.0 - fraction))
+                    [0, 1, 2].map(|k| shown[k] * alpha + color[k] * (1.0 - alpha))
                 }
             };
         }
@@ -86,7 +84,7 @@ mod tests {
         let coverage = vec![0.0, 0.25, 1.0];
         let pixels = coverage
             .iter()
-            .map(|fraction| [0.5, 0.0, 2.0].map(|v| v * f64::from(*fraction)))
+            .map(|alpha| [0.5, 0.0, 2.0].map(|v| v * f64::from(*alpha)))
             .collect();
         (
             Image {

@@ -29,10 +29,10 @@ pub struct RadianceFile<'a> {
     size: Size,
     /// Bytes that the decoder takes for what it has read and not yet handed on.
     block: u64,
-    decoder: Decoder<'a>,
+    decoder: RowDecoder<'a>,
 }
 
-enum Decoder<'a> {
+enum RowDecoder<'a> {
     Hdr(HdrDecoder<Cursor<&'a [u8]>>),
     Exr(&'a [u8]),
 }
@@ -79,10 +79,10 @@ impl<'a> RadianceFile<'a> {
         } = self;
         let mut bytes = size.buffer(PIXEL)?;
         match decoder {
-            Decoder::Hdr(decoder) => decoder
+            RowDecoder::Hdr(decoder) => decoder
                 .read_image(&mut bytes)
                 .map_err(DecodeError::damaged)?,
-            Decoder::Exr(file) => (size, bytes) = decode_exr(file, bytes)?,
+            RowDecoder::Exr(file) => (size, bytes) = decode_exr(file, bytes)?,
         }
         let mut is_finite = true;
         for channel in bytes.as_chunks_mut::<4>().0 {
@@ -125,7 +125,7 @@ fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
     Ok(RadianceFile {
         size,
         block: u64::from(width) * 4,
-        decoder: Decoder::Hdr(decoder),
+        decoder: RowDecoder::Hdr(decoder),
     })
 }
 
@@ -144,7 +144,7 @@ fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
     Ok(RadianceFile {
         size,
         block,
-        decoder: Decoder::Exr(bytes),
+        decoder: RowDecoder::Exr(bytes),
     })
 }
 

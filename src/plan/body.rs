@@ -21,12 +21,12 @@ pub(in crate::plan) enum Extent {
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) struct Body {
     pub(in crate::plan) extent: Extent,
-    pub(in crate::plan) form: BodyForm,
+    pub(in crate::plan) form: Hull,
 }
 
 /// A form with a property that rules rest on.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::plan) enum BodyForm {
+pub(in crate::plan) enum Hull {
     /// A bounded piece of a plane.
     Flat(Flat),
     /// A ball.
@@ -44,7 +44,7 @@ impl Body {
                 let radius = radius.get();
                 Self::within(
                     Space::around(*center, Vec3::splat(radius)),
-                    BodyForm::Ball(*center, radius),
+                    Hull::Ball(*center, radius),
                 )
             }
             Shape::Plane(plane) => {
@@ -54,26 +54,14 @@ impl Body {
                 });
                 Self {
                     extent: flat.map_or(Extent::Anywhere, Extent::Plane),
-                    form: BodyForm::Other,
+                    form: Hull::Other,
                 }
             }
             Shape::Triangle(triangle) => {
                 Self::within(Space::of(triangle.vertices), face(triangle.vertices))
             }
             Shape::Quad(quad) => Self::of_quad(quad),
-            Shape::Disc(Disc {
-                center,
-                normal,
-                radius,
-            }) => {
-                let form = unit(*normal).map_or(BodyForm::Other, |normal| {
-                    BodyForm::Flat(Flat {
-                        point: *center,
-                        normal,
-                    })
-                });
-                Self::within(ring(*center, *normal, radius.get(), 0.0), form)
-            }
+            Shape::Disc(disc) => Self::of_disc(disc),
             Shape::Cylinder(Cylinder {
                 base,
                 axis,
@@ -82,28 +70,37 @@ impl Body {
             }) => {
                 let top = *base + unit(*axis).unwrap_or(Vec3::ZERO) * height.get();
                 let rim = |center| ring(center, *axis, radius.get(), 0.0);
-                Self::within(rim(*base).union(rim(top)), BodyForm::Convex)
+                Self::within(rim(*base).union(rim(top)), Hull::Convex)
             }
             Shape::Cone(Cone { base, up, radius }) => Self::within(
                 ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])),
-                BodyForm::Convex,
+                Hull::Convex,
             ),
             Shape::Torus(Torus {
                 center,
                 axis,
                 major,
                 minor,
-            }) => Self::within(
-                ring(*center, *axis, major.get(), minor.get()),
-                BodyForm::Other,
-            ),
+            }) => Self::within(ring(*center, *axis, major.get(), minor.get()), Hull::Other),
             Shape::Instance(instance) => {
-                Self::within(placed(instance, &meshes[instance.mesh]), BodyForm::Other)
+                Self::within(placed(instance, &meshes[instance.mesh]), Hull::Other)
             }
         }
     }
 
-    fn within(space: Space, form: BodyForm) -> Self {
+    fn of_disc(disc: &Disc) -> Self {
+        let Disc {
+            center,
+            normal,
+            radius,
+        } = *disc;
+        let point = center;
+        let flat = unit(normal).map(|normal| Hull::Flat(Flat { point, normal }));
+        let space = ring(center, normal, radius.get(), 0.0);
+        Self::within(space, flat.unwrap_or(Hull::Other))
+    }
+
+    fn within(space: Space, form: Hull) -> Self {
         Self {
             extent: Extent::Within(space),
             form,
@@ -116,12 +113,12 @@ impl Body {
         if !quad.is_flat() {
             return Self {
                 extent: Extent::Anywhere,
-                form: BodyForm::Other,
+                form: Hull::Other,
             };
         }
         let form = match face([a, b, c]) {
-            BodyForm::Flat(flat) => BodyForm::Flat(flat),
-            BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => face([a, c, d]),
+            Hull::Flat(flat) => Hull::Flat(flat),
+            Hull::Ball(..) | Hull::Convex | Hull::Other => face([a, c, d]),
         };
         Self::within(Space::of(quad.vertices), form)
     }
@@ -134,7 +131,7 @@ impl Body {
             *space = space.grown(error_bound);
         }
         if error_bound > SMALL * thickness {
-            self.form = BodyForm::Other;
+            self.form = Hull::Other;
         }
     }
 
@@ -150,9 +147,9 @@ impl Body {
     pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
-            BodyForm::Flat(flat) => flat.sides(from),
-            BodyForm::Ball(..) | BodyForm::Convex if self.is_clear_of(from) => Sides::FRONT,
-            BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => Sides::BOTH,
+            Hull::Flat(flat) => flat.sides(from),
+            Hull::Ball(..) | Hull::Convex if self.is_clear_of(from) => Sides::FRONT,
+            Hull::Ball(..) | Hull::Convex | Hull::Other => Sides::BOTH,
         }
     }
 
@@ -162,10 +159,10 @@ impl Body {
             return false;
         };
         match self.form {
-            BodyForm::Ball(center, radius) => {
+            Hull::Ball(center, radius) => {
                 other.distance(center) > radius + 4.0 * MARGIN * (space.size() + other.size())
             }
-            BodyForm::Flat(_) | BodyForm::Convex | BodyForm::Other => space.is_apart_from(other),
+            Hull::Flat(_) | Hull::Convex | Hull::Other => space.is_apart_from(other),
         }
     }
 }
@@ -213,7 +210,7 @@ fn thickness(shape: &Shape) -> f64 {
 
 /// The plane of a triangle, unless its corners are so nearly in line that rounding moves its
 /// normal.
-fn face([a, b, c]: [Vec3; 3]) -> BodyForm {
+fn face([a, b, c]: [Vec3; 3]) -> Hull {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
@@ -221,9 +218,7 @@ fn face([a, b, c]: [Vec3; 3]) -> BodyForm {
         let normal = cross(first, second);
         (normal.length() > SLIVER).then(|| normal.normalize())
     };
-    normal().map_or(BodyForm::Other, |normal| {
-        BodyForm::Flat(Flat { point: a, normal })
-    })
+    normal().map_or(Hull::Other, |normal| Hull::Flat(Flat { point: a, normal }))
 }
 
 /// The box of a circle around an axis, with a tube around it.
@@ -304,10 +299,7 @@ mod tests {
     #[test]
     fn a_ball_is_clear_of_a_box_by_room_of_both_and_other_solids_by_their_boxes() {
         let center = Vec3::X * 3.0;
-        let ball = Body::within(
-            Space::around(center, Vec3::ONE),
-            BodyForm::Ball(center, 1.0),
-        );
+        let ball = Body::within(Space::around(center, Vec3::ONE), Hull::Ball(center, 1.0));
         let before = |gap: f64| span([4.0 + gap, -1.0, -1.0], [9.0, 1.0, 1.0]);
         has_margin(4.0 * 13.0 * MARGIN, |gap| ball.is_clear_of(&before(gap)));
         assert!(
@@ -315,7 +307,7 @@ mod tests {
             "in doubt it is not"
         );
         let solid = Body {
-            form: BodyForm::Convex,
+            form: Hull::Convex,
             ..ball
         };
         has_margin(13.0 * MARGIN, |gap| solid.is_clear_of(&before(gap)));
@@ -330,7 +322,7 @@ mod tests {
     fn a_triangle_has_a_plane_unless_it_is_a_sliver() {
         let corners = |sine: f64| [Vec3::ZERO, Vec3::X * 3.0, Vec3::new(2.0, 2.0 * sine, 0.0)];
         has_margin(1.0 / 65536.0, |sine| {
-            matches!(face(corners(sine)), BodyForm::Flat(_))
+            matches!(face(corners(sine)), Hull::Flat(_))
         });
         // Of a sine of just 2⁻¹⁶.
         let slim = [
@@ -338,8 +330,8 @@ mod tests {
             Vec3::X * 3.0,
             Vec3::new((1.0 - MARGIN).sqrt(), 1.0 / 65536.0, 0.0),
         ];
-        assert!(matches!(face(slim), BodyForm::Other), "in doubt it is");
-        let BodyForm::Flat(flat) = face(corners(1.0)) else {
+        assert!(matches!(face(slim), Hull::Other), "in doubt it is");
+        let Hull::Flat(flat) = face(corners(1.0)) else {
             panic!("no sliver")
         };
         assert_eq!(

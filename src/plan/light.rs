@@ -1,6 +1,6 @@
 //! What each light adds, and what may stand between it and each surface.
 
-use super::body::{Body, BodyForm, Extent};
+use super::body::{Body, Extent, Hull};
 use super::rules::Rule;
 use super::space::{Flat, MARGIN, Sides, Space};
 use super::visibility::Visibility;
@@ -186,10 +186,10 @@ impl Facts<'_> {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let gated = self.scene.settings().shadows || !summary.shines;
         let behind = || match body.form {
-            BodyForm::Flat(flat) if gated && !summary.is_bent() && seen_from != Sides::BOTH => {
+            Hull::Flat(flat) if gated && !summary.is_bent() && seen_from != Sides::BOTH => {
                 flat.sides(&extent(light)) == seen_from.opposite()
             }
-            BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other => false,
+            Hull::Flat(_) | Hull::Ball(..) | Hull::Convex | Hull::Other => false,
         };
         !summary.is_lit() || behind()
     }
@@ -198,11 +198,11 @@ impl Facts<'_> {
     fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let spares = match body.form {
-            BodyForm::Flat(flat) => flat.sides(light) != Sides::BOTH,
-            BodyForm::Ball(..) | BodyForm::Convex => {
+            Hull::Flat(flat) => flat.sides(light) != Sides::BOTH,
+            Hull::Ball(..) | Hull::Convex => {
                 seen_from == Sides::FRONT && !summary.is_bent() && body.is_clear_of(light)
             }
-            BodyForm::Other => false,
+            Hull::Other => false,
         };
         spares && self.rules.contains(Rule::ShadowConvex)
     }
@@ -217,7 +217,8 @@ impl Body {
         match &caster.extent {
             Extent::Within(other) => {
                 space.may_see_through(light, other)
-                    && Ball::of(self).may_see_through(&Ball::around(light), &Ball::of(caster))
+                    && BoundingBall::of(self)
+                        .may_see_through(&BoundingBall::around(light), &BoundingBall::of(caster))
             }
             Extent::Plane(flat) => !is_beside(flat, space, light),
             Extent::Anywhere => true,
@@ -227,13 +228,13 @@ impl Body {
 
 /// A ball, or nothing if what it stands for is none.
 #[derive(Clone, Copy)]
-struct Ball(Option<(Vec3, f64)>);
+struct BoundingBall(Option<(Vec3, f64)>);
 
-impl Ball {
+impl BoundingBall {
     fn of(body: &Body) -> Self {
         match body.form {
-            BodyForm::Ball(center, radius) => Self(Some((center, radius))),
-            BodyForm::Flat(_) | BodyForm::Convex | BodyForm::Other => Self(None),
+            Hull::Ball(center, radius) => Self(Some((center, radius))),
+            Hull::Flat(_) | Hull::Convex | Hull::Other => Self(None),
         }
     }
 
@@ -247,9 +248,9 @@ impl Ball {
 
     /// Whether a segment from this ball to `end` may meet `other`.
     ///
-    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around `c
-    /// + τ·(l − c)`. It meets the other where `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))²
-    /// ≤ 0`.
+    /// At the fraction τ of the way all segments are in a ball of radius `r + τ·(ρ − r)` around
+    /// `c + τ·(l − c)`. It meets the other where
+    /// `Q(τ) = |c + τ·(l − c) − o|² − (R + r + τ·(ρ − r))² ≤ 0`.
     fn may_see_through(self, end: &Self, other: &Self) -> bool {
         let (Some((c, r)), Some((l, rho)), Some((o, big))) = (self.0, end.0, other.0) else {
             return true;
@@ -263,8 +264,8 @@ impl Ball {
         let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
         let slack = MARGIN * size * size;
         // Where Q is not convex its extremum is none of its least values: those are at the ends.
-        let least = (-linear / square).clamp(0.0, 1.0);
-        [0.0, least, 1.0].into_iter().any(|tau| value(tau) <= slack)
+        let min = (-linear / square).clamp(0.0, 1.0);
+        [0.0, min, 1.0].into_iter().any(|tau| value(tau) <= slack)
     }
 }
 
@@ -279,13 +280,14 @@ mod tests {
     use super::super::space::tests::{has_margin, span};
     use super::*;
 
-    fn ball(x: f64, y: f64, radius: f64) -> Ball {
-        Ball(Some((Vec3::new(x, y, 0.0), radius)))
+    fn ball(x: f64, y: f64, radius: f64) -> BoundingBall {
+        BoundingBall(Some((Vec3::new(x, y, 0.0), radius)))
     }
 
     #[test]
     fn the_ball_in_a_cube_touches_its_sides() {
-        let Some((center, radius)) = Ball::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0
+        let Some((center, radius)) =
+            BoundingBall::around(&span([1.0, -2.0, 4.0], [3.0, 0.0, 6.0])).0
         else {
             panic!("a ball")
         };

@@ -4,7 +4,7 @@
 //! of pixels so many that they stay cheap. What no rectangle overlaps shows nothing, whatever the
 //! order or shape of the surfaces.
 
-use super::body::BodyForm;
+use super::body::Hull;
 use super::rules::Rule;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
@@ -36,7 +36,7 @@ pub struct Region {
     shift: u32,
     /// Cells in a row; none if nothing is known of any pixel.
     columns: usize,
-    cells: Vec<Cell>,
+    cells: Vec<CellContent>,
     /// Convex polygons in the picture that lie within a surface of one value.
     polygons: Vec<Vec<[f64; 2]>>,
     /// Whether pixels that show nothing may be left out.
@@ -44,7 +44,7 @@ pub struct Region {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Cell {
+enum CellContent {
     Nothing,
     /// One surface of one value, by the index of its polygon.
     One(u32),
@@ -58,7 +58,7 @@ impl Region {
         if !is_wanted || shown.contains(&Shown::Anywhere) {
             return Self::default();
         }
-        let (mut grid, mut polygons) = (Grid::new(findings), Vec::new());
+        let (mut grid, mut polygons) = (CellGrid::new(findings), Vec::new());
         let flats = findings.has_flat_pixels();
         for (surface, shown) in shown.iter().enumerate() {
             let Shown::In(rect) = shown else { continue };
@@ -91,11 +91,13 @@ impl Region {
             return PixelClass::Anything;
         }
         match self.cells[(y >> self.shift) as usize * self.columns + (x >> self.shift) as usize] {
-            Cell::Nothing if self.misses => PixelClass::Nothing,
-            Cell::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
+            CellContent::Nothing if self.misses => PixelClass::Nothing,
+            CellContent::One(polygon) if is_inside(&self.polygons[polygon as usize], [x, y]) => {
                 PixelClass::Uniform
             }
-            Cell::Nothing | Cell::One(_) | Cell::Anything => PixelClass::Anything,
+            CellContent::Nothing | CellContent::One(_) | CellContent::Anything => {
+                PixelClass::Anything
+            }
         }
     }
 
@@ -105,7 +107,7 @@ impl Region {
         let empty = self
             .cells
             .iter()
-            .filter(|cell| **cell == Cell::Nothing)
+            .filter(|cell| **cell == CellContent::Nothing)
             .count();
         if self.misses {
             empty as f64 / self.cells.len().max(1) as f64
@@ -117,7 +119,9 @@ impl Region {
     /// Whether some pixels may show one flat surface of one value alone.
     #[must_use]
     pub fn has_flat_pixels(&self) -> bool {
-        self.cells.iter().any(|cell| matches!(cell, Cell::One(_)))
+        self.cells
+            .iter()
+            .any(|cell| matches!(cell, CellContent::One(_)))
     }
 }
 
@@ -130,7 +134,7 @@ impl Findings<'_> {
     /// The outline in the picture of a convex polygon within a surface, if that is flat and shows
     /// one value.
     fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
-        let BodyForm::Flat(flat) = self.facts.bodies[surface].form else {
+        let Hull::Flat(flat) = self.facts.bodies[surface].form else {
             return None;
         };
         let shape = &self.facts.scene.surfaces()[surface].shape;
@@ -234,14 +238,14 @@ fn is_inside(polygon: &[[f64; 2]], [x, y]: [u32; 2]) -> bool {
 
 /// How many surfaces each cell may show, and the sum of their marks, as differences from the cells
 /// before.
-struct Grid {
+struct CellGrid {
     shift: u32,
     columns: usize,
     rows: usize,
     differences: Vec<(i32, i64)>,
 }
 
-impl Grid {
+impl CellGrid {
     fn new(findings: &Findings<'_>) -> Self {
         let Facts { scene, .. } = &findings.facts;
         let (width, height) = (scene.camera().width.get(), scene.camera().height.get());
@@ -275,7 +279,7 @@ impl Grid {
         }
     }
 
-    fn cells(&mut self) -> Vec<Cell> {
+    fn cells(&mut self) -> Vec<CellContent> {
         let stride = self.columns + 1;
         let mut cells = Vec::with_capacity(self.columns * self.rows);
         for y in 0..self.rows {
@@ -290,9 +294,9 @@ impl Grid {
                 row = (row.0 + here.0, row.1 + here.1);
                 *here = (row.0 + above.0, row.1 + above.1);
                 cells.push(match *here {
-                    (0, _) => Cell::Nothing,
-                    (1, mark) if mark > 0 => Cell::One(u32::try_from(mark - 1).unwrap_or(0)),
-                    _ => Cell::Anything,
+                    (0, _) => CellContent::Nothing,
+                    (1, mark) if mark > 0 => CellContent::One(u32::try_from(mark - 1).unwrap_or(0)),
+                    _ => CellContent::Anything,
                 });
             }
         }
@@ -306,7 +310,7 @@ mod tests {
 
     #[test]
     fn cells_count_the_rectangles_that_overlap_them() {
-        let mut grid = Grid {
+        let mut grid = CellGrid {
             shift: 1,
             columns: 4,
             rows: 3,
@@ -326,7 +330,11 @@ mod tests {
             },
             0,
         );
-        let (nothing, one, any) = (Cell::Nothing, Cell::One(0), Cell::Anything);
+        let (nothing, one, any) = (
+            CellContent::Nothing,
+            CellContent::One(0),
+            CellContent::Anything,
+        );
         let wanted = [
             [one, any, any, any],
             [nothing, any, any, any],

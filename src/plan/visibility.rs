@@ -1,7 +1,7 @@
 //! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of
 //! mirrors.
 
-use super::body::{Body, BodyForm};
+use super::body::{Body, Hull};
 use super::rules::{Rule, Rules};
 use super::space::Sides;
 use super::window::{Shown, Window};
@@ -109,7 +109,7 @@ impl Facts<'_> {
             Some(sides)
         };
         match (body.form, one_side) {
-            (BodyForm::Flat(flat), Some(side))
+            (Hull::Flat(flat), Some(side))
                 if !scatters && self.rules.contains(Rule::MirrorUnreached) =>
             {
                 others(&|body| {
@@ -117,12 +117,12 @@ impl Facts<'_> {
                         .is_none_or(|space| flat.sides(space) != side.opposite())
                 })
             }
-            (BodyForm::Ball(..) | BodyForm::Convex, Some(Sides::FRONT))
+            (Hull::Ball(..) | Hull::Convex, Some(Sides::FRONT))
                 if !scatters && self.rules.contains(Rule::MirrorConvex) =>
             {
                 others(&|_| true)
             }
-            (BodyForm::Flat(_) | BodyForm::Ball(..) | BodyForm::Convex | BodyForm::Other, _) => {
+            (Hull::Flat(_) | Hull::Ball(..) | Hull::Convex | Hull::Other, _) => {
                 (0..self.bodies.len()).collect()
             }
         }

@@ -103,7 +103,7 @@ pub(super) fn costs(
         .split_first()
         .expect("the scene as it is runs first");
     let all = Rays::from(with.shot.counts).all().max(1) as f64;
-    let cost = |(name, run): (&str, &super::race::Run)| EffectCost {
+    let cost = |(name, run): (&str, &super::race::TimedRun)| EffectCost {
         effect: name.to_owned(),
         rays: run.shot.counts.into(),
         ray_ratio: Rays::from(run.shot.counts).all() as f64 / all,

@@ -292,7 +292,7 @@ impl Scope {
             })
             .collect();
         let race = race(&runners, budget, rng)?;
-        let row = |(runner, run): (&Runner<'_>, race::Run)| {
+        let row = |(runner, run): (&Runner<'_>, race::TimedRun)| {
             let errors = Errors::of(&run.shot.tiles, &reference.tiles, subject.fraction());
             Row {
                 setting: runner.setting,

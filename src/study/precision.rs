@@ -3,7 +3,7 @@
 use super::knob::{Knob, bears, place};
 use super::metrics::Errors;
 use super::outcome::Rays;
-use super::race::{Run, Runner, race};
+use super::race::{Runner, TimedRun, race};
 use super::reference::Level;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng};
@@ -56,7 +56,7 @@ pub(super) fn costs(
     };
     let race = race(&Arithmetic::ALL.map(runner), budget, rng)?;
     let robust = &race.runs[0].shot.tiles;
-    let cost = |(arithmetic, run): (Arithmetic, &Run)| PrecisionCost {
+    let cost = |(arithmetic, run): (Arithmetic, &TimedRun)| PrecisionCost {
         arithmetic,
         borne: bears(&subject.scene, arithmetic),
         rays: run.shot.counts.into(),

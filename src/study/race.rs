@@ -14,7 +14,7 @@ pub(super) struct Runner<'a> {
 }
 
 /// How it went.
-pub(super) struct Run {
+pub(super) struct TimedRun {
     pub(super) shot: Shot,
     /// Seconds for the whole picture.
     pub(super) seconds: Estimate,
@@ -24,7 +24,7 @@ pub(super) struct Run {
 
 /// How all went.
 pub(super) struct Race {
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<TimedRun>,
     /// Wall time over processor time of all renders: above 1 others used the machine.
     pub(super) wall_over_cpu: f64,
 }
@@ -83,7 +83,7 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
                 .filter_map(|(ours, first)| Some((*ours)? / (*first)?))
                 .collect();
             let seconds: Vec<_> = seconds.iter().flatten().copied().collect();
-            Run {
+            TimedRun {
                 shot,
                 seconds: median(&seconds, rng),
                 ratio: median(&ratios, rng),

@@ -14,7 +14,7 @@ pub const LARGEST: f64 = 1e60;
 pub(super) const SMALLEST: f64 = 1e-60;
 
 /// How many entities handles may refer to.
-pub(super) struct Counts {
+pub(super) struct EntityCounts {
     pub(super) textures: usize,
     pub(super) meshes: usize,
     pub(super) materials: usize,

@@ -1,6 +1,6 @@
 //! The proof of the materials, of any family.
 
-use super::check::{Check, Counts};
+use super::check::{Check, EntityCounts};
 use super::phong::{self, Phong};
 use super::standard::{self, Standard};
 use crate::ir;
@@ -17,7 +17,7 @@ pub enum Material {
 pub(super) fn material(
     material: &ir::Material,
     index: usize,
-    counts: &Counts,
+    counts: &EntityCounts,
     check: &mut Check<'_>,
 ) -> Option<Material> {
     match material {

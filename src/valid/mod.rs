@@ -36,7 +36,7 @@ pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 use crate::diag::Sink;
 use crate::ir::{self, Origins};
 use crate::source::Limits;
-use check::{Check, Counts};
+use check::{Check, EntityCounts};
 use std::sync::Arc;
 
 /// What the proof lets pass.
@@ -166,7 +166,7 @@ pub fn validate(
         texture::texture(texture, index, images.len(), check)
     });
     let valid_meshes = check.all(meshes, mesh::mesh);
-    let counts = Counts {
+    let counts = EntityCounts {
         textures: textures.len(),
         meshes: meshes.len(),
         materials: materials.len(),

@@ -1,6 +1,6 @@
 //! The proof of Phong's model.
 
-use super::check::{Check, Counts, place};
+use super::check::{Check, EntityCounts, place};
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place, TextureId};
 use crate::math::{NonNegative, Positive, Vec3};
@@ -54,7 +54,7 @@ pub struct Bump {
 pub(super) fn phong(
     phong: &ir::Phong,
     index: usize,
-    counts: &Counts,
+    counts: &EntityCounts,
     check: &mut Check<'_>,
 ) -> Option<Phong> {
     let ir::Phong {
@@ -112,7 +112,7 @@ pub(super) fn phong(
 
 fn height_field(
     bump: &ir::Bump,
-    counts: &Counts,
+    counts: &EntityCounts,
     place: Place,
     check: &mut Check<'_>,
 ) -> Option<Bump> {

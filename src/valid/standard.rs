@@ -1,6 +1,6 @@
 //! The proof of the material of glTF: every factor within the range its specification gives.
 
-use super::check::{Check, Counts, LARGEST, place};
+use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
@@ -24,7 +24,7 @@ macro_rules! parameters {
         pub(super) fn standard(
             material: &ir::Standard,
             index: usize,
-            counts: &Counts,
+            counts: &EntityCounts,
             check: &mut Check<'_>,
         ) -> Option<Standard> {
             let ir::Standard { name: _, $($field,)* } = material;
@@ -150,7 +150,7 @@ const ANY: Range = [-LARGEST, LARGEST];
 /// The checks of the parameters of one material.
 struct Parameters<'a, 'run> {
     at: Place,
-    counts: &'a Counts,
+    counts: &'a EntityCounts,
     check: &'a mut Check<'run>,
 }
 

@@ -1,6 +1,6 @@
 //! The proof of the textures, and of the maps that lead to them: images and textures that exist.
 
-use super::check::{Check, Counts, place};
+use super::check::{Check, EntityCounts, place};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 
@@ -112,7 +112,12 @@ pub(super) fn texture(
 }
 
 /// The map of a material at a place.
-pub(super) fn map(map: &ir::Map, counts: &Counts, at: Place, check: &mut Check<'_>) -> Option<Map> {
+pub(super) fn map(
+    map: &ir::Map,
+    counts: &EntityCounts,
+    at: Place,
+    check: &mut Check<'_>,
+) -> Option<Map> {
     let ir::Map {
         texture,
         set,

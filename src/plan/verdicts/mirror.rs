@@ -69,10 +69,7 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
         };
         return Verdict::pruned(effect, rule, words, facts);
     }
-    if let Some(mirror) = findings
-        .first_unseen(MaterialSummary::mirrors)
-        .filter(|_| asked)
-    {
+    if asked && let Some(mirror) = findings.first_unseen(MaterialSummary::mirrors) {
         let facts = vec![findings.surface(mirror, Field::Whole)];
         return Verdict::pruned(effect, Rule::Cull, "no mirror can be seen", facts);
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::math::NonNegative;
-use crate::plan::body::BodyForm;
+use crate::plan::body::Hull;
 use crate::plan::space::tests::{has_margin, span};
 use crate::valid::{Lens, Projection};
 use std::num::NonZeroU32;
@@ -41,7 +41,7 @@ fn shown(window: &Window, center: Vec3, reach: f64) -> Shown {
     let space = Space::around(center, Vec3::splat(reach));
     window.shown(&Body {
         extent: Extent::Within(space),
-        form: BodyForm::Other,
+        form: Hull::Other,
     })
 }
 
@@ -149,7 +149,7 @@ fn what_is_beside_the_eye_is_in_doubt_by_room_of_both_and_the_rounding_of_its_de
         let extent = Extent::Within(span([100.0, 0.0, low], [100.0, 0.0, high]));
         beside(1e6).shown(&Body {
             extent,
-            form: BodyForm::Other,
+            form: Hull::Other,
         })
     };
     has_margin(200.0 * MARGIN + 16.0 * 64.0 * 200.0 * U, |z| {

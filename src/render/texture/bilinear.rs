@@ -64,13 +64,13 @@ fn split(place: f64, count: u32) -> (usize, f64) {
 }
 
 /// The texture frame of a surface: the directions of u and v, and the unit normal.
-pub(in crate::render) struct Frame {
+pub(in crate::render) struct TextureFrame {
     pub(in crate::render) along_u: Vec3,
     pub(in crate::render) along_v: Vec3,
     pub(in crate::render) normal: Vec3,
 }
 
-impl Frame {
+impl TextureFrame {
     /// The frame of a unit normal and a direction of u; `None` if they are parallel.
     pub(in crate::render) fn new(normal: Vec3, tangent: Vec3) -> Option<Self> {
         let along_u = (tangent - normal * normal.dot(tangent)).try_normalize()?;

@@ -18,7 +18,7 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<LogCoord<f64>,
 type Outcome = Result<(), Box<dyn Error>>;
 
 /// A span of values that fits on a logarithmic axis.
-type Span = std::ops::Range<f64>;
+type AxisRange = std::ops::Range<f64>;
 
 /// Error against time: all rows with their intervals, the front as steps, the floor of the
 /// reference.
@@ -147,7 +147,7 @@ pub(super) fn knob(report: &KnobReport) -> String {
 }
 
 /// The decades that hold all values.
-fn span(values: impl Iterator<Item = f64>) -> Span {
+fn span(values: impl Iterator<Item = f64>) -> AxisRange {
     let decades = (-12..=12).map(|decade| exp(f64::from(decade) * std::f64::consts::LN_10));
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
         (low.min(value), high.max(value))
@@ -174,7 +174,7 @@ fn plot(
 
 fn axes<'a, 'b>(
     root: &'a DrawingArea<SVGBackend<'b>, Shift>,
-    [xs, ys]: [Span; 2],
+    [xs, ys]: [AxisRange; 2],
     [x_name, y_name]: [&str; 2],
     x_words: fn(f64) -> String,
 ) -> Result<Chart<'a, 'b>, Box<dyn Error>> {

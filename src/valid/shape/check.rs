@@ -5,13 +5,13 @@ use super::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface,
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{Positive, Vec3, unit};
-use crate::valid::check::{Check, Counts, SMALLEST, place};
+use crate::valid::check::{Check, EntityCounts, SMALLEST, place};
 
 /// `Some(None)` for a face without an area: nothing can hit it, so it is warned about and left out.
 pub(in crate::valid) fn surface(
     surface: &ir::Surface,
     index: usize,
-    counts: &Counts,
+    counts: &EntityCounts,
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
@@ -217,7 +217,7 @@ impl SurfaceCheck<'_, '_> {
         }))
     }
 
-    fn instance(&mut self, instance: &ir::Instance, counts: &Counts) -> Option<Shape> {
+    fn instance(&mut self, instance: &ir::Instance, counts: &EntityCounts) -> Option<Shape> {
         let ir::Instance {
             mesh,
             world_from_object,

@@ -4,7 +4,7 @@ use super::PathRule;
 use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
-use crate::plan::body::{Body, BodyForm};
+use crate::plan::body::{Body, Hull};
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
@@ -127,11 +127,11 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
     let is_plain = material.transmission == UnitInterval::ZERO && material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
-        BodyForm::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
-        BodyForm::Ball(..) | BodyForm::Convex => {
+        Hull::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
+        Hull::Ball(..) | Hull::Convex => {
             body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
         }
-        BodyForm::Other => false,
+        Hull::Other => false,
     };
     is_plain && is_perspective && spares
 }

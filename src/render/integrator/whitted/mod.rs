@@ -16,7 +16,7 @@ use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
-use crate::render::texture::bilinear::{Frame, look_up};
+use crate::render::texture::bilinear::{TextureFrame, look_up};
 use crate::render::world::{Hit, World};
 use crate::valid::{Mode, Proof};
 use branch::{Branch, BranchKind, Pending};
@@ -214,7 +214,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         }
         let Some(frame) = details
             .tangent
-            .and_then(|tangent| Frame::new(shading_point.normal, tangent))
+            .and_then(|tangent| TextureFrame::new(shading_point.normal, tangent))
         else {
             return;
         };
