@@ -32,7 +32,8 @@ fn sets(scene: &Scene) -> Vec<(String, Rules)> {
 
 #[test]
 fn no_rule_changes_a_bit_of_a_made_up_scene() {
-    for seed in 0..scenes() {
+    // In scene 658 two maps of one texture have different sets of coordinates.
+    for seed in (0..scenes()).chain([658]) {
         let scene = Dice::new(seed).path_scene();
         let proof = proven(&scene);
         let unpruned = film(&proof, Rules::NONE);

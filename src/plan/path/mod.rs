@@ -19,7 +19,7 @@ use super::features::PathFeatures;
 use super::rules::Rules;
 use super::window::{Shown, Window};
 use crate::math::Vec3;
-use crate::valid::{Map, PathSettings, Projection, Proof, Standard};
+use crate::valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
 use draft::{Applied, Draft};
 use facts::Uses;
 
@@ -28,8 +28,9 @@ use facts::Uses;
 pub struct PathPlan {
     /// Per material of the scene, the simplified material.
     pub materials: Vec<Standard>,
-    /// Per material, the indices of the textures that are folded into constants.
-    folded: Vec<Vec<usize>>,
+    /// Per material, the maps that are folded into constants: the index of the texture, and the set
+    /// of coordinates.
+    folded: Vec<Vec<(usize, UvSet)>>,
     /// Per punctual light.
     pub lights: Vec<LightLeft>,
     /// Whether the environment emits light.
@@ -45,7 +46,7 @@ impl PathPlan {
     /// into the factor.
     #[must_use]
     pub fn is_folded(&self, material: usize, map: &Map) -> bool {
-        self.folded[material].contains(&map.texture)
+        self.folded[material].contains(&(map.texture, map.set))
     }
 }
 
@@ -98,7 +99,7 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
     let verdicts = verdicts::verdicts(&asked, &left, &applied);
     let folded = |(index, material): (usize, &Standard)| {
         let maps = material.maps().filter(|map| left.is_folded(index, map));
-        maps.map(|map| map.texture).collect()
+        maps.map(|map| (map.texture, map.set)).collect()
     };
     let plan = PathPlan {
         folded: left.materials.iter().enumerate().map(folded).collect(),

@@ -14,11 +14,11 @@ use crate::render::shape::{sphere_details, triangle_details};
 /// A sphere, a plane or a triangle.
 #[derive(Clone, Debug)]
 pub enum Basic {
-    /// See [`Shape::Sphere`].
+    /// See [`Shape::Sphere`](super::Shape::Sphere).
     Sphere(Sphere, [Vec3; 3]),
-    /// See [`Shape::Plane`].
+    /// See [`Shape::Plane`](super::Shape::Plane).
     Plane(Plane),
-    /// See [`Shape::Triangle`].
+    /// See [`Shape::Triangle`](super::Shape::Triangle).
     Triangle(Triangle, Option<[[f64; 2]; 3]>),
 }
 
