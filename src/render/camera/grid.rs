@@ -88,6 +88,7 @@ impl Grid {
     }
 
     /// A cell of a pixel, by its column and row.
+    #[inline(always)]
     pub(in crate::render) fn cell(
         &self,
         camera: &Camera,
@@ -105,9 +106,9 @@ impl Grid {
     }
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].
+    #[inline(always)]
     fn place(&self, cell: [u32; 2], key: Key) -> [f64; 2] {
-        let key = key.child(PATTERN);
-        let random = || [key.uniform(0), key.uniform(1)];
+        let random = || [0, 1].map(|axis| key.child(PATTERN).uniform(axis));
         let within = |offset: [f64; 2]| {
             [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(self.factor))
         };
@@ -121,6 +122,7 @@ impl Grid {
 
 impl Cell {
     /// The ray from point k of the lens.
+    #[inline]
     pub(in crate::render) fn ray(&self, camera: &Camera, k: u32) -> Ray {
         ray_through(camera, lens_point(camera, k, self.rotated), self.target)
     }

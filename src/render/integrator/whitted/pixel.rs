@@ -30,6 +30,7 @@ pub(super) struct PixelState {
 impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     type Sample = Sample;
 
+    #[inline]
     fn sample(&mut self, id: &SampleId) -> Sample {
         match id.stream {
             Stream::Picture(seeds) => self.sample_of_picture(id, seeds),
@@ -58,6 +59,7 @@ const STRAND: u64 = u64::MAX - 2;
 
 impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// A sample of the grid of cells and points of the lens.
+    #[inline(always)]
     fn sample_of_picture(&mut self, id: &SampleId, seeds: Seeds) -> Sample {
         if id.index == 0 {
             self.begin_pixel(id.pixel);
@@ -92,6 +94,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         self.trace(ray, Key::new(id.pixel, id.index.into()).seeded(number))
     }
 
+    #[inline(always)]
     fn begin_pixel(&mut self, pixel: [u32; 2]) {
         let several = Self::can(Features::CAMERA) && self.grid.samples() > 1;
         let is_uniform = several && self.world.plan.region.class_of(pixel) == PixelClass::Uniform;
@@ -103,6 +106,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The cell of a sample, and which point of the lens it takes. Samples come in order, so that
     /// of the sample before leads to it.
+    #[inline(always)]
     fn cell_of(&mut self, id: &SampleId, seeds: Seeds) -> (Cell, u32) {
         let before = self.pixel.at;
         let split = || self.grid.split(id.index);
@@ -129,6 +133,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         (cell, k)
     }
 
+    #[inline(always)]
     fn trace(&mut self, ray: crate::render::ray::Ray, key: Key) -> Sample {
         let hits = self.counts.hits;
         let radiance: Vec3 = self.radiance(ray, key);
@@ -141,6 +146,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     }
 
     /// Looks whether a sample shows what the plan under validation rules out.
+    #[inline(always)]
     fn verify_sample(&self, pixel: [u32; 2], sample: &Sample) {
         self.verify(Effect::Supersampling, "samples of a pixel differ", |plan| {
             let differs = |last: Sample| last.radiance != sample.radiance;
