@@ -85,11 +85,11 @@ macro_rules! dispatch {
 }
 pub(in crate::render) use dispatch;
 
-/// The sets of features that the path integrator is compiled for: diffuse surfaces, opaque ones
+/// The sets of features that the path integrator is compiled for: diffuse surfaces, reflecting ones
 /// without layers, and all.
 pub const PATH_KERNELS: [PathKernel; 3] = [
     path_kernel("paths, diffuse", AIMED),
-    path_kernel("paths, opaque", AIMED.with(PathFeatures::MICROFACETS)),
+    path_kernel("paths, reflecting", REFLECTING),
     path_kernel("paths", PathFeatures::EVERYTHING),
 ];
 
@@ -103,6 +103,10 @@ pub struct PathKernel {
 }
 
 const AIMED: PathFeatures = PathFeatures::AIM.with(PathFeatures::SHADOWS);
+
+const REFLECTING: PathFeatures = AIMED
+    .with(PathFeatures::MICROFACETS)
+    .with(PathFeatures::ALPHA);
 
 const fn path_kernel(name: &'static str, features: PathFeatures) -> PathKernel {
     PathKernel { name, features }
