@@ -19,7 +19,7 @@ fn values_are_clipped_in_messages() {
         format!(
             "Objects: [{{type: mesh, file: ../{long}/{long}/x, position: [0, 0, 0], scale: 1}}]"
         ),
-        format!("{{\"irVersion\": 3, \"{long}\": 1}}"),
+        format!("{{\"irVersion\": 4, \"{long}\": 1}}"),
         scene_with(
             "\"phong\", \"shadows\"",
             &format!("\"{long}\", \"shadows\""),

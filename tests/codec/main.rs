@@ -170,8 +170,8 @@ const FAULTS: &[[&str; 5]] = &[
         "/settings/shadows",
     ],
     [
-        "\"irVersion\": 3",
-        "\"irVersion\": 3, \"irVersion\": 3",
+        "\"irVersion\": 4",
+        "\"irVersion\": 4, \"irVersion\": 4",
         "IR003",
         "\"irVersion\"",
         "/irVersion",
@@ -198,7 +198,7 @@ const FAULTS: &[[&str; 5]] = &[
         "/settings/mode",
     ],
     [
-        "\"irVersion\": 3",
+        "\"irVersion\": 4",
         "\"irVersion\": \"2\"",
         "IR003",
         "\"2\"",
@@ -235,7 +235,7 @@ fn pixels_that_are_no_base64_are_located() {
 
 #[test]
 fn hostile_texts_are_errors() {
-    let deep = format!("{{\"irVersion\": 3, \"camera\": {}", "[".repeat(100_000));
+    let deep = format!("{{\"irVersion\": 4, \"camera\": {}", "[".repeat(100_000));
     let deep_old = format!(
         "{{\"irVersion\": 0, \"camera\": {}{}}}",
         "[".repeat(100_000),

@@ -110,13 +110,27 @@ fn frozen_files_of_version_3_decode() {
 
 #[test]
 fn older_files_are_the_same_scene_in_the_current_version() {
-    let texts = ["v0/scene.json", "v1/scene.json", "v2/scene.json"].map(|name| (name, Form::Text));
-    let binaries = ["v1/scene.rtir", "v2/scene.rtir"].map(|name| (name, Form::Binary));
-    for (name, form) in texts.into_iter().chain(binaries) {
+    let names = [
+        "v0/scene.json",
+        "v1/scene.json",
+        "v2/scene.json",
+        "v3/course.json",
+        "v3/path.json",
+        "v1/scene.rtir",
+        "v2/scene.rtir",
+        "v3/course.rtir",
+        "v3/path.rtir",
+    ];
+    for name in names {
+        let form = if name.ends_with(".rtir") {
+            Form::Binary
+        } else {
+            Form::Text
+        };
         let old = decode(form, &std::fs::read(frozen(name)).unwrap()).unwrap();
         for form in [Form::Text, Form::Binary] {
             let bytes = codec::encode(form, &old).unwrap();
-            let version = [&b"\"irVersion\": 3"[..], b"\"irVersion\":3"];
+            let version = [&b"\"irVersion\": 4"[..], b"\"irVersion\":4"];
             let start = &bytes[..64];
             assert!(
                 version
@@ -140,7 +154,7 @@ fn newer_files_say_so_where_the_version_stands() {
     assert_eq!((finding.code.id, place.as_str()), ("IR001", "7"));
     assert_eq!(
         finding.message,
-        "IR version 7 is newer than 3, the newest this rtc reads"
+        "IR version 7 is newer than 4, the newest this rtc reads"
     );
     let mut file = codec::encode(Form::Binary, &small()).unwrap();
     file[8] = 2;
