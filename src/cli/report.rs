@@ -11,6 +11,7 @@ use crate::pipeline;
 use crate::plan::{Plan, Rule, Rules, State, Verdict};
 use crate::render::{Counts, Job, KERNELS, PATH_KERNELS, Stride, choose, choose_for_paths};
 use crate::valid::{Mode, Proof};
+use indicatif::HumanCount;
 use serde_json::{Value, json};
 use std::num::NonZeroU32;
 
@@ -102,7 +103,7 @@ impl Row {
     fn lines(&self, about: &str) -> String {
         let rays = |count: u64| match count {
             0 => String::new(),
-            _ => format!("{about}{}", grouped(count)),
+            _ => format!("{about}{}", HumanCount(count)),
         };
         let verdict = &self.verdict;
         let words = match &self.of {
@@ -207,8 +208,8 @@ impl Report {
         if !self.counter.is_whole() {
             text += &format!(
                 "counted on {} of {} samples: {} of each pixel in each {} of a row and column\n",
-                grouped(self.counter.paths),
-                grouped(all),
+                HumanCount(self.counter.paths),
+                HumanCount(all),
                 self.counter.samples,
                 ordinal(self.counter.stride.get())
             );
@@ -337,19 +338,6 @@ fn at(file: &str, line: u32) -> String {
     format!("{name}:{line}")
 }
 
-/// The number with commas between thousands.
-fn grouped(count: u64) -> String {
-    let digits = count.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 /// The words in indented lines of at most [`WIDTH`] columns.
 fn folded(words: &str) -> String {
     const INDENT: &str = "    ";
@@ -376,17 +364,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_fit_and_numbers_are_grouped() {
+    fn lines_fit_and_places_are_short() {
         let text = folded(&"word ".repeat(60));
         assert!(
             text.lines()
                 .all(|line| line.chars().count() <= WIDTH && line.starts_with("    "))
         );
         assert_eq!(text.split_whitespace().count(), 60);
-        assert_eq!(
-            [grouped(0), grouped(999), grouped(1_234_567)],
-            ["0", "999", "1,234,567"]
-        );
         assert_eq!(at("/a/b.yaml", 7), "b.yaml:7");
     }
 }
