@@ -57,33 +57,21 @@ impl Grid {
         cells.saturating_mul(self.points)
     }
 
-    /// The number of the cell of a sample, and which point of the lens it takes.
-    pub(in crate::render) fn split(&self, sample: u32) -> [u32; 2] {
-        [sample / self.points, sample % self.points]
+    /// The column and the row of the cell of a sample, and which point of the lens it takes.
+    pub(in crate::render) fn place_of(&self, sample: u32) -> [u32; 3] {
+        let cell = sample / self.points;
+        [cell % self.factor, cell / self.factor, sample % self.points]
     }
 
-    /// Those of the sample after one.
+    /// Those of the sample after one, without a division.
     #[inline]
-    pub(in crate::render) fn after(&self, [cell, k]: [u32; 2]) -> [u32; 2] {
+    pub(in crate::render) fn after(&self, [column, row, k]: [u32; 3]) -> [u32; 3] {
         if k + 1 < self.points {
-            [cell, k + 1]
+            [column, row, k + 1]
+        } else if column + 1 < self.factor {
+            [column + 1, row, 0]
         } else {
-            [cell + 1, 0]
-        }
-    }
-
-    /// The column and the row of a cell.
-    pub(in crate::render) fn place_of(&self, cell: u32) -> [u32; 2] {
-        [cell % self.factor, cell / self.factor]
-    }
-
-    /// The column and the row of a cell, given those of the one before.
-    #[inline]
-    pub(in crate::render) fn next_place(&self, cell: u32, [column, row]: [u32; 2]) -> [u32; 2] {
-        match cell {
-            0 => [0, 0],
-            _ if column + 1 < self.factor => [column + 1, row],
-            _ => [0, row + 1],
+            [0, row + 1, 0]
         }
     }
 
@@ -130,3 +118,23 @@ impl Cell {
 
 /// Makes the random numbers of sub-samples independent of those of the paths.
 const PATTERN: u64 = u64::MAX;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_place_after_one_is_that_of_the_next_sample() {
+        for (factor, points) in [(1, 1), (3, 1), (1, 4), (3, 5)] {
+            let grid = Grid {
+                factor,
+                points,
+                pattern: Pattern::Grid,
+            };
+            for sample in 1..grid.samples() {
+                let after = grid.after(grid.place_of(sample - 1));
+                assert_eq!(after, grid.place_of(sample), "{factor} {points}");
+            }
+        }
+    }
+}

@@ -118,6 +118,7 @@ pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) ->
 }
 
 /// The origin of ray k of a sub-sample.
+#[inline(always)]
 #[must_use]
 pub(in crate::render) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
     let n = lens_samples(&camera.lens);

@@ -71,17 +71,15 @@ impl<'run> Heartbeat<'run> {
     #[inline]
     pub(in crate::render) fn goes_on(&mut self, counts: &Counts) -> bool {
         self.left -= 1;
-        self.left > 0 || self.ask(counts, false)
+        self.left > 0 || self.ask(counts.rays(), false)
     }
 
-    /// Tells that the pixel is done, and whether to go on.
-    pub(in crate::render) fn done(&mut self, counts: &Counts) -> bool {
-        self.ask(counts, true)
+    /// Tells that the pixel is done, given the rays traced so far; whether to go on.
+    pub(in crate::render) fn done(&mut self, rays: u64) -> bool {
+        self.ask(rays, true)
     }
 
-    #[cold]
-    fn ask(&mut self, counts: &Counts, is_done: bool) -> bool {
-        let rays = counts.rays();
+    fn ask(&mut self, rays: u64, is_done: bool) -> bool {
         let step = Step {
             rays: rays - self.told,
             pixel: self.pixel,
@@ -110,12 +108,14 @@ mod tests {
         let mut heartbeat = Heartbeat::new(&on_pixel);
         let mut counts = Counts::default();
         counts.camera = 3;
-        assert!(heartbeat.goes_on(&counts) && heartbeat.done(&counts));
+        assert!(heartbeat.goes_on(&counts) && heartbeat.done(counts.rays()));
         heartbeat.begin([1, 0]);
         assert!((1..EVERY).all(|_| heartbeat.goes_on(&counts)));
         counts.shadow = 9;
         assert!(
-            !heartbeat.goes_on(&counts) && !heartbeat.goes_on(&counts) && !heartbeat.done(&counts)
+            !heartbeat.goes_on(&counts)
+                && !heartbeat.goes_on(&counts)
+                && !heartbeat.done(counts.rays())
         );
         let steps = [
             Step {

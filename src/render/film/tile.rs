@@ -18,8 +18,10 @@ pub(in crate::render) struct Tile<'film, A: Accumulator> {
     stride: Stride,
     kept: &'film mut [A::Kept],
     open: &'film Open<'film, A>,
-    /// The next pixel, counted in rows of the tile.
-    next: usize,
+    /// The column and the row of the next pixel, counted from the corner of the film.
+    next: [u32; 2],
+    /// Its number in the tile.
+    index: usize,
 }
 
 /// A pixel under way.
@@ -48,24 +50,20 @@ impl<'film, A: Accumulator> Tile<'film, A> {
             stride,
             kept,
             open,
-            next: 0,
+            next: [area.x - film.x, area.y - film.y],
+            index: 0,
         }
     }
 
     /// Begins the next pixel; `None` after the last.
     pub(in crate::render) fn next_pixel(&mut self) -> Option<OpenPixel<A>> {
-        while self.next < self.kept.len() {
-            let index = self.next;
-            self.next += 1;
-            let width = self.area.width as usize;
-            let [column, row] = [
-                (self.area.x - self.film.x) as usize + index % width,
-                (self.area.y - self.film.y) as usize + index / width,
-            ];
-            let stride = self.stride.get() as usize;
-            if column.is_multiple_of(stride) && row.is_multiple_of(stride) {
-                let at = [self.film.x + to_u32(column), self.film.y + to_u32(row)];
-                let number = row * self.film.width as usize + column;
+        while self.index < self.kept.len() {
+            let ([column, row], index) = (self.next, self.index);
+            self.advance();
+            let is_met = |at: u32| at.is_multiple_of(self.stride.get());
+            if is_met(column) && is_met(row) {
+                let at = [self.film.x + column, self.film.y + row];
+                let number = row as usize * self.film.width as usize + column as usize;
                 let (sums, asked) = (self.open)(at, number, &self.kept[index]);
                 return Some(OpenPixel {
                     at,
@@ -78,16 +76,17 @@ impl<'film, A: Accumulator> Tile<'film, A> {
         None
     }
 
+    /// Goes to the next pixel of the tile, row by row.
+    fn advance(&mut self) {
+        let [column, row] = &mut self.next;
+        (*column, self.index) = (*column + 1, self.index + 1);
+        if *column == self.area.x + self.area.width - self.film.x {
+            (*column, *row) = (self.area.x - self.film.x, *row + 1);
+        }
+    }
+
     /// Keeps what the samples of a pixel add up to.
     pub(in crate::render) fn close(&mut self, pixel: OpenPixel<A>) {
         self.kept[pixel.index] = pixel.sums.close();
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a column or row of a picture"
-)]
-fn to_u32(place: usize) -> u32 {
-    place as u32
 }

@@ -16,6 +16,9 @@ pub(in crate::render) trait Integrator<'run>: Sized {
     /// What a sample is.
     type Sample;
 
+    /// Begins samples of a pixel: those of one stream, in order from `first` on.
+    fn begin(&mut self, _first: &SampleId) {}
+
     /// What one sample shows.
     fn sample(&mut self, id: &SampleId) -> Self::Sample;
 
@@ -34,22 +37,24 @@ pub(in crate::render) trait Integrator<'run>: Sized {
         while let Some(mut pixel) = tile.next_pixel() {
             self.heartbeat().begin(pixel.at);
             for (stream, samples) in pixel.asked.take() {
+                let mut id = SampleId {
+                    pixel: pixel.at,
+                    stream,
+                    index: samples.start,
+                };
+                self.begin(&id);
                 for index in samples {
                     if !self.goes_on() {
                         return false;
                     }
-                    let id = SampleId {
-                        pixel: pixel.at,
-                        stream,
-                        index,
-                    };
+                    id.index = index;
                     let sample = self.sample(&id);
                     pixel.sums.add(&id, sample);
                 }
             }
             tile.close(pixel);
-            let counts = *self.counts();
-            if !self.heartbeat().done(&counts) {
+            let rays = self.counts().rays();
+            if !self.heartbeat().done(rays) {
                 return false;
             }
         }

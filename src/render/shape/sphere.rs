@@ -129,6 +129,7 @@ impl Sphere {
 
     /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds
     /// less.
+    #[inline]
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let step = ray.direction * t;

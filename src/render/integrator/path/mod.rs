@@ -11,9 +11,9 @@ mod vertex;
 mod visibility;
 
 use super::Integrator;
-use crate::math::{Vec3, cos_sin_turns};
+use crate::math::Vec3;
 use crate::plan::{Effect, PathFeatures};
-use crate::render::camera::{image_point, ray_through};
+use crate::render::camera::{image_point, lens_at, ray_through};
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::film::pixel::{Sample, SampleId, Stream};
 use crate::render::film::{Background, Counts, Seeds};
@@ -115,17 +115,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
         let camera = self.world.scene.camera();
         let target = image_point(camera, pixel, sobol.pair(FILM));
-        let radius = camera.lens.radius.get();
-        if radius == 0.0 {
+        if camera.lens.radius.get() == 0.0 {
             return ray_through(camera, camera.eye, target);
         }
-        // Sample a point of the lens.
         self.counts.add(Effect::Lens);
-        let [u, turn] = sobol.pair(LENS);
-        let (x, y) = cos_sin_turns(turns(turn));
-        let r = radius * u.sqrt() / camera.up.length();
-        let origin = camera.eye + camera.right * (r * x) + camera.up * (r * y);
-        ray_through(camera, origin, target)
+        ray_through(camera, lens_at(camera, sobol.pair(LENS)), target)
     }
 
     /// The radiance along one path.
@@ -186,14 +180,4 @@ impl<'world, S: Geometry, const F: u32> Integrator<'world> for PathTracer<'world
     fn goes_on(&mut self) -> bool {
         self.heartbeat.goes_on(&self.counts)
     }
-}
-
-/// A fraction of a turn in units of 2⁻⁶⁴ turns.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a fraction; the cast saturates"
-)]
-fn turns(fraction: f64) -> u64 {
-    (fraction * 18_446_744_073_709_551_616.0) as u64
 }

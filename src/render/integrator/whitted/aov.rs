@@ -11,11 +11,9 @@ use crate::render::shape::instance::Asked;
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let camera = self.scene().camera();
-        let [cell, k] = self.grid.split(id.index);
-        let ray = self
-            .grid
-            .cell(camera, id.pixel, self.grid.place_of(cell), Seeds::NONE)
-            .ray(camera, k);
+        let [column, row, k] = self.grid.place_of(id.index);
+        let cell = self.grid.cell(camera, id.pixel, [column, row], Seeds::NONE);
+        let ray = cell.ray(camera, k);
         let first = self.world.closest_hit(&ray).map(|hit| {
             let shading_point = self.shading_point_of(&ray, hit, Key::new(id.pixel, 0));
             let shape = &self.world.surfaces[hit.surface].shape;

@@ -104,62 +104,58 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
+    #[inline(always)]
     pub(in crate::render) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
-        self.weightless = false;
-        let first = Branch {
+        let mut next = Some(Branch {
             ray,
             beta: 1.0,
             bounces_left: depth,
             key,
             kind: BranchKind::Mirrored,
-        };
-        if let Some(shading_point) = self.shading_point(&first.ray, first.key) {
-            self.counts.hits += 1;
-            self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| {
-                !plan.surfaces[shading_point.surface]
-            });
-            sum += self.local(&shading_point);
-            if Self::can(Features::BOUNCE) {
-                self.branch(&first, &shading_point);
-            }
-        }
-        while Self::can(Features::BOUNCE)
-            && let Some(path) = self.next_branch()
-        {
+        });
+        while let Some(path) = next {
             self.weightless = path.beta == 0.0;
             if let Some(shading_point) = self.shading_point(&path.ray, path.key) {
+                let bounces = depth - path.bounces_left;
+                self.counts.hits += u64::from(bounces == 0);
                 let value = self.local(&shading_point) * path.beta;
-                self.verify_bounce(&path, &shading_point, value);
+                self.verify_hit(bounces, &shading_point, value);
                 sum += value;
-                self.branch(&path, &shading_point);
+                if Self::can(Features::BOUNCE) {
+                    self.branch(&path, &shading_point);
+                }
             }
+            next = if Self::can(Features::BOUNCE) {
+                self.next_branch()
+            } else {
+                None
+            };
         }
         sum
     }
 
-    /// Looks whether a bounce that counts meets what the plan leaves out.
-    fn verify_bounce(&self, path: &Branch, shading_point: &ShadingPoint<'_>, value: Vec3) {
-        let bounces = self.world.plan.max_depth - path.bounces_left;
+    /// Looks whether a ray after so many bounces meets what the plan leaves out.
+    fn verify_hit(&self, bounces: u32, shading_point: &ShadingPoint<'_>, value: Vec3) {
         self.verify(Effect::Depth, "a bounce left out adds something", |plan| {
             bounces > plan.max_depth && value != Vec3::ZERO && !plan.rules.contains(Rule::Cut)
         });
-        self.verify(
-            Effect::Surfaces,
-            "a bounce meets a surface left out",
-            |plan| bounces <= plan.max_depth && !plan.surfaces[shading_point.surface],
-        );
+        self.verify(Effect::Surfaces, "a ray meets a surface left out", |plan| {
+            bounces <= plan.max_depth && !plan.surfaces[shading_point.surface]
+        });
     }
 
     /// What a ray sees, with the maps of its material applied.
+    #[inline(always)]
     fn shading_point(&mut self, ray: &Ray, key: Key) -> Option<ShadingPoint<'world>> {
         let hit = self.world.closest_hit(ray)?;
         Some(self.shading_point_of(ray, hit, key))
     }
 
     /// What a ray sees at a hit.
+    #[inline(always)]
     pub(in crate::render) fn shading_point_of(
         &mut self,
         ray: &Ray,
