@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# What is in the machine code of each integrator, as Markdown: bytes, and whether it reaches `pow`, a texture or the torus,
-# by the relocations of the release build without link-time optimization; then the instructions of pictures by the integrator
-# planned, beside those by the one that can do everything. Fails where an effect left out is there, or a limit is passed.
-# Needs objdump, c++filt, Python and valgrind. `benches/kernels.sh >benches/kernels.md` makes the table that is kept.
+# What is in the machine code of each kernel of both integrators, as Markdown: bytes, and whether it reaches `pow`, a texture or
+# the torus, or the code of a BSDF, by the relocations of the release build without link-time optimization; then the
+# instructions of pictures by the kernel planned, beside those by the one that can do everything, and the time of both, taken
+# in turns. Fails where an effect left out is there, or a limit is passed. Needs objdump, c++filt, Python and valgrind.
+# `benches/kernels.sh >benches/kernels.md` makes the table that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p target/kernels
@@ -11,11 +12,12 @@ CARGO_TARGET_DIR=target/kernels CARGO_PROFILE_RELEASE_LTO=off cargo rustc --quie
 cargo build --quiet --release --example kernels
 
 cat <<'END'
-# Integrators
+# Kernels
 
-`benches/kernels.sh`. Bytes are of all functions of the library that an integrator reaches from a row of pixels on, with
-those of the machinery of threads; the share is of the integrator that can do everything for all shapes; ✓ marks what is
-reached. Each integrator is there for the basic shapes, which are spheres, planes and triangles, and for all shapes.
+`benches/kernels.sh`. A kernel is an integrator compiled for a set of features. Bytes are of all functions of the library that
+it reaches from a picture on, with those of the machinery of threads; the share is of the kernel that can do everything for
+all shapes; ✓ marks what is reached. Each kernel is there for the basic shapes, which are spheres, planes and triangles, and
+for all shapes.
 
 END
 python3 - target/kernels/rtc.o src/plan/features.rs <<'END'
@@ -47,50 +49,77 @@ def reached(todo):
             todo += [place.get(symbol, symbol) for symbol in named[section]]
     return seen
 
-features = {1 << int(bit or 0): text.lower() for text, bit in
-            re.findall(r"pub const (\w+): Self = Self\(1(?: << (\d+))?\);", open(sys.argv[2]).read())}
-EFFECTS = {"pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus")}
+source = open(sys.argv[2]).read()
+
+def features_of(kind):
+    block = source[source.index(f"impl {kind} {{") :]
+    return {1 << int(bit or 0): text.lower() for text, bit in
+            re.findall(r"pub const (\w+): Self = Self\(1(?: << (\d+))?\);", block[: block.index("\n}")])}
+
 WORLDS = {"basic": "World<rtc::render::shape::basic::Basic>>", "all": "World>"}
-print("| integrator | shapes | bytes | share |", " | ".join(EFFECTS), "|\n| --- | --- | --: | --: | :-: | :-: | :-: |")
-rows, wrong = [], []
-for shapes, world in WORLDS.items():
-    begin = f"<rtc::render::world::{world}::render_with<"
-    kernels = {int(text.split(begin)[1].split(">")[0]) for text in names if begin in text}
-    for kernel in sorted(kernels, key=lambda kernel: (kernel.bit_count(), kernel)):
-        sections = reached([section for section, text in name.items() if section in size and f"{begin}{kernel}>" in text])
-        reach = "\n".join(name.get(section, "") for section in sections)
-        has = {effect: bool(re.search(code, reach, re.M)) for effect, (_, code) in EFFECTS.items()}
-        can = {text for bit, text in features.items() if kernel & bit}
-        wanted = {effect: need in can if need else shapes == "all" for effect, (need, _) in EFFECTS.items()}
-        wrong += [f"{kernel} for {shapes} shapes: {effect}" for effect in EFFECTS if has[effect] != wanted[effect]]
-        rows.append((", ".join(sorted(can)) or "first hit", shapes, sum(size.get(section, 0) for section in sections), has))
-everything = max(count for can, _, count, _ in rows if "naive" not in can)
-for can, shapes, count, has in rows:
-    marks = " | ".join("✓" if has[effect] else "" for effect in has)
-    print(f"| {can} | {shapes} | {count} | {100 * count / everything:.0f} % | {marks} |")
-if rows[0][2] > 0.4 * everything:
-    wrong.append("the smallest integrator has more than 40 % of the bytes of everything")
-sys.exit("\n".join(wrong) or len(rows) != 24)
+wrong = []
+
+def table(method, kind, none, effects, everything, count):
+    """The rows of the kernels that are instances of `method`."""
+    features = features_of(kind)
+    print("| features | shapes | bytes | share |", " | ".join(effects), "|\n| --- | --- | --: | --: |" + " :-: |" * len(effects))
+    rows = []
+    for shapes, world in WORLDS.items():
+        begin = f"<rtc::render::world::{world}::{method}<"
+        kernels = {int(text.split(begin)[1].split(">")[0]) for text in names if begin in text}
+        for kernel in sorted(kernels, key=lambda kernel: (kernel.bit_count(), kernel)):
+            sections = reached([section for section, text in name.items() if section in size and f"{begin}{kernel}>" in text])
+            reach = "\n".join(name.get(section, "") for section in sections)
+            has = {effect: bool(re.search(code, reach, re.M)) for effect, (_, code) in effects.items()}
+            can = {text for bit, text in features.items() if kernel & bit}
+            wanted = {effect: need in can if need else shapes == "all" for effect, (need, _) in effects.items()}
+            wrong.extend(f"{kernel} for {shapes} shapes: {effect}" for effect in effects if has[effect] != wanted[effect])
+            rows.append((", ".join(sorted(can)) or none, shapes, sum(size.get(section, 0) for section in sections), has))
+    whole = max(bytes for can, _, bytes, _ in rows if everything(can))
+    for can, shapes, bytes, has in rows:
+        marks = " | ".join("✓" if has[effect] else "" for effect in has)
+        print(f"| {can} | {shapes} | {bytes} | {100 * bytes / whole:.0f} % | {marks} |")
+    if len(rows) != count:
+        wrong.append(f"{len(rows)} kernels, not {count}")
+
+print("Whitted's integrator:\n")
+table("render_with", "Features", "first hit", {
+    "pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus"),
+}, lambda can: "naive" not in can, WHITTED)
+print("\nPaths:\n")
+table("render_paths_with", "PathFeatures", "unaimed", {
+    "Fresnel": ("microfacets", "FRESNEL"), "refraction": ("transmission", "REFRACTION"), "sheen": ("layers", "SHEEN"),
+    "torus": (None, "Torus"),
+}, lambda can: True, PATHS)
+sys.exit("\n".join(wrong))
 END
 cat <<'END'
 
-Instructions of 160 × 160 pixels: as planned; as planned, but by the integrator that can do everything for all shapes; with
-no rule of the plan. The limit is of the last share.
+Instructions of 160 × 160 pixels, 16 paths each where paths are traced: as planned; as planned, but by the kernel that can do
+everything for all shapes; with no rule of the plan. The limit is of the last share. Then seconds of the first two, each the
+median of nine pictures made in turns by one thread, and how many times as fast the kernel planned is.
 
-| scene | planned | everything | share | no rule | share | limit |
-| --- | --: | --: | --: | --: | --: | --: |
+| scene | planned | everything | share | no rule | share | limit | planned, s | everything, s | gain |
+| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: |
 END
 count() {
     valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='kernels::picture' \
-        target/release/examples/kernels "$1" "scenes/$2.yaml" 2>&1 | sed -n 's/.*Collected : //p'
+        target/release/examples/kernels "$1" "$2" 2>&1 | sed -n 's/.*Collected : //p'
 }
 while read -r scene limit; do
-    echo "$scene $(count planned "$scene") $(count everything "$scene") $(count unpruned "$scene") $limit" | awk '{
-        printf "| `%s` | %d | %d | %.2f | %d | %.2f | %s |\n", $1, $2, $3, $2 / $3, $4, $2 / $4, $5
+    [ -e "$scene" ] || continue
+    echo "$(basename "$scene") $(count planned "$scene") $(count everything "$scene") $(count unpruned "$scene") $limit" \
+        "$(target/release/examples/kernels time "$scene")" | awk '{
+        printf "| `%s` | %d | %d | %.2f | %d | %.2f | %s | %.3f | %.3f | %.2f |\n",
+            $1, $2, $3, $2 / $3, $4, $2 / $4, $5, $6, $7, $7 / $6
         exit $2 > $3 || $2 > $5 * $4
     }'
 done <<'END'
-normals 0.75
-five-spheres 0.75
-globe 0.72
+scenes/normals.yaml 0.75
+scenes/five-spheres.yaml 0.75
+scenes/globe.yaml 0.72
+scenes/vases.yaml 1
+../shared/gltf/assets/own_CornellLambert.glb 1
+../shared/gltf/assets/FlightHelmet/FlightHelmet.gltf 1
+../shared/gltf/assets/TransmissionRoughnessTest.glb 1
 END

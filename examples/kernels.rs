@@ -1,6 +1,7 @@
-//! `kernels planned|everything|unpruned SCENE` renders 160 × 160 pixels, 16 paths each where paths
-//! are traced, and says nothing, for a profiler to count the instructions of `picture`: as planned, as planned but by the integrator
-//! that can do everything for all shapes, or with no rule of the plan.
+//! `kernels planned|everything|unpruned|NUMBER SCENE` renders 160 × 160 pixels, 16 paths each where
+//! paths are traced, and says nothing, for a profiler to count the instructions of `picture`: as
+//! planned; by the kernel that can do everything; with no rule of the plan; by the kernel of a number.
+//! `kernels time SCENE` says how long the first two take: the median of pictures made in turns.
 
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
 
@@ -8,10 +9,14 @@ use rtc::diag::Sink;
 use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Features, PathFeatures, Plan, Rules, Shapes};
-use rtc::render::{self, Film, Job};
+use rtc::render::{self, Film, Job, KERNELS, PATH_KERNELS};
 use rtc::source::{Loader, SourceMap};
 use rtc::valid::Proof;
 use std::path::Path;
+use std::time::Instant;
+
+/// Pictures of each kind that are timed.
+const ROUNDS: usize = 9;
 
 fn main() {
     // One thread, this one, so that its instructions are all there are.
@@ -22,21 +27,69 @@ fn main() {
     let mut args = std::env::args().skip(1);
     let (which, file) = (args.next().unwrap(), args.next().unwrap());
     let scene = scene(&file);
-    let mut plan = Plan::new(
-        &scene,
-        if which == "unpruned" {
-            Rules::NONE
-        } else {
-            Rules::ALL
-        },
-    );
-    if which == "everything" {
-        (plan.features, plan.shapes) = (Features::EVERYTHING, Shapes::All);
-        if let Some(paths) = &mut plan.paths {
-            paths.features = PathFeatures::EVERYTHING;
+    let planned = Plan::new(&scene, Rules::ALL);
+    match which.as_str() {
+        "planned" => count(&scene, &planned),
+        "everything" => count(
+            &scene,
+            &by(&planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1),
+        ),
+        "unpruned" => count(&scene, &Plan::new(&scene, Rules::NONE)),
+        "time" => time(&scene, &planned),
+        number => {
+            let number = number.parse().unwrap();
+            count(
+                &scene,
+                &by(&planned, number, number.min(PATH_KERNELS.len() - 1)),
+            );
         }
     }
-    assert!(picture(&scene, &plan).counts.rays() > 0);
+}
+
+/// The plan, done by other kernels; for all shapes, where it is the one that can do everything.
+fn by(planned: &Plan, kernel: usize, of_paths: usize) -> Plan {
+    let mut plan = planned.clone();
+    plan.features = KERNELS[kernel].features;
+    let is_everything = match &mut plan.paths {
+        Some(paths) => {
+            paths.features = PATH_KERNELS[of_paths].features;
+            paths.features == PathFeatures::EVERYTHING
+        }
+        None => plan.features == Features::EVERYTHING,
+    };
+    if is_everything {
+        plan.shapes = Shapes::All;
+    }
+    plan
+}
+
+fn count(scene: &Proof, plan: &Plan) {
+    assert!(picture(scene, plan).counts.rays() > 0);
+}
+
+/// Prints the medians of both kernels, in seconds.
+#[expect(clippy::disallowed_methods, reason = "a bench tells time")]
+fn time(scene: &Proof, planned: &Plan) {
+    let plans = [
+        planned.clone(),
+        by(planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1),
+    ];
+    let mut taken = [const { Vec::new() }; 2];
+    for _ in 0..ROUNDS {
+        for (taken, plan) in taken.iter_mut().zip(&plans) {
+            let start = Instant::now();
+            count(scene, plan);
+            taken.push(start.elapsed().as_secs_f64());
+        }
+    }
+    let [planned, everything] = taken.map(|mut taken| {
+        taken.sort_by(f64::total_cmp);
+        taken[ROUNDS / 2]
+    });
+    #[expect(clippy::print_stdout, reason = "this is what it is for")]
+    {
+        println!("{planned:.3} {everything:.3}");
+    }
 }
 
 #[inline(never)]
