@@ -137,6 +137,7 @@ impl<'bench> Subject<'bench> {
         let without_tiles = Job {
             tiles: Some(Tiles {
                 seed: self.seed,
+                first: 0,
                 last: 0,
             }),
             ..Job::default()
@@ -169,6 +170,7 @@ impl<'bench> Subject<'bench> {
             .map_or(0, |tile| Tiles::rank(self.seed, *tile));
         let tiles = Some(Tiles {
             seed: self.seed,
+            first: 0,
             last,
         });
         let job = Job {

@@ -1,7 +1,9 @@
 //! The film: a picture, and the rays it took.
 
+mod bytes;
 mod counts;
 pub(in crate::render) mod heartbeat;
+pub(in crate::render) mod partial;
 pub(in crate::render) mod pixel;
 pub(in crate::render) mod progressive;
 pub(in crate::render) mod tile;
@@ -55,12 +57,14 @@ pub struct Seeds {
     pub path: u64,
 }
 
-/// Square tiles strewn over a picture: those whose rank is at most `last`.
+/// Square tiles strewn over a picture: those whose rank is from `first` to `last`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiles {
     /// Which tiles come first.
     pub seed: u64,
-    /// The rank of the last tile.
+    /// The least rank.
+    pub first: u64,
+    /// The greatest rank.
     pub last: u64,
 }
 
@@ -86,7 +90,8 @@ impl Tiles {
     /// Whether a pixel lies in one of the tiles.
     #[must_use]
     pub fn contain(&self, pixel: [u32; 2]) -> bool {
-        Self::rank(self.seed, pixel.map(|at| at / Self::SIDE)) <= self.last
+        let rank = Self::rank(self.seed, pixel.map(|at| at / Self::SIDE));
+        (self.first..=self.last).contains(&rank)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Accumulator;
 use crate::render::film::tiled::Tiled;
 use crate::render::film::{Crop, Job};
-use crate::render::frame::picture::whole;
+use crate::render::frame::picture::asked;
 use crate::render::integrator::aov::{Aov, FirstHit, FirstHits, LayerSums};
 use crate::render::integrator::path::{PathTracer, Strategy};
 use crate::render::integrator::whitted::Tracer;
@@ -57,7 +57,7 @@ impl<S: Geometry> World<S> {
         };
         let camera = self.scene.camera();
         let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
-            (LayerSums::new(wanted, camera), whole(&job, samples))
+            (LayerSums::new(wanted, camera), asked(&job, 0..samples))
         };
         let mut film = Tiled::new(self.crop(&job), <LayerSums<'_> as Accumulator>::Kept::new());
         run(

@@ -3,6 +3,7 @@
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
 use crate::render::film::heartbeat::OnPixel;
+use crate::render::film::partial::{FilmError, PartialFilm};
 use crate::render::film::progressive::ProgressiveFilm;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::integrator::aov::Aov;
@@ -11,6 +12,7 @@ use crate::render::shape::basic::Basic;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
 use crate::valid::Proof;
+use std::ops::Range;
 
 /// A scene prepared as planned. All is rendered on the threads of the current pool.
 pub enum AnyWorld {
@@ -79,6 +81,30 @@ impl AnyWorld {
             Self::All(world) => world.render(job, on_pixel),
             Self::Plain(world) => world.render_by_few(job, on_pixel),
             Self::F32(world) => world.render_by_few(job, on_pixel),
+        }
+    }
+
+    /// Renders a part of a picture: some tiles of the job, of traced paths some samples as well:
+    /// whole blocks of 16 of those that the scene asks for. `None` if `on_pixel` said stop, which is
+    /// called as by [`Self::render`].
+    ///
+    /// # Errors
+    /// If the samples are not whole blocks, or no paths are traced.
+    pub fn render_part(
+        &self,
+        job: &Job,
+        samples: Option<Range<u32>>,
+        on_pixel: &OnPixel<'_>,
+    ) -> Result<Option<PartialFilm>, FilmError> {
+        match self {
+            Self::Basic(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
+            Self::All(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
+            Self::Plain(world) => {
+                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
+            }
+            Self::F32(world) => {
+                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
+            }
         }
     }
 
