@@ -129,7 +129,7 @@ impl Layout {
         samples: Option<Range<u32>>,
     ) -> Result<Vec<Range<u32>>, FilmError> {
         let Some(samples) = samples else {
-            return Ok(vec![0..self.blocks()]);
+            return Ok(Vec::from([0..self.blocks()]));
         };
         let Summation::InBlocks(_) = self.summation else {
             return Err(FilmError::Inseparable);

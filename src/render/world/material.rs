@@ -3,7 +3,7 @@
 
 use super::texture::Textures;
 use crate::math::{UnitInterval, Vec3, cos, ln, sin};
-use crate::plan::{Effect, PathPlan, Plan, Rule, facts};
+use crate::plan::{Effect, PathPlan, Plan, Rule};
 use crate::render::bsdf::dispersed;
 use crate::render::material::phong::{PhongMaps, PhongMaterial};
 use crate::render::material::standard::{
@@ -13,27 +13,7 @@ use crate::render::material::standard::{
 use crate::render::shape::instance::Asked;
 use crate::render::texture::bilinear::Bump;
 use crate::render::texture::sampled::{ColorSpace, UvSets};
-use crate::valid::{self, Maps, Mode, Phong, Proof, Standard};
-
-/// The materials of a scene as its integrator sees them, one for each.
-pub(super) enum MaterialsFor {
-    Whitted(Vec<Phong>),
-    Paths(Vec<Standard>),
-}
-
-/// What the materials of a scene are to the integrator that is planned.
-pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> MaterialsFor {
-    let materials = scene.materials().iter();
-    if let Some(paths) = &plan.paths {
-        return MaterialsFor::Paths(paths.materials.clone());
-    }
-    match scene.settings().mode {
-        Mode::Path(_) => MaterialsFor::Paths(materials.map(facts::material::standard).collect()),
-        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-            MaterialsFor::Whitted(materials.map(facts::material::phong).collect())
-        }
-    }
-}
+use crate::valid::{self, Maps, Phong, Standard};
 
 /// Materials of Phong's model, and after them those of surfaces whose maps gave way: a map that
 /// shows one value gives way to the value, where the surface has uv to look it up by.
@@ -156,7 +136,7 @@ pub(super) fn standard(
     index: usize,
     material: &Standard,
     textures: &Textures,
-    plan: Option<&PathPlan>,
+    plan: &PathPlan,
 ) -> StandardMaterial {
     let m = material;
     let slots = Slots {
@@ -249,7 +229,7 @@ struct Slots<'world> {
     /// Which material of the scene.
     index: usize,
     textures: &'world Textures,
-    plan: Option<&'world PathPlan>,
+    plan: &'world PathPlan,
 }
 
 impl Slots<'_> {
@@ -272,8 +252,7 @@ impl Slots<'_> {
 
     /// Whether a map is looked up at each hit.
     fn is_looked_up(&self, map: &valid::Map) -> bool {
-        self.plan
-            .is_none_or(|plan| !plan.is_folded(self.index, map))
+        !self.plan.is_folded(self.index, map)
     }
 
     /// What a map shows.

@@ -1,6 +1,7 @@
 //! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of
 //! it.
 
+pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
 mod flattened;
 mod light;
@@ -22,6 +23,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
 use crate::valid::Proof;
+use alpha::AlphaTested;
 use flattened::Flattened;
 use light::LightList;
 
@@ -63,6 +65,8 @@ pub struct World<S = Shape> {
     pub surfaces: Vec<Surface<S>>,
     /// The plan to be validated by a naive render.
     pub(in crate::render) verify: Option<Verify>,
+    /// The surfaces that shadow rays of paths test for alpha.
+    pub(in crate::render) alpha_tested: AlphaTested,
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,

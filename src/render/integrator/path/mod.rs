@@ -24,7 +24,6 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use crate::valid::PathSettings;
 use state::PathState;
-use visibility::AlphaTested;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,7 +43,6 @@ pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     lights: &'world Lights<'world, S>,
     path: PathSettings,
     strategy: Strategy,
-    alpha_tested: AlphaTested,
     /// Whether vertices have all details, not only those that their materials need.
     knows_all: bool,
     /// The background for camera rays that hit nothing.
@@ -75,7 +73,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             lights,
             path,
             strategy,
-            alpha_tested: AlphaTested::of(world),
             knows_all: false,
             background: Background::default(),
             has_environment: plan.is_none_or(|plan| plan.environment),
