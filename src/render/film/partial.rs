@@ -128,16 +128,10 @@ impl Layout {
         &self,
         samples: Option<Range<u32>>,
     ) -> Result<Vec<Range<u32>>, FilmError> {
-        let Some(samples) = samples else {
-            return Ok(Vec::from([0..self.blocks()]));
+        let blocks = match samples {
+            None => 0..self.blocks(),
+            Some(samples) => self.blocks_of(samples)?,
         };
-        let Summation::InBlocks(_) = self.summation else {
-            return Err(FilmError::Inseparable);
-        };
-        let blocks = samples.start / BLOCK..samples.end.div_ceil(BLOCK);
-        if samples.is_empty() || self.samples_of(&blocks) != samples {
-            return Err(FilmError::Misaligned(samples));
-        }
         let (mut nodes, mut start) = (Vec::new(), blocks.start);
         while start < blocks.end {
             // The largest node that begins here and ends in time; a leaf always does.
@@ -148,6 +142,18 @@ impl Layout {
             start = end;
         }
         Ok(nodes)
+    }
+
+    /// The blocks that a range of samples is.
+    fn blocks_of(&self, samples: Range<u32>) -> Result<Range<u32>, FilmError> {
+        let Summation::InBlocks(_) = self.summation else {
+            return Err(FilmError::Inseparable);
+        };
+        let blocks = samples.start / BLOCK..samples.end.div_ceil(BLOCK);
+        let is_whole = !samples.is_empty() && self.samples_of(&blocks) == samples;
+        is_whole
+            .then_some(blocks)
+            .ok_or(FilmError::Misaligned(samples))
     }
 
     /// The end of the node of `2^level` blocks from `start` on, so far as there are blocks.
