@@ -215,25 +215,22 @@ fn rooms_are_named_in_lists_by_super_and_through_others() {
     assert_eq!(named, BTreeMap::from(expected));
 }
 
-/// The rooms of `render` that see what was prepared, never the proof it was prepared from.
-const PREPARED: &[&str] = &[
-    "accel", "bsdf", "film", "light", "material", "ray.rs", "sampler", "shape", "texture",
-];
+/// The room of `render` that sees the proof: all others see what was prepared from it.
+const PREPARING: &str = "src/render/world/";
 
 #[test]
-fn what_is_prepared_knows_no_proof() {
-    let rooms = PREPARED.iter().map(|room| format!("src/render/{room}"));
-    let rooms: Vec<_> = rooms.collect();
-    let is_prepared = |file: &str| rooms.iter().any(|room| file.starts_with(room));
-    let named = House::read(&rust_files("src")).named();
-    let knowing: BTreeSet<_> = named
-        .into_iter()
-        .filter(|named| is_prepared(&named.file) && named.place[0] == "valid")
-        .map(|named| named.file)
+fn the_world_alone_knows_the_proof() {
+    let named = House::read(&rust_files("src")).named().into_iter();
+    let knowing = named
+        .filter(|named| named.place[0] == "valid")
+        .map(|named| named.file);
+    let knowing: BTreeSet<_> = knowing
+        .filter(|file| file.starts_with("src/render/"))
         .collect();
-    assert_eq!(knowing, BTreeSet::new());
-    let files = rust_files("src/render").into_iter();
-    assert!(files.filter(|(path, _)| is_prepared(path)).count() > 40);
+    let (world, others): (Vec<_>, Vec<_>) =
+        knowing.iter().partition(|file| file.starts_with(PREPARING));
+    assert_eq!(others, Vec::<&String>::new());
+    assert!(world.len() > 4, "{world:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::render::frame::picture::Sums;
 use crate::render::integrator::path::Strategy;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, PathSettings};
+use crate::render::world::settings::Mode;
 use std::ops::Range;
 
 /// An integrator compiled for a set of features.
@@ -155,17 +155,16 @@ impl<S: Geometry> World<S> {
         self.whole(job, |samples, job| self.sum_by_few(samples, job, on_pixel))
     }
 
-    /// Renders by tracing paths; `None` if `on_pixel` said stop.
+    /// As [`Self::render`], where paths are traced by another strategy.
     #[must_use]
     pub fn render_paths(
         &self,
-        path: PathSettings,
         strategy: Strategy,
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Film> {
         self.whole(job, |samples, job| {
-            self.sum_paths((path, strategy), samples, job, on_pixel)
+            self.sum_paths(strategy, samples, job, on_pixel)
         })
     }
 
@@ -177,8 +176,8 @@ impl<S: Geometry> World<S> {
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Sums> {
-        if let Mode::Path(path) = self.scene.settings().mode {
-            return self.sum_paths((path, Strategy::Mis), samples, job, on_pixel);
+        if let Mode::Path(_) = self.settings.mode {
+            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
         }
         dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.sum_with(job, on_pixel))
     }
@@ -190,20 +189,20 @@ impl<S: Geometry> World<S> {
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Sums> {
-        if let Mode::Path(path) = self.scene.settings().mode {
-            return self.sum_paths((path, Strategy::Mis), samples, job, on_pixel);
+        if let Mode::Path(_) = self.settings.mode {
+            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
         }
         dispatch!(choose_of_few(self.plan.features); 1 4 10; self.sum_with(job, on_pixel))
     }
 
     fn sum_paths(
         &self,
-        how: (PathSettings, Strategy),
+        strategy: Strategy,
         samples: &Range<u32>,
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Sums> {
-        dispatch_paths!(self.sum_paths_with(how, samples, job, on_pixel))
+        dispatch_paths!(self.sum_paths_with(strategy, samples, job, on_pixel))
     }
 }
 

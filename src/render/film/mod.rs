@@ -11,6 +11,7 @@ pub(in crate::render) mod tiled;
 
 pub use counts::Counts;
 
+use crate::color::Tone;
 use crate::image::Image;
 use crate::render::sampler::mix;
 use std::num::NonZeroU32;
@@ -165,6 +166,9 @@ pub enum Values {
     /// The plain mean of the sub-samples.
     Linear,
 }
+
+/// The tone map of [`Values::Display`] where paths are traced.
+pub(in crate::render) const DISPLAY: Tone = Tone::Srgb;
 
 /// The fraction of rays that hit something; 0 of none.
 #[must_use]

@@ -4,8 +4,7 @@
 
 use super::pixel::{BLOCK, PixelSum};
 use super::tiled::{Tiled, tiles_of};
-use super::{Counts, Crop, Film, Tiles, Values};
-use crate::color::Tone;
+use super::{Counts, Crop, DISPLAY, Film, Tiles, Values};
 use crate::image::Image;
 use std::fmt;
 use std::ops::Range;
@@ -183,7 +182,7 @@ impl Layout {
         let pixels = match (self.summation, self.values) {
             (Summation::Distance, _) => depths(film),
             (Summation::InBlocks(_), Values::Display) => {
-                let shown = |sum: &PixelSum| Tone::Srgb.display(sum.mean());
+                let shown = |sum: &PixelSum| DISPLAY.display(sum.mean());
                 film.iter().map(shown).collect()
             }
             (Summation::InBlocks(_) | Summation::InOrder, _) => {

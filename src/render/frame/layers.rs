@@ -3,7 +3,6 @@
 use super::{Selection, run};
 use crate::image::Layers;
 use crate::plan::{Features, PathFeatures};
-use crate::render::camera::grid::Grid;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Accumulator;
 use crate::render::film::tiled::Tiled;
@@ -15,7 +14,7 @@ use crate::render::integrator::whitted::Tracer;
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::Mode;
+use crate::render::world::settings::Mode;
 
 impl<S: Geometry> World<S> {
     /// As [`crate::render::AnyWorld::layers`], of what this world holds.
@@ -25,22 +24,21 @@ impl<S: Geometry> World<S> {
         crop: Crop,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Layers> {
-        if let Mode::Path(path) = self.scene.settings().mode {
+        if let Mode::Path(samples) = self.settings.mode {
             let lights = Lights::new(self, Strategy::Mis);
             let worker = || {
                 PathTracer::<S, { PathFeatures::EVERYTHING.0 }>::new(
                     self,
                     &lights,
-                    path,
                     Strategy::Mis,
                     on_pixel,
                 )
                 .knowing_all()
             };
-            return self.layers_by(worker, path.samples.get(), wanted, crop);
+            return self.layers_by(worker, samples, wanted, crop);
         }
         let worker = || Tracer::<S, { Features::EVERYTHING.0 }>::new(self, on_pixel);
-        self.layers_by(worker, Grid::of(&self.scene).samples(), wanted, crop)
+        self.layers_by(worker, self.settings.grid.samples(), wanted, crop)
     }
 
     /// Renders layers by integrators that `worker` makes.
@@ -55,7 +53,7 @@ impl<S: Geometry> World<S> {
             crop: Some(crop),
             ..Job::default()
         };
-        let camera = self.scene.camera();
+        let camera = &self.camera;
         let open = |_: [u32; 2], _: usize, _: &<LayerSums<'_> as Accumulator>::Kept| {
             (LayerSums::new(wanted, camera), asked(&job, 0..samples))
         };

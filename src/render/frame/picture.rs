@@ -3,7 +3,6 @@
 use super::{Selection, run};
 use crate::image::Image;
 use crate::plan::{Features, PixelClass};
-use crate::render::camera::grid::Grid;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, Layout, PartialFilm, Summation};
 use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges, Stream};
@@ -15,7 +14,7 @@ use crate::render::integrator::whitted::Tracer;
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, PathSettings};
+use crate::render::world::settings::Mode;
 use std::ops::Range;
 
 /// The sums of the pixels of a picture, and the rays they took.
@@ -28,11 +27,11 @@ impl<S: Geometry> World<S> {
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Sums> {
-        if let Mode::Zbuffer = self.scene.settings().mode {
+        if let Mode::Depth = self.settings.mode {
             return self.sum_distances(job, on_pixel);
         }
         let samples = if Features(F).contains(Features::CAMERA) {
-            Grid::of(&self.scene).samples()
+            self.settings.grid.samples()
         } else {
             1
         };
@@ -54,7 +53,7 @@ impl<S: Geometry> World<S> {
     /// stop.
     pub(in crate::render) fn sum_paths_with<const F: u32>(
         &self,
-        (path, strategy): (PathSettings, Strategy),
+        strategy: Strategy,
         samples: &Range<u32>,
         job: &Job,
         on_pixel: &OnPixel<'_>,
@@ -63,9 +62,8 @@ impl<S: Geometry> World<S> {
         let open = |_: [u32; 2], _: usize, _: &PixelSum| {
             (InBlocks::default(), asked(job, samples.clone()))
         };
-        let worker = || {
-            PathTracer::<S, F>::new(self, &lights, path, strategy, on_pixel).before(job.background)
-        };
+        let worker =
+            || PathTracer::<S, F>::new(self, &lights, strategy, on_pixel).before(job.background);
         let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
         Some((film, counts))
@@ -124,12 +122,12 @@ impl<S: Geometry> World<S> {
 
     /// Which pixels a job asks for, and how their samples are summed.
     fn layout(&self, job: &Job) -> Layout {
-        let (crop, summation) = match self.scene.settings().mode {
-            Mode::Path(path) => {
-                let samples = limited(job, path.samples.get());
+        let (crop, summation) = match self.settings.mode {
+            Mode::Path(samples) => {
+                let samples = limited(job, samples);
                 (self.crop(job), Summation::InBlocks(samples))
             }
-            Mode::Zbuffer => (self.crop(&Job::default()), Summation::Distance),
+            Mode::Depth => (self.crop(&Job::default()), Summation::Distance),
             Mode::Phong | Mode::Normal | Mode::Gooch(_) => (self.crop(job), Summation::InOrder),
         };
         let values = job.values;
@@ -142,8 +140,7 @@ impl<S: Geometry> World<S> {
 
     /// The part of the picture that a job asks for.
     pub(in crate::render) fn crop(&self, job: &Job) -> Crop {
-        let camera = self.scene.camera();
-        let (width, height) = (camera.width.get(), camera.height.get());
+        let [width, height] = self.camera.size;
         let whole = Crop {
             x: 0,
             y: 0,

@@ -53,7 +53,7 @@ impl AnyWorld {
     /// The scene it shows.
     #[must_use]
     pub fn scene(&self) -> &Proof {
-        each!(self, world => &world.scene)
+        each!(self, world => world.scene())
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
@@ -65,7 +65,7 @@ impl AnyWorld {
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
             == (old.shapes, &old.surfaces, &old.constants, &old.paths);
         if is_same {
-            each!(self, world => (world.scene, world.plan) = (scene, plan));
+            each!(self, world => world.show(scene, plan));
         } else {
             *self = Self::prepare(&scene, &plan);
         }
@@ -113,7 +113,7 @@ impl AnyWorld {
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
     pub fn layers(&self, wanted: &[Aov], crop: Crop, on_pixel: &OnPixel<'_>) -> Option<Layers> {
-        let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
+        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         if plan.rules == Rules::NONE {
             return each!(self, world => world.layers(wanted, crop, on_pixel));
         }

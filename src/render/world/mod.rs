@@ -8,12 +8,15 @@ mod light;
 mod material;
 mod plain;
 mod prepare;
+pub(in crate::render) mod settings;
 pub(in crate::render) mod shape;
 mod texture;
+pub(in crate::render) mod verify;
 
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::render::accel::bvh::Bvh;
+use crate::render::camera::Camera;
 use crate::render::frame::verify::Verify;
 use crate::render::material::phong::PhongMaterial;
 use crate::render::material::standard::StandardMaterial;
@@ -26,6 +29,7 @@ use crate::valid::Proof;
 use alpha::AlphaTested;
 use flattened::Flattened;
 use light::LightList;
+use settings::Settings;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,8 +55,12 @@ pub struct Surface<S = Shape> {
 
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
-    /// The camera and the settings as proven, and all that a change of them may need again.
-    pub scene: Proof,
+    /// The scene as proven, for what a change of its camera and settings may need again.
+    scene: Proof,
+    /// The camera.
+    pub camera: Camera,
+    /// The settings.
+    pub(in crate::render) settings: Settings,
     /// What the picture needs of it.
     pub plan: Plan,
     /// The materials that Whitted's integrator asks for, without maps that show one value.

@@ -3,6 +3,7 @@
 use super::alpha::AlphaTested;
 use super::flattened::{Flattened, flattened_surfaces};
 use super::material::{PhongList, standard};
+use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Surface, World, light};
@@ -43,6 +44,8 @@ impl<S: Prepare> World<S> {
         } = Lookup::of(scene, &surfaces);
         let mut world = Self {
             scene: scene.clone(),
+            camera: camera(scene.camera()),
+            settings: settings(scene),
             plan: plan.clone(),
             phongs,
             standards,

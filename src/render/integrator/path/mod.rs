@@ -22,7 +22,6 @@ use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::PathSettings;
 use state::PathState;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
@@ -41,7 +40,8 @@ pub enum Strategy {
 pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: PathSettings,
+    /// Whether rough surfaces keep the light that bounces between their facets.
+    multiple_scattering: bool,
     strategy: Strategy,
     /// Whether vertices have all details, not only those that their materials need.
     knows_all: bool,
@@ -62,7 +62,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(in crate::render) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        path: PathSettings,
         strategy: Strategy,
         on_pixel: &'world OnPixel<'world>,
     ) -> Self {
@@ -71,7 +70,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         Self {
             world,
             lights,
-            path,
+            multiple_scattering: world.settings.multiple_scattering,
             strategy,
             knows_all: false,
             background: Background::default(),
@@ -110,9 +109,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// The ray from the camera that a path of a pixel begins with.
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
-        let camera = self.world.scene.camera();
+        let camera = &self.world.camera;
         let target = image_point(camera, pixel, sobol.pair(FILM));
-        let radius = camera.lens.radius.get();
+        let radius = camera.lens_radius;
         if radius == 0.0 {
             return ray_through(camera, camera.eye, target);
         }

@@ -69,7 +69,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         {
             return last;
         }
-        let camera = self.scene().camera();
+        let camera = &self.world.camera;
         let (cell, k) = if Self::can(Features::CAMERA) {
             self.cell_of(id, seeds)
         } else {
@@ -84,7 +84,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// A sample of a sequence without end.
     fn sample_of_replicate(&mut self, id: &SampleId, number: u64) -> Sample {
-        let camera = self.scene().camera();
+        let camera = &self.world.camera;
         let sequence = Sequence::new(Key::new(id.pixel, number).child(STRAND));
         let [x, y, u, v] = sequence.point(id.index);
         let ray = camera_ray(
@@ -125,7 +125,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
                     Some(_) => self.grid.next_place(at, self.pixel.place),
                     None => self.grid.place_of(at),
                 };
-                let camera = self.scene().camera();
+                let camera = &self.world.camera;
                 self.grid.cell(camera, id.pixel, self.pixel.place, seeds)
             }
         };
