@@ -242,6 +242,44 @@ fn the_proof_passes_on_nothing_of_the_representation() {
     }
 }
 
+/// The stages that a noun of the scene goes through; it keeps its name in each.
+const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
+
+/// The types at the top of a file that other files may name.
+fn shared_types(text: &str) -> impl Iterator<Item = &str> {
+    let items = text.lines().filter(|line| line.starts_with("pub"));
+    items.filter_map(|line| {
+        let mut words = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.find(|word| matches!(*word, "struct" | "enum" | "union" | "trait" | "type"))?;
+        words.next()
+    })
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let files = rust_files("src");
+    let mut homes: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (path, text) in &files {
+        for name in shared_types(text) {
+            homes.entry(name).or_default().insert(path);
+        }
+    }
+    let is_in = |path: &str, rooms: &[&str]| {
+        let room = path.split('/').nth(1);
+        room.is_some_and(|room| rooms.contains(&room))
+    };
+    let is_noun = |paths: &BTreeSet<&str>| {
+        paths.iter().any(|path| is_in(path, &["ir", "valid"]))
+            && paths.iter().all(|path| is_in(path, &STAGES))
+    };
+    let nouns = homes
+        .values()
+        .filter(|paths| paths.len() > 1 && is_noun(paths));
+    assert!(nouns.count() > 20, "nouns are found");
+    homes.retain(|_, paths| paths.len() > 1 && !is_noun(paths));
+    assert!(homes.is_empty(), "{homes:#?}");
+}
+
 #[test]
 fn every_file_opens_with_what_it_answers_for() {
     let heads = |text: &str| {

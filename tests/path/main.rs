@@ -132,7 +132,7 @@ fn prove(scene: &Scene) -> Proof {
     let proof = valid::validate(
         scene,
         &Origins::default(),
-        &valid::Options::default(),
+        &valid::ProofOptions::default(),
         &mut sink,
     );
     proof.unwrap_or_else(|| panic!("{sink:?}"))

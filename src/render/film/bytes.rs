@@ -6,7 +6,7 @@
 //! numbers of 32 bits); how many counts, and each in 64 bits; how many nodes, and of each its tile,
 //! its first and last block and the sums of its pixels; CRC-32 of all before.
 
-use super::partial::{FilmError, Layout, Node, PartialFilm, Summation, insert, position};
+use super::partial::{FilmError, FilmLayout, PartialFilm, SumNode, Summation, insert, position};
 use super::pixel::PixelSum;
 use super::tiled::tiles_of;
 use super::{Counts, Crop, Values};
@@ -28,7 +28,7 @@ impl PartialFilm {
     /// The film as bytes; equal films are equal bytes.
     #[must_use]
     pub fn save(&self) -> Vec<u8> {
-        let Layout {
+        let FilmLayout {
             crop,
             values,
             summation,
@@ -61,7 +61,7 @@ impl PartialFilm {
     /// If the bytes are of something else, of another version, or damaged, or the picture is
     /// larger.
     pub fn load(bytes: &[u8], max_pixels: u64) -> Result<Self, FilmError> {
-        let mut bytes = Bytes(bytes);
+        let mut bytes = Unread(bytes);
         if bytes.array().ok() != Some(MAGIC) {
             return Err(FilmError::NotAFilm);
         }
@@ -92,7 +92,7 @@ impl PartialFilm {
     }
 }
 
-impl Node {
+impl SumNode {
     fn save(&self, tile: usize, bytes: &mut Vec<u8>) {
         bytes.extend(length(tile));
         bytes.extend(self.blocks.start.to_le_bytes());
@@ -116,9 +116,9 @@ fn length(count: usize) -> [u8; 4] {
 }
 
 /// The bytes that are still to be read.
-struct Bytes<'a>(&'a [u8]);
+struct Unread<'a>(&'a [u8]);
 
-impl Bytes<'_> {
+impl Unread<'_> {
     /// The next bytes.
     fn take(&mut self, count: usize) -> Result<&[u8], FilmError> {
         let (taken, rest) = self
@@ -152,7 +152,7 @@ impl Bytes<'_> {
             .ok_or(WRONG)
     }
 
-    fn layout(&mut self, max_pixels: u64) -> Result<Layout, FilmError> {
+    fn layout(&mut self, max_pixels: u64) -> Result<FilmLayout, FilmError> {
         let [channels, values, summation] = self.array()?;
         let samples = self.number()?;
         let (x, y, width, height) = (
@@ -185,7 +185,7 @@ impl Bytes<'_> {
             width,
             height,
         };
-        Ok(Layout {
+        Ok(FilmLayout {
             crop,
             values,
             summation,
@@ -209,7 +209,7 @@ impl Bytes<'_> {
     }
 
     /// A node of a tile. The bytes of its sums are there before memory is taken for them.
-    fn node(&mut self, layout: &Layout, area: &Crop) -> Result<Node, FilmError> {
+    fn node(&mut self, layout: &FilmLayout, area: &Crop) -> Result<SumNode, FilmError> {
         let blocks = self.number()?..self.number()?;
         if !layout.is_node(&blocks) {
             return Err(FilmError::Corrupt("its samples are not whole blocks"));
@@ -220,9 +220,9 @@ impl Bytes<'_> {
         let sums: Result<_, _> = self
             .take(pixels * PIXEL)?
             .chunks_exact(PIXEL)
-            .map(|chunk| Bytes(chunk).sum(most))
+            .map(|chunk| Unread(chunk).sum(most))
             .collect();
-        sums.map(|sums| Node { blocks, sums })
+        sums.map(|sums| SumNode { blocks, sums })
     }
 
     /// The sum of a pixel, of at most so many samples.

@@ -22,7 +22,7 @@ pub(in crate::render) enum Summation {
 
 /// What the films of one picture have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) struct Layout {
+pub(in crate::render) struct FilmLayout {
     /// The rectangle of pixels.
     pub(in crate::render) crop: Crop,
     /// What the pixels show in the end.
@@ -34,16 +34,16 @@ pub(in crate::render) struct Layout {
 /// A film of a part of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartialFilm {
-    pub(super) layout: Layout,
+    pub(super) layout: FilmLayout,
     pub(super) counts: Counts,
     /// Of each tile of the picture the nodes that are there, in order, those of a whole subtree
     /// joined.
-    pub(super) tiles: Vec<Vec<Node>>,
+    pub(super) tiles: Vec<Vec<SumNode>>,
 }
 
 /// A node of the tree over the blocks of samples, with its sums of the pixels of a tile.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
+pub(super) struct SumNode {
     /// Its leaves.
     pub(super) blocks: Range<u32>,
     /// One for each pixel, row by row.
@@ -96,7 +96,7 @@ impl fmt::Display for FilmError {
 
 impl std::error::Error for FilmError {}
 
-impl Layout {
+impl FilmLayout {
     /// How many leaves the tree of sums has.
     pub(super) fn blocks(&self) -> u32 {
         match self.summation {
@@ -220,7 +220,7 @@ fn depths(film: &Tiled<PixelSum>) -> Vec<[f64; 3]> {
 
 impl PartialFilm {
     /// A film without samples.
-    pub(in crate::render) fn new(layout: Layout) -> Self {
+    pub(in crate::render) fn new(layout: FilmLayout) -> Self {
         Self {
             layout,
             counts: Counts::default(),
@@ -230,7 +230,7 @@ impl PartialFilm {
 
     /// A node of the tiles selected, as rendered.
     pub(in crate::render) fn of(
-        layout: Layout,
+        layout: FilmLayout,
         blocks: &Range<u32>,
         mut film: Tiled<PixelSum>,
         tiles: Option<Tiles>,
@@ -241,7 +241,7 @@ impl PartialFilm {
         for ((area, sums), nodes) in film.tiles_mut().into_iter().zip(&mut part.tiles) {
             if tiles.is_none_or(|tiles| tiles.contain([area.x, area.y])) {
                 let (blocks, sums) = (blocks.clone(), sums.to_vec());
-                nodes.push(Node { blocks, sums });
+                nodes.push(SumNode { blocks, sums });
             }
         }
         part
@@ -289,14 +289,14 @@ impl PartialFilm {
 }
 
 /// Where a node belongs among others; `None` if it shares a block with one of them.
-pub(super) fn position(nodes: &[Node], node: &Node) -> Option<usize> {
+pub(super) fn position(nodes: &[SumNode], node: &SumNode) -> Option<usize> {
     let at = nodes.partition_point(|other| other.blocks.end <= node.blocks.start);
-    let is_free = |next: &Node| next.blocks.start >= node.blocks.end;
+    let is_free = |next: &SumNode| next.blocks.start >= node.blocks.end;
     nodes.get(at).is_none_or(is_free).then_some(at)
 }
 
 /// Adds a node that shares no block with the others, and joins siblings.
-pub(super) fn insert(layout: &Layout, nodes: &mut Vec<Node>, node: Node) {
+pub(super) fn insert(layout: &FilmLayout, nodes: &mut Vec<SumNode>, node: SumNode) {
     let Some(mut at) = position(nodes, &node) else {
         return;
     };
@@ -316,7 +316,7 @@ pub(super) fn insert(layout: &Layout, nodes: &mut Vec<Node>, node: Node) {
     }
 }
 
-impl Node {
+impl SumNode {
     /// Adds the sibling to the right: each sum is left plus right, whichever came first.
     fn join(&mut self, right: Self) {
         self.blocks.end = right.blocks.end;

@@ -4,7 +4,7 @@ use super::{Selection, run};
 use crate::image::Image;
 use crate::plan::{Features, PixelClass};
 use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::partial::{FilmError, Layout, PartialFilm, Summation};
+use crate::render::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
 use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges, Stream};
 use crate::render::film::tiled::Tiled;
 use crate::render::film::{Counts, Crop, Film, Job};
@@ -121,7 +121,7 @@ impl<S: Geometry> World<S> {
     }
 
     /// Which pixels a job asks for, and how their samples are summed.
-    fn layout(&self, job: &Job) -> Layout {
+    fn layout(&self, job: &Job) -> FilmLayout {
         let (crop, summation) = match self.settings.mode {
             Mode::Path(samples) => {
                 let samples = limited(job, samples);
@@ -131,7 +131,7 @@ impl<S: Geometry> World<S> {
             Mode::Phong | Mode::Normal | Mode::Gooch(_) => (self.crop(job), Summation::InOrder),
         };
         let values = job.values;
-        Layout {
+        FilmLayout {
             crop,
             values,
             summation,
