@@ -25,9 +25,9 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 #[derive(Clone, Debug, Default)]
 pub struct Options {
     /// What the front end lets pass.
-    pub front: front::Options,
+    pub front: front::FrontOptions,
     /// What the proof lets pass.
-    pub valid: valid::Options,
+    pub valid: valid::ProofOptions,
 }
 
 /// Reads a scene in any form: the course's YAML, glTF, or the text or binary form of the IR, told
@@ -65,8 +65,8 @@ pub fn load(
 
 /// Refuses to choose by name where there is no choice: outside glTF assets, of which a scene may
 /// hold some. A time to be chosen there shows nothing else.
-fn refuse_choices(options: &front::Options, has_assets: bool, sink: &mut Sink) {
-    let front::Options {
+fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Sink) {
+    let front::FrontOptions {
         camera,
         animation,
         variant,

@@ -4,9 +4,7 @@
 
 use proptest::prelude::*;
 use rtc::math::{Vec3, camera_basis, cross, dot, pow};
-use rtc::render::{image_point, vogel};
-use rtc::valid::{Camera, Lens};
-use std::num::NonZeroU32;
+use rtc::render::{Camera, Projection, image_point, vogel};
 
 /// Four units in the last place.
 const FOUR_ULP: f64 = 4.0 * f64::EPSILON;
@@ -131,20 +129,15 @@ proptest! {
 }
 
 fn camera(eye: Vec3, center: Vec3, right: Vec3, up: Vec3) -> Camera {
-    let count = |n| NonZeroU32::new(n).unwrap();
-    let lens = Lens {
-        radius: rtc::math::NonNegative::new(0.0).unwrap(),
-        samples: count(1),
-    };
     Camera {
         eye,
         center,
         right,
         up,
-        width: count(400),
-        height: count(300),
-        lens,
-        projection: rtc::valid::Projection::Perspective,
+        size: [400, 300],
+        lens_radius: 0.0,
+        lens_samples: 1,
+        projection: Projection::Perspective,
     }
 }
 

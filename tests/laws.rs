@@ -5,6 +5,8 @@
 
 #[path = "small/laws.rs"]
 mod every;
+#[path = "small/parts.rs"]
+mod parts;
 mod scale;
 mod small;
 
@@ -99,6 +101,7 @@ fn tiles_are_parts_of_the_whole() {
     let whole = film(&scene, &WHOLE, 0).image;
     let tiles = Tiles {
         seed: 5,
+        first: 0,
         last: u64::MAX / 2,
     };
     let part = film(

@@ -92,7 +92,7 @@ fn earth() -> Scene {
 fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
     let scene = proven(earth());
     let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
-    let camera = scene.camera();
+    let camera = &world.camera;
     let valid::Shape::Sphere(sphere) = &scene.surfaces()[0].shape else {
         panic!("the earth is a sphere")
     };
@@ -120,7 +120,7 @@ fn the_outline_of_a_far_planet_is_exact_to_the_pixel() {
 fn the_day_side_of_a_far_planet_is_lit_all_over() {
     let scene = proven(earth());
     let world = World::<Shape>::prepare(&scene, &Plan::new(&scene, Rules::ALL));
-    let camera = scene.camera();
+    let camera = &world.camera;
     let film = film(&scene);
     let mut lit = 0;
     for (x, y) in (0..400).flat_map(|y| (0..400).map(move |x| (x, y))) {

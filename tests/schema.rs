@@ -108,9 +108,9 @@ fn errors(document: &Value) -> Vec<&'static str> {
     let mut map = SourceMap::default();
     let file = map.add("document", document.to_string().into_bytes());
     let mut sink = Sink::default();
-    let strict = front::Options {
+    let strict = front::FrontOptions {
         strict: true,
-        ..front::Options::default()
+        ..front::FrontOptions::default()
     };
     let options = pipeline::Options {
         front: strict,

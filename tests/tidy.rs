@@ -215,25 +215,22 @@ fn rooms_are_named_in_lists_by_super_and_through_others() {
     assert_eq!(named, BTreeMap::from(expected));
 }
 
-/// The rooms of `render` that see what was prepared, never the proof it was prepared from.
-const PREPARED: &[&str] = &[
-    "accel", "bsdf", "film", "light", "material", "ray.rs", "sampler", "shape", "texture",
-];
+/// The room of `render` that sees the proof: all others see what was prepared from it.
+const PREPARING: &str = "src/render/world/";
 
 #[test]
-fn what_is_prepared_knows_no_proof() {
-    let rooms = PREPARED.iter().map(|room| format!("src/render/{room}"));
-    let rooms: Vec<_> = rooms.collect();
-    let is_prepared = |file: &str| rooms.iter().any(|room| file.starts_with(room));
-    let named = House::read(&rust_files("src")).named();
-    let knowing: BTreeSet<_> = named
-        .into_iter()
-        .filter(|named| is_prepared(&named.file) && named.place[0] == "valid")
-        .map(|named| named.file)
+fn the_world_alone_knows_the_proof() {
+    let named = House::read(&rust_files("src")).named().into_iter();
+    let knowing = named
+        .filter(|named| named.place[0] == "valid")
+        .map(|named| named.file);
+    let knowing: BTreeSet<_> = knowing
+        .filter(|file| file.starts_with("src/render/"))
         .collect();
-    assert_eq!(knowing, BTreeSet::new());
-    let files = rust_files("src/render").into_iter();
-    assert!(files.filter(|(path, _)| is_prepared(path)).count() > 40);
+    let (world, others): (Vec<_>, Vec<_>) =
+        knowing.iter().partition(|file| file.starts_with(PREPARING));
+    assert_eq!(others, Vec::<&String>::new());
+    assert!(world.len() > 4, "{world:?}");
 }
 
 #[test]
@@ -243,6 +240,44 @@ fn the_proof_passes_on_nothing_of_the_representation() {
         let of_ir = exports.filter(|rest| rest.starts_with("crate::ir")).count();
         assert_eq!(of_ir, 0, "{path}");
     }
+}
+
+/// The stages that a noun of the scene goes through; it keeps its name in each.
+const STAGES: [&str; 5] = ["front", "ir", "valid", "render", "image"];
+
+/// The types at the top of a file that other files may name.
+fn shared_types(text: &str) -> impl Iterator<Item = &str> {
+    let items = text.lines().filter(|line| line.starts_with("pub"));
+    items.filter_map(|line| {
+        let mut words = line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        words.find(|word| matches!(*word, "struct" | "enum" | "union" | "trait" | "type"))?;
+        words.next()
+    })
+}
+
+#[test]
+fn no_two_types_have_one_name() {
+    let files = rust_files("src");
+    let mut homes: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for (path, text) in &files {
+        for name in shared_types(text) {
+            homes.entry(name).or_default().insert(path);
+        }
+    }
+    let is_in = |path: &str, rooms: &[&str]| {
+        let room = path.split('/').nth(1);
+        room.is_some_and(|room| rooms.contains(&room))
+    };
+    let is_noun = |paths: &BTreeSet<&str>| {
+        paths.iter().any(|path| is_in(path, &["ir", "valid"]))
+            && paths.iter().all(|path| is_in(path, &STAGES))
+    };
+    let nouns = homes
+        .values()
+        .filter(|paths| paths.len() > 1 && is_noun(paths));
+    assert!(nouns.count() > 20, "nouns are found");
+    homes.retain(|_, paths| paths.len() > 1 && !is_noun(paths));
+    assert!(homes.is_empty(), "{homes:#?}");
 }
 
 #[test]

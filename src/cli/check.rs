@@ -1,12 +1,12 @@
 //! `rtc check`: every file is checked, whatever is found in those before.
 
 use super::Failure;
-use super::args::Check;
+use super::args::CheckArgs;
 use super::input::Input;
 use super::talk::Talk;
 
 /// Checks the files and tells what was found.
-pub(super) fn run(args: &Check) -> Result<(), Failure> {
+pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut talk = Talk::as_result(&args.talk);
     let mut worst = Ok(());
     for path in &args.files {

@@ -5,7 +5,7 @@ use super::args::{Compile, Emit, Explanation, MessageFormat};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
 use super::output::{self, Output};
-use super::report::Report;
+use super::report::PlanReport;
 use super::talk::Talk;
 use crate::codec::{self, Form};
 use crate::emit;
@@ -35,7 +35,7 @@ fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure>
         } else {
             form
         };
-        output::to_stdout(Report::new(&proven, &input)?.print(form).as_bytes())?;
+        output::to_stdout(PlanReport::new(&proven, &input)?.print(form).as_bytes())?;
     }
     let Some(target) = target(args) else {
         return Ok(());

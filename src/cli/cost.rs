@@ -1,7 +1,7 @@
 //! `rtc cost`: what accuracy costs in a scene, as a table, for programs, and as a page.
 
 use super::Failure;
-use super::args::{self, Report};
+use super::args::{self, StudyFormat};
 use super::input::{self, Input};
 use super::interrupt::Interrupt;
 use super::output::Output;
@@ -40,9 +40,9 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     let about = about(input.name(), &proven.lowered.scene);
     let study = measure(args, about, &proven.lowered.scene, &interrupt)?;
     let report = match args.format {
-        Report::Table => study::table(&study),
-        Report::Csv => study::csv(&study),
-        Report::Json => study::json(&study),
+        StudyFormat::Table => study::table(&study),
+        StudyFormat::Csv => study::csv(&study),
+        StudyFormat::Json => study::json(&study),
     };
     if let Some(page) = page {
         page.commit(study::html(&study).as_bytes(), &interrupt)?;

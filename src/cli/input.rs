@@ -55,7 +55,7 @@ impl Input {
         } = reading;
         let limits = reading.limits();
         let options = Options {
-            front: front::Options {
+            front: front::FrontOptions {
                 strict: *strict,
                 lenient: *lenient,
                 asset_root: asset_root.clone(),
@@ -65,7 +65,7 @@ impl Input {
                 variant: variant.clone(),
                 camera: camera.clone(),
             },
-            valid: valid::Options { limits },
+            valid: valid::ProofOptions { limits },
         };
         let (mut map, mut sink) = (SourceMap::with_limits(limits), Sink::within(&limits));
         let from_stdin = path.as_os_str() == "-";
@@ -97,9 +97,9 @@ impl Input {
     pub(super) fn staged(
         path: &Path,
         reading: &Reading,
-        stage: &args::Stage,
+        stage: &args::StageArgs,
     ) -> Result<Self, Failure> {
-        let args::Stage {
+        let args::StageArgs {
             eye,
             center,
             up,

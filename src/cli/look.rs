@@ -1,7 +1,7 @@
 //! From film to file: which kind of file, which values the film must hold for it, and the bytes.
 
 use super::Failure;
-use super::args::{self, Bits};
+use super::args::{self, BitDepth};
 use crate::color::Tone;
 use crate::image::{self, Association, BackgroundFill, Image, Lost, Origin, Picture};
 use crate::render::{Aov, Background, Values};
@@ -9,8 +9,8 @@ use crate::valid::Mode;
 use std::path::Path;
 
 /// The look of a picture, as asked for.
-pub(super) struct Look {
-    kind: Kind,
+pub(super) struct OutputLook {
+    kind: OutputFormat,
     tone: Option<Tone>,
     stops: f64,
     background: BackgroundFill,
@@ -20,17 +20,17 @@ pub(super) struct Look {
 
 /// A kind of pixel file.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum OutputFormat {
     Png8,
     Png16,
     Exr,
 }
 
-impl Look {
-    pub(super) fn new(args: &args::Look, output: &Path) -> Result<Self, Failure> {
+impl OutputLook {
+    pub(super) fn new(args: &args::LookArgs, output: &Path) -> Result<Self, Failure> {
         let kind = kind(output, args.bits)?;
         let tone = args.tonemap.map(Tone::from);
-        if kind == Kind::Exr && tone.is_some_and(|tone| tone != Tone::None) {
+        if kind == OutputFormat::Exr && tone.is_some_and(|tone| tone != Tone::None) {
             return Err(Failure::Trouble(
                 "`--tonemap` is for PNG; an EXR holds linear values".to_owned(),
             ));
@@ -41,7 +41,7 @@ impl Look {
                 aovs.push(aov);
             }
         }
-        if kind != Kind::Exr && !aovs.is_empty() {
+        if kind != OutputFormat::Exr && !aovs.is_empty() {
             return Err(Failure::Trouble(
                 "`--aov` is for EXR; a PNG holds colours alone".to_owned(),
             ));
@@ -57,7 +57,7 @@ impl Look {
 
     /// Which values a film of this mode must hold.
     pub(super) fn values(&self, mode: &Mode) -> Values {
-        let is_plain = self.kind != Kind::Exr
+        let is_plain = self.kind != OutputFormat::Exr
             && self.stops == 0.0
             && self.tone.unwrap_or(Tone::None) == Tone::None;
         // Display values of the course are clamped sample by sample, as only its untouched pictures
@@ -94,9 +94,9 @@ impl Look {
     /// file, which grows by doubling.
     pub(super) fn memory(&self) -> usize {
         let channel = match self.kind {
-            Kind::Png8 => 1,
-            Kind::Png16 => 2,
-            Kind::Exr => 4,
+            OutputFormat::Png8 => 1,
+            OutputFormat::Png16 => 2,
+            OutputFormat::Exr => 4,
         };
         let layers: usize = self.aovs.iter().map(|aov| aov.channels().len()).sum();
         4 * channel * (4 + layers)
@@ -105,8 +105,10 @@ impl Look {
     /// The picture of a film.
     pub(super) fn develop(&self, film: Image, coverage: Vec<f32>, mode: &Mode) -> Picture {
         let (tone, association) = match self.kind {
-            Kind::Exr => (Tone::None, Association::Associated),
-            Kind::Png8 | Kind::Png16 => (self.tone.unwrap_or(mode.tone()), Association::Straight),
+            OutputFormat::Exr => (Tone::None, Association::Associated),
+            OutputFormat::Png8 | OutputFormat::Png16 => {
+                (self.tone.unwrap_or(mode.tone()), Association::Straight)
+            }
         };
         image::Look {
             stops: self.stops,
@@ -119,7 +121,7 @@ impl Look {
     /// What the file can't hold; a PNG clamps all colours alike.
     pub(super) fn lost(&self, picture: &Picture) -> Lost {
         let lost = picture.lost();
-        if self.kind == Kind::Exr {
+        if self.kind == OutputFormat::Exr {
             lost
         } else {
             Lost {
@@ -136,9 +138,9 @@ impl Look {
         origin: impl FnOnce() -> Origin,
     ) -> Result<Vec<u8>, Failure> {
         let form = match self.kind {
-            Kind::Png8 => image::FileFormat::Png8,
-            Kind::Png16 => image::FileFormat::Png16,
-            Kind::Exr => image::FileFormat::Exr(origin()),
+            OutputFormat::Png8 => image::FileFormat::Png8,
+            OutputFormat::Png16 => image::FileFormat::Png16,
+            OutputFormat::Exr => image::FileFormat::Exr(origin()),
         };
         picture
             .encode(&form)
@@ -146,20 +148,20 @@ impl Look {
     }
 }
 
-fn kind(output: &Path, bits: Option<Bits>) -> Result<Kind, Failure> {
+fn kind(output: &Path, bits: Option<BitDepth>) -> Result<OutputFormat, Failure> {
     let extension = output
         .extension()
         .map(|extension| extension.to_string_lossy().to_lowercase());
     let is_stdout = output.as_os_str() == "-";
     match (extension.as_deref(), bits) {
-        (Some("exr"), None) => Ok(Kind::Exr),
+        (Some("exr"), None) => Ok(OutputFormat::Exr),
         (Some("exr"), Some(_)) => Err(Failure::Trouble(
             "`--bits` is for PNG; an EXR holds 32-bit floats".to_owned(),
         )),
-        (Some("png"), Some(Bits::Sixteen)) => Ok(Kind::Png16),
-        (Some("png"), Some(Bits::Eight) | None) => Ok(Kind::Png8),
-        (None, Some(Bits::Sixteen)) if is_stdout => Ok(Kind::Png16),
-        (None, Some(Bits::Eight) | None) if is_stdout => Ok(Kind::Png8),
+        (Some("png"), Some(BitDepth::Sixteen)) => Ok(OutputFormat::Png16),
+        (Some("png"), Some(BitDepth::Eight) | None) => Ok(OutputFormat::Png8),
+        (None, Some(BitDepth::Sixteen)) if is_stdout => Ok(OutputFormat::Png16),
+        (None, Some(BitDepth::Eight) | None) if is_stdout => Ok(OutputFormat::Png8),
         _ => Err(Failure::Trouble(format!(
             "can't tell what `{}` is to be; name it .png or .exr",
             output.display()

@@ -11,12 +11,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 /// Counts the pixels done and the rays they took; all threads may tell it.
-pub(super) struct Progress {
+pub(super) struct RenderProgress {
     bar: ProgressBar,
     rays: Arc<AtomicU64>,
 }
 
-impl Progress {
+impl RenderProgress {
     /// Starts to count `pixels`; `quiet` means no bar.
     pub(super) fn start(pixels: u64, quiet: bool) -> Self {
         let shown = !quiet && io::stderr().is_terminal();

@@ -26,7 +26,7 @@ const MIN_PATHS: u64 = 20_480;
 const WIDTH: usize = 80;
 
 /// What is said of a plan.
-pub(super) struct Report {
+pub(super) struct PlanReport {
     /// The integrator, and out of how many it was chosen.
     kernel: (&'static str, usize),
     counter: Sampled,
@@ -131,7 +131,7 @@ impl Row {
     }
 }
 
-impl Report {
+impl PlanReport {
     /// Plans the picture and counts rays.
     pub(super) fn new(proven: &Proven, input: &Input) -> Result<Self, Failure> {
         let plan = Plan::new(&proven.scene, Rules::ALL);

@@ -2,7 +2,7 @@
 //! standard output.
 
 use super::{Failure, args, output};
-use crate::diag::{Format, Options, Printer, Severity, Sink};
+use crate::diag::{Format, PrintOptions, Printer, Severity, Sink};
 use crate::source::SourceMap;
 use anstream::{AutoStream, ColorChoice};
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ pub(super) struct Talk {
 
 impl Talk {
     /// For a command whose result is its findings: those for programs go to standard output.
-    pub(super) fn as_result(args: &args::Talk) -> Self {
+    pub(super) fn as_result(args: &args::TalkArgs) -> Self {
         let format = Format::from(args.message_format);
         Self {
             to_stdout: !matches!(format, Format::Human | Format::Short),
@@ -29,8 +29,8 @@ impl Talk {
     }
 
     /// For a command with another result: all findings go to standard error.
-    pub(super) fn beside_result(args: &args::Talk) -> Self {
-        let args::Talk {
+    pub(super) fn beside_result(args: &args::TalkArgs) -> Self {
+        let args::TalkArgs {
             message_format,
             color,
             max_errors,
@@ -46,7 +46,7 @@ impl Talk {
             .ok()
             .and_then(|columns| columns.parse().ok())
             .unwrap_or(WIDTH);
-        let options = Options {
+        let options = PrintOptions {
             color: is_colored(color),
             width,
             least,

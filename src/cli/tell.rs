@@ -1,6 +1,6 @@
 //! What rtc tells about itself: `rtc schema`, `rtc completions`, `rtc man`.
 
-use super::args::{Cli, Completions, Format, Man, Schema};
+use super::args::{Cli, Completions, Man, Schema, SchemaFormat};
 use super::{Failure, output};
 use crate::codec;
 use crate::front::course;
@@ -10,10 +10,10 @@ use clap::CommandFactory;
 /// Prints the JSON Schema of a format, or its page.
 pub(super) fn schema(args: &Schema) -> Result<(), Failure> {
     let text = match args.of {
-        Format::Scene => format!("{:#}\n", course::schema()),
-        Format::Ir => format!("{:#}\n", codec::schema()),
-        Format::Page => course::page(),
-        Format::Limits => budget::page(),
+        SchemaFormat::Scene => format!("{:#}\n", course::schema()),
+        SchemaFormat::Ir => format!("{:#}\n", codec::schema()),
+        SchemaFormat::Page => course::page(),
+        SchemaFormat::Limits => budget::page(),
     };
     output::to_stdout(text.as_bytes())
 }

@@ -7,7 +7,7 @@
 //! that takes 40 ms for a million triangles, and a mapped file may shrink under its reader.
 
 use super::columns::{self, Stock, Table};
-use super::section::{self, ALIGNMENT, Body, Entry};
+use super::section::{self, ALIGNMENT, SectionEntry, SectionWriter};
 use super::{
     CHECKSUMS_COUNT, Decoded, NotFinite, image, mesh, newer, span, tree, typed, wrong_shape,
 };
@@ -43,11 +43,11 @@ struct Header {
     #[serde(default)]
     tables: Vec<Table>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    images: Vec<image::Stored>,
+    images: Vec<image::StoredImage>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    meshes: Vec<mesh::Stored>,
+    meshes: Vec<mesh::StoredMesh>,
     #[serde(default)]
-    sections: Vec<Entry>,
+    sections: Vec<SectionEntry>,
 }
 
 /// The part of the header that every version has.
@@ -70,13 +70,13 @@ pub(super) fn looks_like(bytes: &[u8]) -> bool {
 }
 
 /// A scene as a container, its columns still where the scene has them.
-pub(super) struct Draft<'s> {
+pub(super) struct ContainerDraft<'s> {
     /// Preamble, header and padding.
     head: Vec<u8>,
-    body: Body<'s>,
+    body: SectionWriter<'s>,
 }
 
-impl Draft<'_> {
+impl ContainerDraft<'_> {
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         out.write_all(&self.head)?;
         self.body.write(out)
@@ -84,7 +84,7 @@ impl Draft<'_> {
 }
 
 /// Encodes a scene.
-pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
+pub(super) fn encode(scene: &Scene) -> Result<ContainerDraft<'_>, NotFinite> {
     let Scene {
         camera,
         settings,
@@ -100,7 +100,7 @@ pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
     if !meshes.iter().all(is_finite) {
         return Err(NotFinite);
     }
-    let mut body = Body::default();
+    let mut body = SectionWriter::default();
     let tables = vec![
         columns::pack("lights", lights, &mut body)?,
         columns::pack("textures", textures, &mut body)?,
@@ -132,7 +132,7 @@ pub(super) fn encode(scene: &Scene) -> Result<Draft<'_>, NotFinite> {
         meshes,
         sections: std::mem::take(&mut body.entries),
     };
-    Ok(Draft {
+    Ok(ContainerDraft {
         head: head(&header),
         body,
     })

@@ -7,7 +7,7 @@
 
 use super::binary::Container;
 use super::run::{self, Run};
-use super::section::{Body, Content, Element, Section};
+use super::section::{Content, ElementType, Section, SectionWriter};
 use super::{Decoded, NotFinite, tree};
 use crate::diag::codes;
 use serde::{Deserialize, Serialize};
@@ -22,13 +22,13 @@ pub(super) struct Table {
     pub(super) key: String,
     /// The section with the kind of each entity, in order.
     order: usize,
-    kinds: Vec<Kind>,
+    kinds: Vec<EntityShape>,
 }
 
 /// Entities that differ only in their numbers.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Kind {
+struct EntityShape {
     /// The entity with a null for each number, long list or long text.
     entity: Value,
     /// What each null stands for, in order.
@@ -65,7 +65,7 @@ struct Taken {
 pub(super) fn pack<T: Serialize>(
     key: &str,
     entities: &[T],
-    body: &mut Body<'_>,
+    body: &mut SectionWriter<'_>,
 ) -> Result<Table, NotFinite> {
     let mut found: BTreeMap<String, u32> = BTreeMap::new();
     let mut kinds: Vec<(Value, Taken)> = Vec::new();
@@ -88,7 +88,7 @@ pub(super) fn pack<T: Serialize>(
             }
         }
     }
-    let order = body.push(Element::U32, 1, Content::Bytes(order.into()));
+    let order = body.push(ElementType::U32, 1, Content::Bytes(order.into()));
     let kinds = kinds
         .into_iter()
         .map(|(entity, taken)| store(entity, taken, body))
@@ -100,7 +100,7 @@ pub(super) fn pack<T: Serialize>(
     })
 }
 
-fn store(entity: Value, taken: Taken, body: &mut Body<'_>) -> Kind {
+fn store(entity: Value, taken: Taken, body: &mut SectionWriter<'_>) -> EntityShape {
     let Taken {
         slots: numbers,
         floats,
@@ -108,16 +108,16 @@ fn store(entity: Value, taken: Taken, body: &mut Body<'_>) -> Kind {
         runs,
     } = taken;
     let floats = body.push(
-        Element::F64,
+        ElementType::F64,
         count(&numbers, Slot::F64),
         Content::Bytes(floats.into()),
     );
     let integers = body.push(
-        Element::U32,
+        ElementType::U32,
         count(&numbers, Slot::U32),
         Content::Bytes(integers.into()),
     );
-    Kind {
+    EntityShape {
         entity,
         numbers,
         floats,
@@ -132,7 +132,7 @@ fn count(numbers: &[Slot], slot: Slot) -> usize {
 
 /// Replaces each number, long list and long text of the tree by a null. Integers beyond u32 stay:
 /// the IR has none.
-fn take(tree: &mut Value, taken: &mut Taken, body: &mut Body<'_>) {
+fn take(tree: &mut Value, taken: &mut Taken, body: &mut SectionWriter<'_>) {
     if let Some(run) = run::store(tree, body) {
         taken.runs.push(run);
         taken.slots.push(Slot::Run);
@@ -212,7 +212,7 @@ pub(super) fn unpack(
     let order = stock
         .sections
         .get(table.order)
-        .filter(|order| order.holds(Element::U32, 1, order.len()));
+        .filter(|order| order.holds(ElementType::U32, 1, order.len()));
     let order = order.ok_or_else(|| malformed("has no section for the order of its entities"))?;
     let order: Vec<u32> = (0..order.len()).map(|at| order.u32(at)).collect();
     let mut records = vec![0_usize; table.kinds.len()];
@@ -243,7 +243,7 @@ pub(super) fn unpack(
 }
 
 /// Where what the nulls of one kind stand for is read from.
-struct Source<'a> {
+struct NullSource<'a> {
     slots: std::iter::Cycle<std::slice::Iter<'a, Slot>>,
     floats: &'a Section<'a>,
     integers: &'a Section<'a>,
@@ -253,9 +253,9 @@ struct Source<'a> {
     sections: &'a [Section<'a>],
 }
 
-impl Kind {
+impl EntityShape {
     /// The source of this kind's numbers, if the sections hold `records` records of them.
-    fn source<'a>(&'a self, sections: &'a [Section<'a>], records: usize) -> Option<Source<'a>> {
+    fn source<'a>(&'a self, sections: &'a [Section<'a>], records: usize) -> Option<NullSource<'a>> {
         let Self {
             entity,
             numbers,
@@ -268,12 +268,12 @@ impl Kind {
                 .get(*index)
                 .filter(|section| section.holds(element, count(numbers, slot), records))
         };
-        let floats = section(floats, Element::F64, Slot::F64)?;
-        let integers = section(integers, Element::U32, Slot::U32)?;
+        let floats = section(floats, ElementType::F64, Slot::F64)?;
+        let integers = section(integers, ElementType::U32, Slot::U32)?;
         let fits = nulls(entity) == numbers.len()
             && count(numbers, Slot::Run).checked_mul(records) == Some(runs.len());
         let (slots, runs) = (numbers.iter().cycle(), runs.iter());
-        fits.then_some(Source {
+        fits.then_some(NullSource {
             slots,
             floats,
             integers,
@@ -295,7 +295,7 @@ fn nulls(tree: &Value) -> usize {
 }
 
 /// Replaces each null by what it stands for.
-fn put(tree: &mut Value, source: &mut Source) {
+fn put(tree: &mut Value, source: &mut NullSource) {
     match tree {
         Value::Bool(_) | Value::String(_) | Value::Number(_) => {}
         Value::Array(items) => items.iter_mut().for_each(|item| put(item, source)),
@@ -304,7 +304,7 @@ fn put(tree: &mut Value, source: &mut Source) {
     }
 }
 
-impl Source<'_> {
+impl NullSource<'_> {
     fn next(&mut self) -> Value {
         match self
             .slots

@@ -2,7 +2,7 @@
 //! without a detour.
 
 use super::columns::Stock;
-use super::section::{Body, Content, Element};
+use super::section::{Content, ElementType, SectionWriter};
 use crate::ir::{Image, Pixels};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 /// An image, with the section of its pixels in place of them.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Stored {
+pub(super) struct StoredImage {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     name: String,
     width: u32,
@@ -20,7 +20,7 @@ pub(super) struct Stored {
 }
 
 /// Puts the pixels of an image into a section.
-pub(super) fn store<'s>(image: &'s Image, body: &mut Body<'s>) -> Stored {
+pub(super) fn store<'s>(image: &'s Image, body: &mut SectionWriter<'s>) -> StoredImage {
     let Image {
         name,
         width,
@@ -28,8 +28,8 @@ pub(super) fn store<'s>(image: &'s Image, body: &mut Body<'s>) -> Stored {
         kind,
         pixels,
     } = image;
-    let pixels = body.push(Element::U8, 1, Content::Bytes(Cow::Borrowed(pixels)));
-    Stored {
+    let pixels = body.push(ElementType::U8, 1, Content::Bytes(Cow::Borrowed(pixels)));
+    StoredImage {
         name: name.clone(),
         width: *width,
         height: *height,
@@ -38,7 +38,7 @@ pub(super) fn store<'s>(image: &'s Image, body: &mut Body<'s>) -> Stored {
     }
 }
 
-impl Stored {
+impl StoredImage {
     /// The image; none if its section is not there, is of another kind, or was taken before.
     pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Image> {
         let Self {

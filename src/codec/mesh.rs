@@ -2,14 +2,14 @@
 //! without a detour.
 
 use super::columns::Stock;
-use super::section::{Body, Content, Element, Section};
+use super::section::{Content, ElementType, Section, SectionWriter};
 use crate::ir::{Column, Mesh};
 use serde::{Deserialize, Serialize};
 
 /// A mesh, with the section of each column in place of its numbers; none where the column is empty.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Stored {
+pub(super) struct StoredMesh {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     name: String,
     positions: Option<usize>,
@@ -27,7 +27,7 @@ pub(super) struct Stored {
 }
 
 /// Puts the columns of a mesh into sections.
-pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
+pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredMesh {
     let Mesh {
         name,
         positions,
@@ -38,7 +38,7 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
         colors,
         triangles,
     } = mesh;
-    Stored {
+    StoredMesh {
         name: name.clone(),
         positions: put(positions, body),
         normals: put(normals, body),
@@ -46,23 +46,27 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut Body<'s>) -> Stored {
         second_uvs: put(second_uvs, body),
         tangents: put(tangents, body),
         colors: put(colors, body),
-        triangles: body.push(Element::U32, 3, Content::Whole(triangles.as_flattened())),
+        triangles: body.push(
+            ElementType::U32,
+            3,
+            Content::Whole(triangles.as_flattened()),
+        ),
     }
 }
 
-fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut Body<'s>) -> Option<usize> {
+fn put<'s, const N: usize>(column: &'s Column<N>, body: &mut SectionWriter<'s>) -> Option<usize> {
     match column {
         _ if column.is_empty() => None,
         Column::Single(vectors) => {
-            Some(body.push(Element::F32, N, Content::Single(vectors.as_flattened())))
+            Some(body.push(ElementType::F32, N, Content::Single(vectors.as_flattened())))
         }
         Column::Double(vectors) => {
-            Some(body.push(Element::F64, N, Content::Double(vectors.as_flattened())))
+            Some(body.push(ElementType::F64, N, Content::Double(vectors.as_flattened())))
         }
     }
 }
 
-impl Stored {
+impl StoredMesh {
     /// The mesh; none if a section is not there, is of another kind, or was taken before.
     pub(super) fn load(&self, stock: &mut Stock<'_>) -> Option<Mesh> {
         let triangles = stock.take(self.triangles)?;
@@ -74,7 +78,9 @@ impl Stored {
             second_uvs: column(self.second_uvs, stock)?,
             tangents: column(self.tangents, stock)?,
             colors: column(self.colors, stock)?,
-            triangles: triangles.vectors(Element::U32, u32::from_le_bytes)?.into(),
+            triangles: triangles
+                .vectors(ElementType::U32, u32::from_le_bytes)?
+                .into(),
         })
     }
 }
@@ -86,12 +92,12 @@ fn column<const N: usize>(section: Option<usize>, stock: &mut Stock<'_>) -> Opti
     let section: &Section<'_> = stock.take(section)?;
     let single = || {
         section
-            .vectors(Element::F32, f32::from_le_bytes)
+            .vectors(ElementType::F32, f32::from_le_bytes)
             .map(Column::from)
     };
     single().or_else(|| {
         section
-            .vectors(Element::F64, f64::from_le_bytes)
+            .vectors(ElementType::F64, f64::from_le_bytes)
             .map(Column::from)
     })
 }

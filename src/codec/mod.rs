@@ -69,7 +69,7 @@ pub struct Encoded<'s>(Writing<'s>);
 
 enum Writing<'s> {
     Text(Vec<u8>),
-    Binary(binary::Draft<'s>),
+    Binary(binary::ContainerDraft<'s>),
 }
 
 impl Encoded<'_> {

@@ -3,7 +3,7 @@
 //!
 //! Which they are is seen from the values alone; no entity of the IR is named here.
 
-use super::section::{Body, Content, Element, Section};
+use super::section::{Content, ElementType, Section, SectionWriter};
 use serde::{Deserialize, Serialize};
 use serde_json::{Number, Value};
 
@@ -24,12 +24,12 @@ pub(super) struct Run {
 }
 
 /// Puts the value into a section if it is long and regular.
-pub(super) fn store(value: &Value, body: &mut Body<'_>) -> Option<Run> {
+pub(super) fn store(value: &Value, body: &mut SectionWriter<'_>) -> Option<Run> {
     match value {
         Value::String(text) if text.len() > LONG_TEXT => {
             let bytes = Content::Bytes(text.as_bytes().to_vec().into());
             Some(Run {
-                section: body.push(Element::U8, 1, bytes),
+                section: body.push(ElementType::U8, 1, bytes),
                 nested: false,
             })
         }
@@ -52,7 +52,7 @@ pub(super) fn store(value: &Value, body: &mut Body<'_>) -> Option<Run> {
 
 /// The bytes of all numbers, if each item is one, or a list of `stride` of them, and all are of one
 /// element.
-fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)> {
+fn numbers(items: &[Value], stride: Option<usize>) -> Option<(ElementType, Vec<u8>)> {
     let mut flat = Vec::with_capacity(items.len());
     for item in items {
         match (item, stride) {
@@ -68,7 +68,7 @@ fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)>
     let integers: Option<Vec<u32>> = flat.iter().map(|number| as_u32(number)).collect();
     if let Some(integers) = integers {
         return Some((
-            Element::U32,
+            ElementType::U32,
             integers
                 .iter()
                 .flat_map(|number| number.to_le_bytes())
@@ -81,7 +81,7 @@ fn numbers(items: &[Value], stride: Option<usize>) -> Option<(Element, Vec<u8>)>
         .collect();
     floats.map(|floats| {
         (
-            Element::F64,
+            ElementType::F64,
             floats
                 .iter()
                 .flat_map(|number| number.to_le_bytes())
@@ -109,11 +109,11 @@ pub(super) fn as_u32(number: &Number) -> Option<u32> {
 /// Element `at` of a section of numbers.
 pub(super) fn number(section: &Section<'_>, at: usize) -> Value {
     match section.element {
-        Element::F64 => Number::from_f64(section.f64(at))
+        ElementType::F64 => Number::from_f64(section.f64(at))
             .map(Value::Number)
             .expect("sections hold finite numbers: checked on opening"),
-        Element::U32 => Value::from(section.u32(at)),
-        Element::F32 | Element::U8 => {
+        ElementType::U32 => Value::from(section.u32(at)),
+        ElementType::F32 | ElementType::U8 => {
             unreachable!(
                 "tables hold no such numbers: refused in `Run::is_sound` and `Section::holds`"
             )
@@ -125,9 +125,9 @@ impl Run {
     /// True if the section holds what this run says.
     pub(super) fn is_sound(&self, section: &Section<'_>) -> bool {
         match section.element {
-            Element::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
-            Element::F32 => false,
-            Element::F64 | Element::U32 => {
+            ElementType::U8 => !self.nested && section.stride == 1 && section.text().is_some(),
+            ElementType::F32 => false,
+            ElementType::F64 | ElementType::U32 => {
                 section.stride > 0 && (self.nested || section.stride == 1)
             }
         }

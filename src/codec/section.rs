@@ -19,7 +19,7 @@ pub(super) const ALIGNMENT: usize = 64;
 /// What a section is a run of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) enum Element {
+pub(super) enum ElementType {
     F32,
     F64,
     U32,
@@ -27,7 +27,7 @@ pub(super) enum Element {
     U8,
 }
 
-impl Element {
+impl ElementType {
     fn bytes(self) -> usize {
         match self {
             Self::F64 => 8,
@@ -40,12 +40,12 @@ impl Element {
 /// One row of the table.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Entry {
+pub(super) struct SectionEntry {
     /// In bytes from the start of the first section.
     offset: u64,
     /// In bytes.
     length: u64,
-    element: Element,
+    element: ElementType,
     /// Elements of one record.
     stride: usize,
     /// The hash as 16 hexadecimal digits: JSON numbers lose bits in many readers.
@@ -100,23 +100,28 @@ fn write_numbers<T: Copy, const B: usize>(
 
 /// The sections of a file to be written.
 #[derive(Default)]
-pub(super) struct Body<'s> {
+pub(super) struct SectionWriter<'s> {
     contents: Vec<Content<'s>>,
     /// In bytes.
     length: usize,
-    pub(super) entries: Vec<Entry>,
+    pub(super) entries: Vec<SectionEntry>,
 }
 
-impl<'s> Body<'s> {
+impl<'s> SectionWriter<'s> {
     /// Adds a section of records of `stride` elements and returns its index.
-    pub(super) fn push(&mut self, element: Element, stride: usize, content: Content<'s>) -> usize {
+    pub(super) fn push(
+        &mut self,
+        element: ElementType,
+        stride: usize,
+        content: Content<'s>,
+    ) -> usize {
         let mut hash = Hash::default();
         content.write(&mut hash).expect("hashing does not fail");
         let (offset, length) = (self.length.next_multiple_of(ALIGNMENT), content.length());
         self.length = offset + length;
         self.contents.push(content);
         let (offset, length, xxh3) = (offset as u64, length as u64, spelt(hash.0.digest()));
-        self.entries.push(Entry {
+        self.entries.push(SectionEntry {
             offset,
             length,
             element,
@@ -163,13 +168,13 @@ fn spelt(hash: u64) -> String {
 /// A section whose place, hash and numbers are checked.
 pub(super) struct Section<'a> {
     bytes: &'a [u8],
-    pub(super) element: Element,
+    pub(super) element: ElementType,
     /// Elements of one record.
     pub(super) stride: usize,
 }
 
 impl Section<'_> {
-    /// Number `index` of a section of [`Element::F64`].
+    /// Number `index` of a section of [`ElementType::F64`].
     pub(super) fn f64(&self, index: usize) -> f64 {
         let bytes = self.bytes[8 * index..]
             .first_chunk()
@@ -177,7 +182,7 @@ impl Section<'_> {
         f64::from_le_bytes(*bytes)
     }
 
-    /// Number `index` of a section of [`Element::U32`].
+    /// Number `index` of a section of [`ElementType::U32`].
     pub(super) fn u32(&self, index: usize) -> u32 {
         let bytes = self.bytes[4 * index..]
             .first_chunk()
@@ -185,12 +190,12 @@ impl Section<'_> {
         u32::from_le_bytes(*bytes)
     }
 
-    /// The bytes of a section of [`Element::U8`].
+    /// The bytes of a section of [`ElementType::U8`].
     pub(super) fn octets(&self) -> Option<&[u8]> {
-        (self.element == Element::U8 && self.stride == 1).then_some(self.bytes)
+        (self.element == ElementType::U8 && self.stride == 1).then_some(self.bytes)
     }
 
-    /// The text of a section of [`Element::U8`], if it is UTF-8.
+    /// The text of a section of [`ElementType::U8`], if it is UTF-8.
     pub(super) fn text(&self) -> Option<&str> {
         self.octets()
             .and_then(|bytes| std::str::from_utf8(bytes).ok())
@@ -200,7 +205,7 @@ impl Section<'_> {
     /// none of another.
     pub(super) fn vectors<T: Copy + Default, const N: usize, const B: usize>(
         &self,
-        element: Element,
+        element: ElementType,
         number: impl Fn([u8; B]) -> T,
     ) -> Option<Vec<[T; N]>> {
         if self.element != element || element.bytes() != B || self.stride != N {
@@ -218,15 +223,15 @@ impl Section<'_> {
     /// Where the first float that is not finite stands, in bytes from the start of the section.
     fn not_finite(&self) -> Option<usize> {
         let position = match self.element {
-            Element::F32 => first(self.bytes, |bytes| f32::from_le_bytes(bytes).is_finite()),
-            Element::F64 => first(self.bytes, |bytes| f64::from_le_bytes(bytes).is_finite()),
-            Element::U32 | Element::U8 => None,
+            ElementType::F32 => first(self.bytes, |bytes| f32::from_le_bytes(bytes).is_finite()),
+            ElementType::F64 => first(self.bytes, |bytes| f64::from_le_bytes(bytes).is_finite()),
+            ElementType::U32 | ElementType::U8 => None,
         };
         position.map(|index| index * self.element.bytes())
     }
 
     /// True if it is `records` records of `stride` elements.
-    pub(super) fn holds(&self, element: Element, stride: usize, records: usize) -> bool {
+    pub(super) fn holds(&self, element: ElementType, stride: usize, records: usize) -> bool {
         self.element == element
             && self.stride == stride
             && Some(self.len()) == stride.checked_mul(records)
@@ -242,7 +247,7 @@ impl Section<'_> {
 pub(super) fn open<'a>(
     file: &Container<'a>,
     mut end: usize,
-    entries: &[Entry],
+    entries: &[SectionEntry],
 ) -> Decoded<Vec<Section<'a>>> {
     let body = end.next_multiple_of(ALIGNMENT);
     padding(file, end, body)?;
@@ -288,11 +293,11 @@ fn padding(file: &Container, start: usize, end: usize) -> Decoded<()> {
 fn bytes_of<'a>(
     file: &Container<'a>,
     index: usize,
-    entry: &Entry,
+    entry: &SectionEntry,
     start: usize,
     body: usize,
 ) -> Decoded<&'a [u8]> {
-    let Entry {
+    let SectionEntry {
         offset,
         length,
         element,

@@ -106,7 +106,7 @@ pub(super) fn decode(
     let (base, text) = text
         .strip_prefix(BOM)
         .map_or((0, text), |rest| (BOM.len(), rest));
-    let source = Source { file, base, text };
+    let source = TextSlice { file, base, text };
     scene(&source, bytes.len()).map_err(|stop| match stop {
         Stop::Said(fault) => vec![*fault],
         Stop::Json(error) => source.faults(&error, budget),
@@ -121,8 +121,8 @@ enum Stop {
     Json(serde_json::Error),
 }
 
-fn scene(source: &Source<'_>, end: usize) -> Result<Scene, Stop> {
-    let Source { file, text, .. } = *source;
+fn scene(source: &TextSlice<'_>, end: usize) -> Result<Scene, Stop> {
+    let TextSlice { file, text, .. } = *source;
     let Head { ir_version } = serde_json::from_str(text).map_err(Stop::Json)?;
     if ir_version > VERSION {
         let (start, end) = source.version_place();
@@ -137,8 +137,8 @@ fn scene(source: &Source<'_>, end: usize) -> Result<Scene, Stop> {
 }
 
 /// The scene that a document of an older version stands for.
-fn older(source: &Source<'_>, version: u32, end: usize) -> Decoded<Scene> {
-    let Source { file, base, text } = *source;
+fn older(source: &TextSlice<'_>, version: u32, end: usize) -> Decoded<Scene> {
+    let TextSlice { file, base, text } = *source;
     let tree = serde_json::from_str::<Value>(text);
     let mut tree = tree.map_err(|error| Box::new(source.fault(&error, None)))?;
     tree.as_object_mut()
@@ -152,7 +152,7 @@ fn not_utf8(file: FileId, at: usize) -> Box<Diagnostic> {
 }
 
 /// A text that begins `base` bytes into its file.
-struct Source<'a> {
+struct TextSlice<'a> {
     file: FileId,
     base: usize,
     text: &'a str,
@@ -164,7 +164,7 @@ const NOT_JSON: &str = "the text is not JSON";
 /// Bytes that each node of a tree may take while the tree grows.
 const NODE: u64 = 48;
 
-impl<'a> Source<'a> {
+impl<'a> TextSlice<'a> {
     /// The fault that `serde_json` stopped at.
     fn fault(&self, error: &serde_json::Error, tree: Option<&Tree<'_>>) -> Diagnostic {
         let full = error.to_string();
@@ -226,7 +226,7 @@ impl<'a> Source<'a> {
             return std::iter::once(first_fault).chain(second).collect();
         }
         let mut faults = Vec::new();
-        for faults::Fault {
+        for faults::TextFault {
             span,
             pointer,
             what,

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 /// What a front end lets pass, and where it may look.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct FrontOptions {
     /// Unknown keys are errors.
     pub strict: bool,
     /// Mistakes with one sensible repair are repaired, with a warning that says what was done.

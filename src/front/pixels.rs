@@ -3,7 +3,7 @@
 
 use super::over_limit;
 use crate::diag::{Diagnostic, codes};
-use crate::image::{Cost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
+use crate::image::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
 use crate::ir;
 use crate::source::{Budget, Exceeded, Resource};
 
@@ -89,8 +89,8 @@ pub(super) fn refusal(fault: &Refused, what: &str, formats: &'static str) -> Dia
     Diagnostic::new(code, format!("{what} {fault}")).hint(hint)
 }
 
-fn charge(cost: Cost, budget: &Budget) -> Result<(), Refused> {
-    let Cost {
+fn charge(cost: DecodeCost, budget: &Budget) -> Result<(), Refused> {
+    let DecodeCost {
         pixels,
         memory,
         scratch,

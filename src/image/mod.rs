@@ -10,7 +10,7 @@ mod radiance;
 mod range;
 mod texels;
 
-pub use decode::{Cost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
+pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
 pub use look::{Association, BackgroundFill, Look};
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;

@@ -1,7 +1,7 @@
 //! Pictures of light read: Radiance HDR and OpenEXR, told apart by content, to 32-bit floats. A
 //! file is opened first, as a [`super::PixelFile`] is.
 
-use super::decode::{Cost, DecodeError, Size};
+use super::decode::{DecodeCost, DecodeError, ImageSize};
 use ::exr::meta::MetaData;
 use ::exr::meta::header::Header;
 use ::exr::prelude::{ReadChannels, ReadLayers, Vec2, read};
@@ -26,7 +26,7 @@ pub struct Radiance {
 
 /// A picture of light of which the header was read.
 pub struct RadianceFile<'a> {
-    size: Size,
+    size: ImageSize,
     /// Bytes that the decoder takes for what it has read and not yet handed on.
     block: u64,
     decoder: RowDecoder<'a>,
@@ -57,9 +57,9 @@ impl<'a> RadianceFile<'a> {
 
     /// What decoding it will take, and the table by which its light is found: eight bytes a pixel.
     #[must_use]
-    pub fn cost(&self) -> Cost {
+    pub fn cost(&self) -> DecodeCost {
         let pixels = self.size.pixels();
-        Cost {
+        DecodeCost {
             pixels,
             memory: pixels.saturating_mul(PIXEL as u64 + 8),
             scratch: self.block,
@@ -121,7 +121,7 @@ fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
     let decoder =
         HdrDecoder::with_strictness(Cursor::new(bytes), is_strict).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
-    let size = Size::within(most_pixels, width, height)?;
+    let size = ImageSize::within(most_pixels, width, height)?;
     Ok(RadianceFile {
         size,
         block: u64::from(width) * 4,
@@ -132,7 +132,7 @@ fn open_hdr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeEr
 fn open_exr(bytes: &[u8], most_pixels: u64) -> Result<RadianceFile<'_>, DecodeError> {
     let meta =
         MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(DecodeError::damaged)?;
-    let (mut largest, mut block) = (None::<Size>, 0);
+    let (mut largest, mut block) = (None::<ImageSize>, 0);
     for header in &meta.headers {
         let size = size_of(most_pixels, header.layer_size)?;
         largest = largest
@@ -157,7 +157,7 @@ fn scratch(header: &Header) -> u64 {
 
 /// Decodes into the buffer, which has room for the largest layer, and says of what size the layer
 /// is that was decoded.
-fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(Size, Vec<u8>), DecodeError> {
+fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(ImageSize, Vec<u8>), DecodeError> {
     let buffer = std::cell::Cell::new(buffer);
     let image = read()
         .no_deep_data()
@@ -185,9 +185,9 @@ fn decode_exr(file: &[u8], buffer: Vec<u8>) -> Result<(Size, Vec<u8>), DecodeErr
     Ok((size_of(u64::MAX, layer.size)?, layer.channel_data.pixels.1))
 }
 
-fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<Size, DecodeError> {
+fn size_of(most_pixels: u64, size: Vec2<usize>) -> Result<ImageSize, DecodeError> {
     let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-    Size::within(most_pixels, side(size.width()), side(size.height()))
+    ImageSize::within(most_pixels, side(size.width()), side(size.height()))
 }
 
 #[cfg(test)]

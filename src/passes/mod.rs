@@ -9,4 +9,4 @@ mod studio;
 
 pub use overrides::Overrides;
 pub use settings::set;
-pub use stage::{EnvironmentOverride, Integrator, Stage, Sun, View};
+pub use stage::{EnvironmentOverride, IntegratorChoice, Stage, Sun, View};

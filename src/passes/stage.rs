@@ -15,7 +15,7 @@ pub struct Stage {
     /// From where the scene is seen.
     pub view: View,
     /// By which integrator.
-    pub integrator: Option<Integrator>,
+    pub integrator: Option<IntegratorChoice>,
     /// What surrounds it.
     pub environment: Option<EnvironmentOverride>,
     /// The suns that are added.
@@ -39,7 +39,7 @@ pub struct View {
 
 /// By which rules light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Integrator {
+pub enum IntegratorChoice {
     /// Whitted's: direct light of lights without extent, mirrors and refraction.
     Whitted,
     /// All paths.
@@ -89,8 +89,8 @@ impl Stage {
         }
         let adds_light = !self.suns.is_empty() || self.environment.is_some();
         match self.integrator {
-            Some(Integrator::Path) => trace_paths(scene),
-            Some(Integrator::Whitted) => leave_paths(scene),
+            Some(IntegratorChoice::Path) => trace_paths(scene),
+            Some(IntegratorChoice::Whitted) => leave_paths(scene),
             // As of a scene text: what has a sun or a sky is shown by its paths.
             None if adds_light && scene.settings.mode == Mode::Phong => trace_paths(scene),
             None => {}

@@ -177,7 +177,7 @@ impl Meter {
     /// so many.
     #[must_use]
     pub fn finding(&self, lowered: &Lowered, pixel: [u32; 2]) -> Diagnostic {
-        let ([x, y], Key { place, name, value }) = (pixel, key(lowered));
+        let ([x, y], RayKey { place, name, value }) = (pixel, key(lowered));
         let message = format!(
             "the picture takes more than {} rays: they run out at pixel {x}, {y}",
             self.limit
@@ -196,16 +196,16 @@ impl Meter {
 }
 
 /// A key of a scene that multiplies rays.
-struct Key {
+struct RayKey {
     place: Place,
     name: &'static str,
     value: u32,
 }
 
 /// The key that multiplies rays most: by branching, if it does so at all.
-fn key(lowered: &Lowered) -> Key {
+fn key(lowered: &Lowered) -> RayKey {
     let settings = &lowered.scene.settings;
-    let setting = |field, name, value| Key {
+    let setting = |field, name, value| RayKey {
         place: Place::new(Noun::Settings, 0, field),
         name,
         value,
@@ -230,7 +230,7 @@ fn key(lowered: &Lowered) -> Key {
     let glossy = phongs().filter_map(|(index, phong)| {
         let phong = phong.filter(|phong| phong.ks > 0.0 && phong.glossy_samples > 1)?;
         let place = Place::new(Noun::Material, index, Field::GlossySamples);
-        Some(Key {
+        Some(RayKey {
             place,
             name: "glossySamples",
             value: phong.glossy_samples,

@@ -77,7 +77,7 @@ pub fn file(path: &Path) {
     let name = map.name(file).to_owned();
     // SARIF says what JSON says, after a long table that is always the same.
     for format in [Format::Human, Format::Short, Format::Json, Format::Github] {
-        let options = diag::Options {
+        let options = diag::PrintOptions {
             color: false,
             width: 100,
             least: Severity::Note,

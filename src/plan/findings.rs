@@ -1,7 +1,7 @@
 //! What is known of a scene of the course before any rule, and what the rules found.
 
 use super::body::{Body, bodies};
-use super::light::Lights;
+use super::light::LightFindings;
 use super::rules::{Rule, Rules};
 use super::summary::{MaterialSummary, constants};
 use super::visibility::Visibility;
@@ -87,7 +87,7 @@ impl<'scene> Facts<'scene> {
 pub(super) struct Findings<'scene> {
     pub(super) facts: Facts<'scene>,
     pub(super) visibility: Visibility,
-    pub(super) lights: Lights,
+    pub(super) lights: LightFindings,
     /// Bounces planned.
     pub(super) max_depth: u32,
     /// Bounces that the language asks for.

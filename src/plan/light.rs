@@ -9,7 +9,7 @@ use crate::math::Vec3;
 use crate::valid::{CourseLight, Mode};
 
 /// What is left of the lights.
-pub(super) struct Lights {
+pub(super) struct LightFindings {
     /// Per light.
     pub(super) plans: Vec<LightPlan>,
     /// Per light, the rule that left out its direct terms.
@@ -32,7 +32,7 @@ pub(super) struct Shadow {
     pub(super) receiver: usize,
 }
 
-impl Lights {
+impl LightFindings {
     pub(super) fn new(facts: &Facts<'_>, visibility: &Visibility) -> Self {
         let lights = &facts.sources;
         let (plans, rules) = lights

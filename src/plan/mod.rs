@@ -33,7 +33,7 @@ pub use rules::{Rule, Rules};
 use crate::math::Vec3;
 use crate::valid::{Mode, PathSettings, Projection, Proof, Shape};
 use findings::{Facts, Findings};
-use light::Lights;
+use light::LightFindings;
 use path::Planned;
 use serde::{Deserialize, Serialize};
 use summary::MaterialSummary;
@@ -137,7 +137,7 @@ impl Plan {
             &anywhere
         };
         let visibility = Visibility::new(&facts, &window, seen, asked);
-        let lights = Lights::new(&facts, &visibility);
+        let lights = LightFindings::new(&facts, &visibility);
         let needed = if rules.contains(Rule::MirrorKs) {
             visibility.depth
         } else {

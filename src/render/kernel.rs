@@ -3,10 +3,12 @@
 use crate::plan::{Features, PathFeatures};
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::{Film, Job};
+use crate::render::frame::picture::Sums;
 use crate::render::integrator::path::Strategy;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, PathSettings};
+use crate::render::world::settings::Mode;
+use std::ops::Range;
 
 /// An integrator compiled for a set of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,31 +146,63 @@ impl<S: Geometry> World<S> {
     /// Renders on the threads of the current pool; see [`super::AnyWorld::render`].
     #[must_use]
     pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Mis, job, on_pixel);
-        }
-        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.render_with(job, on_pixel))
+        self.whole(job, |samples, job| self.sum(samples, job, on_pixel))
     }
 
     /// As [`Self::render`], by one of the [`FEW`] integrators.
     #[must_use]
     pub fn render_by_few(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        if let Mode::Path(path) = self.scene.settings().mode {
-            return self.render_paths(path, Strategy::Mis, job, on_pixel);
-        }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.render_with(job, on_pixel))
+        self.whole(job, |samples, job| self.sum_by_few(samples, job, on_pixel))
     }
 
-    /// Renders by tracing paths; `None` if `on_pixel` said stop.
+    /// As [`Self::render`], where paths are traced by another strategy.
     #[must_use]
     pub fn render_paths(
         &self,
-        path: PathSettings,
         strategy: Strategy,
         job: &Job,
         on_pixel: &OnPixel<'_>,
     ) -> Option<Film> {
-        dispatch_paths!(self.render_paths_with(path, strategy, job, on_pixel))
+        self.whole(job, |samples, job| {
+            self.sum_paths(strategy, samples, job, on_pixel)
+        })
+    }
+
+    /// Sums samples of the pixels, where their number is that of the scene, else all; `None` if
+    /// `on_pixel` said stop.
+    pub(in crate::render) fn sum(
+        &self,
+        samples: &Range<u32>,
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<Sums> {
+        if let Mode::Path(_) = self.settings.mode {
+            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
+        }
+        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.sum_with(job, on_pixel))
+    }
+
+    /// As [`Self::sum`], by one of the [`FEW`] integrators.
+    pub(in crate::render) fn sum_by_few(
+        &self,
+        samples: &Range<u32>,
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<Sums> {
+        if let Mode::Path(_) = self.settings.mode {
+            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
+        }
+        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.sum_with(job, on_pixel))
+    }
+
+    fn sum_paths(
+        &self,
+        strategy: Strategy,
+        samples: &Range<u32>,
+        job: &Job,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<Sums> {
+        dispatch_paths!(self.sum_paths_with(strategy, samples, job, on_pixel))
     }
 }
 

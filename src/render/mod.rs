@@ -22,11 +22,12 @@ pub use bsdf::{
     Anisotropy, Bsdf, BsdfSample, Clearcoat, Evaluation, Iridescence, Lobes, Sheen,
     StandardParameters, dispersed,
 };
-pub use camera::{camera_ray, image_point, vogel};
+pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
 pub use film::heartbeat::{OnPixel, Step};
+pub use film::partial::{FilmError, PartialFilm};
 pub use film::progressive::{ProgressiveFilm, Replicates};
 pub use film::{Background, Counts, Crop, Film, Job, Seeds, Stride, Tiles, Values};
-pub use frame::verify::{Mismatch, verify};
+pub use frame::verify::Mismatch;
 pub use integrator::aov::Aov;
 pub use integrator::path::Strategy;
 pub use kernel::{KERNELS, Kernel, PATH_KERNELS, PathKernel, choose, choose_for_paths};
@@ -48,4 +49,5 @@ pub use shape::torus::Torus;
 pub use shape::triangle::{Shear, Triangle};
 pub use world::any::{AnyWorld, render};
 pub use world::shape::Prepare;
+pub use world::verify::verify;
 pub use world::{Hit, Surface, World};

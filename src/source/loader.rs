@@ -88,15 +88,15 @@ impl Loader {
 
 /// What tells a file from others, by whatever names and links it is reached.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Identity(Key);
+pub struct Identity(FileIdentity);
 
 /// Device and inode.
 #[cfg(unix)]
-type Key = (u64, u64);
+type FileIdentity = (u64, u64);
 
 /// The path, free of links.
 #[cfg(not(unix))]
-type Key = PathBuf;
+type FileIdentity = PathBuf;
 
 /// A regular file that was opened, and where it lies.
 #[derive(Debug)]
@@ -179,7 +179,7 @@ fn without_waiting() -> OpenOptions {
 }
 
 #[cfg(unix)]
-fn key(file: &Metadata) -> Key {
+fn key(file: &Metadata) -> FileIdentity {
     use std::os::unix::fs::MetadataExt;
     (file.dev(), file.ino())
 }

@@ -10,4 +10,4 @@ pub mod tree;
 pub use budget::{Budget, Exceeded, Limits, Resource};
 pub use loader::{Identity, LoadError, Loader};
 pub use map::{FileId, LineColumn, SourceMap, Span};
-pub use search::{Folder, Found, Kind, Missing, Search};
+pub use search::{FileKind, Folder, Found, Missing, Search};

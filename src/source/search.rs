@@ -41,7 +41,7 @@ pub struct Folder {
 
 /// A kind of file that scenes name.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
+pub struct FileKind {
     /// What its names end in, in lower case.
     pub extensions: &'static [&'static str],
     /// Whether a file that begins with these bytes, at most 64 KiB, is one.
@@ -239,7 +239,7 @@ impl Search {
     ///
     /// # Errors
     /// Why there is none, with the places that were looked at.
-    pub fn find(&self, written: &str, kind: &Kind) -> Result<Found, Missing> {
+    pub fn find(&self, written: &str, kind: &FileKind) -> Result<Found, Missing> {
         let Some(scene) = self.folders.first() else {
             return Err(Missing::NoFolder);
         };
@@ -325,7 +325,7 @@ impl Search {
     }
 
     /// What is below the folder at `place`; of the parent only what it lends.
-    fn at(&self, place: usize, tail: &Path, kind: &Kind) -> At {
+    fn at(&self, place: usize, tail: &Path, kind: &FileKind) -> At {
         let folder = &self.folders[place];
         match self.within(folder, tail) {
             At::File(opened) if self.has_parent && place + 1 == self.folders.len() => {
@@ -356,7 +356,7 @@ impl Search {
 
     /// The file whose last component differs from that of `tail` in case only; the first by name,
     /// if there are more.
-    fn other_case(&self, place: usize, tail: &Path, kind: &Kind) -> Option<Found> {
+    fn other_case(&self, place: usize, tail: &Path, kind: &FileKind) -> Option<Found> {
         let folder = &self.folders[place];
         let wanted = tail.file_name()?.to_str()?.to_lowercase();
         let entries = fs::read_dir(folder.resolved.join(tail).parent()?).ok()?;
@@ -373,7 +373,7 @@ impl Search {
     }
 }
 
-impl Kind {
+impl FileKind {
     /// Whether a file below a folder is of this kind, by its name and its first bytes, and not
     /// hidden there.
     fn is_lent(&self, opened: &Opened, folder: &Path) -> bool {

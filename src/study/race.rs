@@ -5,7 +5,7 @@
 use super::bench::Time;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, median};
-use super::subject::{Shot, Stopped, Subject};
+use super::subject::{RenderedTiles, Stopped, Subject};
 
 /// What takes part.
 pub(super) struct Runner<'a> {
@@ -15,7 +15,7 @@ pub(super) struct Runner<'a> {
 
 /// How it went.
 pub(super) struct TimedRun {
-    pub(super) shot: Shot,
+    pub(super) shot: RenderedTiles,
     /// Seconds for the whole picture.
     pub(super) seconds: Estimate,
     /// Seconds over those of the first runner.
@@ -39,7 +39,7 @@ const MOST_REPEATS: u64 = 8;
 /// Times all runners in at least three rounds, those that take few rays in more and several times
 /// in each, of about `budget` rays in all.
 pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result<Race, Stopped> {
-    let mut shots: Vec<Option<Shot>> = runners.iter().map(|_| None).collect();
+    let mut shots: Vec<Option<RenderedTiles>> = runners.iter().map(|_| None).collect();
     let mut times: Vec<Vec<Option<Time>>> = vec![Vec::new(); runners.len()];
     let (mut rounds, mut repeats) = (vec![FEWEST_ROUNDS; runners.len()], vec![1; runners.len()]);
     for round in 0..MOST_ROUNDS {

@@ -5,7 +5,7 @@
 use super::knob::{Knob, MAX_DEPTH};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
 use super::setting::Setting;
-use super::subject::{Shot, Stopped, Subject};
+use super::subject::{RenderedTiles, Stopped, Subject};
 use crate::image::Image;
 use crate::render::Seeds;
 use serde::{Deserialize, Serialize};
@@ -69,7 +69,7 @@ pub(super) fn independent(number: u64) -> Seeds {
 }
 
 /// A depth, sampled once or more.
-struct DepthProbe(Vec<Shot>);
+struct DepthProbe(Vec<RenderedTiles>);
 
 impl DepthProbe {
     fn rays(&self) -> u64 {

@@ -23,7 +23,7 @@ pub(super) struct Subject<'bench> {
 
 /// The tiles of a picture as rendered.
 #[derive(Clone)]
-pub(super) struct Shot {
+pub(super) struct RenderedTiles {
     pub(super) tiles: Vec<Image>,
     pub(super) counts: Counts,
 }
@@ -91,7 +91,7 @@ impl<'bench> Subject<'bench> {
 
     /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent
     /// of all other seeds.
-    pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<Shot, Stopped> {
+    pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
         let scene = self.prove(setting, seeds);
         self.bench
             .work(|| self.render(&scene, setting.precision, seeds))
@@ -102,8 +102,8 @@ impl<'bench> Subject<'bench> {
     pub(super) fn time(
         &self,
         setting: Setting,
-        repeats: impl FnOnce(&Shot) -> u64,
-    ) -> Result<(Shot, Time), Stopped> {
+        repeats: impl FnOnce(&RenderedTiles) -> u64,
+    ) -> Result<(RenderedTiles, Time), Stopped> {
         let scene = self.prove(setting, Seeds::NONE);
         let render = || {
             self.bench
@@ -137,6 +137,7 @@ impl<'bench> Subject<'bench> {
         let without_tiles = Job {
             tiles: Some(Tiles {
                 seed: self.seed,
+                first: 0,
                 last: 0,
             }),
             ..Job::default()
@@ -162,13 +163,19 @@ impl<'bench> Subject<'bench> {
         prove(&scene)
     }
 
-    fn render(&self, scene: &Proof, arithmetic: Arithmetic, seeds: Seeds) -> Result<Shot, Stopped> {
+    fn render(
+        &self,
+        scene: &Proof,
+        arithmetic: Arithmetic,
+        seeds: Seeds,
+    ) -> Result<RenderedTiles, Stopped> {
         let last = self
             .tiles
             .last()
             .map_or(0, |tile| Tiles::rank(self.seed, *tile));
         let tiles = Some(Tiles {
             seed: self.seed,
+            first: 0,
             last,
         });
         let job = Job {
@@ -180,7 +187,7 @@ impl<'bench> Subject<'bench> {
         let film = render(scene, &plan, &job, &|step| self.bench.goes_on(step)).ok_or(Stopped)?;
         let counts = film.counts;
         if self.is_whole() {
-            return Ok(Shot {
+            return Ok(RenderedTiles {
                 tiles: vec![film.image],
                 counts,
             });
@@ -190,7 +197,7 @@ impl<'bench> Subject<'bench> {
             .iter()
             .map(|tile| cut(&film.image, self.rectangle(*tile)))
             .collect();
-        Ok(Shot { tiles, counts })
+        Ok(RenderedTiles { tiles, counts })
     }
 
     /// Where a tile lies in the picture.
@@ -209,7 +216,7 @@ impl<'bench> Subject<'bench> {
 
 /// The proof of a scene that was proven before, in whatever setting.
 pub(super) fn prove(scene: &Scene) -> Proof {
-    let options = valid::Options {
+    let options = valid::ProofOptions {
         limits: Limits::NONE,
     };
     let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());

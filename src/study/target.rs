@@ -264,6 +264,7 @@ fn light_samples(
         .unwrap_or(u64::MAX);
     let some = Tiles {
         seed: order.seed,
+        first: 0,
         last,
     };
     let pixels = (y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y]));

@@ -41,7 +41,7 @@ use std::sync::Arc;
 
 /// What the proof lets pass.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Options {
+pub struct ProofOptions {
     /// On the pixels of the picture, and its rays.
     pub limits: Limits,
 }
@@ -140,7 +140,7 @@ impl Proof {
 pub fn validate(
     scene: &ir::Scene,
     origins: &Origins,
-    options: &Options,
+    options: &ProofOptions,
     sink: &mut Sink,
 ) -> Option<Proof> {
     let ir::Scene {

@@ -168,7 +168,7 @@ fn at(field: Field) -> Place {
 }
 
 /// Refuses pictures that take more memory or time than anyone meant.
-pub(super) fn budget(scene: &ir::Scene, options: &super::Options, check: &mut Check<'_>) {
+pub(super) fn budget(scene: &ir::Scene, options: &super::ProofOptions, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
     let limit = options.limits.of(Resource::Pixels, 0);
@@ -189,7 +189,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     let [width, height] = scene.camera.size;
     let supersampling = scene.settings.supersampling;
     let cells = u128::from(supersampling) * u128::from(supersampling);
-    let samples = Samples::of(scene);
+    let samples = SampleCounts::of(scene);
     let mut product = format!("{width} × {height} pixels × {supersampling}² sub-samples");
     let mut rays = pixels.saturating_mul(cells);
     for (count, noun) in [
@@ -226,13 +226,13 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
 }
 
 /// How many rays a sub-sample takes, by what they are for.
-struct Samples {
+struct SampleCounts {
     paths: u32,
     lens: u32,
     light: u32,
 }
 
-impl Samples {
+impl SampleCounts {
     fn of(scene: &ir::Scene) -> Self {
         let ir::Settings {
             supersampling: _,

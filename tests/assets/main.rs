@@ -14,7 +14,7 @@ mod search;
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
-use rtc::front::Options;
+use rtc::front::FrontOptions;
 use rtc::front::course::assets::{self, Asset, Wanted};
 use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::source::{Loader, SourceMap, Span};
@@ -63,7 +63,7 @@ struct Outcome {
     errors: bool,
 }
 
-fn bring(scene: &Path, asset: Asset, path: &str, options: &Options) -> Outcome {
+fn bring(scene: &Path, asset: Asset, path: &str, options: &FrontOptions) -> Outcome {
     let mut map = SourceMap::default();
     let mut lowered = lowered(&mut map);
     let file = Loader.file(scene, &mut map).unwrap();

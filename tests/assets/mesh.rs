@@ -2,7 +2,7 @@
 
 use super::{MESH, Outcome, bring, folder, write};
 use proptest::prelude::*;
-use rtc::front::Options;
+use rtc::front::FrontOptions;
 use rtc::ir::{Column, Mesh};
 
 /// Brings a mesh file of this text.
@@ -13,7 +13,7 @@ fn mesh(text: impl AsRef<[u8]>) -> Outcome {
         &folder.path().join("inner/scene.yaml"),
         MESH,
         "m.obj",
-        &Options::default(),
+        &FrontOptions::default(),
     )
 }
 

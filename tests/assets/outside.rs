@@ -2,7 +2,7 @@
 
 use super::search::found;
 use super::{IMAGE, MESH, bring, folder, pixels, png, write};
-use rtc::front::Options;
+use rtc::front::FrontOptions;
 use rtc::front::course::assets::Asset;
 use std::fs;
 use tempfile::TempDir;
@@ -23,7 +23,7 @@ fn links_that_leave_the_folder_and_what_is_no_file_are_refused() {
     write(&folder, "inner/real.png", png([3; 3]));
     let scene = folder.path().join("inner/scene.yaml");
     for path in ["a.png", "away/a.png"] {
-        let outcome = bring(&scene, IMAGE, path, &Options::default());
+        let outcome = bring(&scene, IMAGE, path, &FrontOptions::default());
         assert!(
             outcome.findings.starts_with("RE002 error"),
             "{path}: {}",
@@ -32,23 +32,28 @@ fn links_that_leave_the_folder_and_what_is_no_file_are_refused() {
     }
     for path in ["zero.png", "A.PNG"] {
         assert!(
-            bring(&scene, IMAGE, path, &Options::default()).errors,
+            bring(&scene, IMAGE, path, &FrontOptions::default()).errors,
             "{path}"
         );
     }
-    let allowed = Options {
+    let allowed = FrontOptions {
         asset_root: Some(elsewhere.path().to_owned()),
-        ..Options::default()
+        ..FrontOptions::default()
     };
     assert_eq!(pixels(&bring(&scene, IMAGE, "a.png", &allowed))[0], 9);
     assert_eq!(
-        pixels(&bring(&scene, IMAGE, "within.png", &Options::default()))[0],
+        pixels(&bring(
+            &scene,
+            IMAGE,
+            "within.png",
+            &FrontOptions::default()
+        ))[0],
         3
     );
 }
 
 /// What is said of a mesh named `path`, with this text there.
-fn told(place: &str, text: &str, path: &str, options: &Options) -> String {
+fn told(place: &str, text: &str, path: &str, options: &FrontOptions) -> String {
     let folder = folder();
     write(&folder, place, text);
     bring(&folder.path().join("inner/scene.yaml"), MESH, path, options).findings
@@ -57,7 +62,7 @@ fn told(place: &str, text: &str, path: &str, options: &Options) -> String {
 #[test]
 fn the_folder_above_lends_meshes_and_pictures_alone() {
     let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    let options = Options::default();
+    let options = FrontOptions::default();
     assert_eq!(told("a.obj", mesh, "a.obj", &options), "");
     assert_eq!(
         told("deep/a.OBJ", mesh, "deep/a", &options)
@@ -87,9 +92,9 @@ fn the_folder_above_lends_meshes_and_pictures_alone() {
     }
     let folder = folder();
     write(&folder, ".env.obj", mesh);
-    let allowed = Options {
+    let allowed = FrontOptions {
         asset_root: Some(folder.path().to_owned()),
-        ..Options::default()
+        ..FrontOptions::default()
     };
     assert_eq!(
         bring(
@@ -116,9 +121,9 @@ fn a_home_lends_nothing_to_the_scenes_in_its_folders() {
     let folder = folder();
     write(&folder, "a.png", png([5; 3]));
     let scene = folder.path().join("inner/scene.yaml");
-    let home = Options {
+    let home = FrontOptions {
         home: Some(folder.path().to_owned()),
-        ..Options::default()
+        ..FrontOptions::default()
     };
     let outcome = bring(&scene, IMAGE, "a.png", &home);
     assert!(
@@ -128,9 +133,9 @@ fn a_home_lends_nothing_to_the_scenes_in_its_folders() {
     );
     assert!(
         !outcome.findings.contains("inner`, ")
-            && !bring(&scene, IMAGE, "a.png", &Options::default()).errors
+            && !bring(&scene, IMAGE, "a.png", &FrontOptions::default()).errors
     );
-    let allowed = Options {
+    let allowed = FrontOptions {
         asset_root: Some(folder.path().to_owned()),
         ..home
     };
@@ -155,7 +160,7 @@ fn the_root_lends_nothing() {
         "/proc/self/environ",
         "../../../proc/self/environ",
     ] {
-        let findings = bring(scene.path(), MESH, path, &Options::default()).findings;
+        let findings = bring(scene.path(), MESH, path, &FrontOptions::default()).findings;
         assert!(
             findings.starts_with("RE00") && findings.lines().count() <= 3,
             "{path}: {findings}"
@@ -185,21 +190,21 @@ fn an_asset_is_read_where_it_was_judged() {
     std::os::unix::fs::symlink("real/inner", folder.path().join("link")).unwrap();
     let scene = folder.path().join("link/scene.yaml");
     let gltf = Asset::Gltf([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]]);
-    let findings = bring(&scene, gltf, "a.gltf", &Options::default()).findings;
+    let findings = bring(&scene, gltf, "a.gltf", &FrontOptions::default()).findings;
     assert_eq!(findings, "GL046 note a.gltf:1:43 nothing refers to this\n");
     // Beside the scene a link leads out, to what is no asset and to what is no file.
     for target in ["/etc/passwd", "/dev/zero"] {
         let link = folder.path().join("real/inner/b.gltf");
         let _ = fs::remove_file(&link);
         std::os::unix::fs::symlink(target, link).unwrap();
-        let findings = bring(&scene, gltf, "b.gltf", &Options::default()).findings;
+        let findings = bring(&scene, gltf, "b.gltf", &FrontOptions::default()).findings;
         assert!(
             findings.starts_with("RE00") && !findings.contains("root:"),
             "{target}: {findings}"
         );
     }
     write(&folder, "real/inner/c.gltf", "TOKEN=secret\n");
-    let findings = bring(&scene, gltf, "c.gltf", &Options::default()).findings;
+    let findings = bring(&scene, gltf, "c.gltf", &FrontOptions::default()).findings;
     assert!(
         findings.starts_with("GL004 error scene.yaml:1:3 `") && !findings.contains("secret"),
         "{findings}"
@@ -222,7 +227,7 @@ fn a_pipe_is_no_file() {
         &folder.path().join("inner/scene.yaml"),
         IMAGE,
         "a.png",
-        &Options::default(),
+        &FrontOptions::default(),
     )
     .findings;
     assert!(findings.starts_with("RE001 error"), "{findings}");

@@ -2,7 +2,7 @@
 
 use super::{IMAGE, Outcome, bring, encoded, folder, pixels, png, write};
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage, Rgba, RgbaImage};
-use rtc::front::Options;
+use rtc::front::FrontOptions;
 use rtc::ir::TextureId;
 
 /// Brings a picture of these bytes.
@@ -13,7 +13,7 @@ fn picture(bytes: &[u8]) -> Outcome {
         &folder.path().join("inner/scene.yaml"),
         IMAGE,
         "picture",
-        &Options::default(),
+        &FrontOptions::default(),
     )
 }
 

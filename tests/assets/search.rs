@@ -2,7 +2,7 @@
 
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
 use rtc::diag::Sink;
-use rtc::front::Options;
+use rtc::front::FrontOptions;
 use rtc::front::course::assets::{self, Wanted};
 use rtc::ir::TextureId;
 use rtc::source::{SourceMap, Span};
@@ -14,9 +14,9 @@ pub(super) fn found(files: &[(&str, u8)], path: &str, root: Option<&str>) -> (Op
     for (name, grey) in files {
         write(&folder, name, png([*grey; 3]));
     }
-    let options = Options {
+    let options = FrontOptions {
         asset_root: root.map(|root| folder.path().join(root)),
-        ..Options::default()
+        ..FrontOptions::default()
     };
     let path = path.replace("F/", &format!("{}/", folder.path().display()));
     let outcome = bring(
@@ -134,9 +134,9 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
             path: "a.png".to_owned(),
             span: Some(Span::new(file, 0, 1)),
         }];
-        let options = Options {
+        let options = FrontOptions {
             asset_root: root,
-            ..Options::default()
+            ..FrontOptions::default()
         };
         assets::bring(&mut lowered, wanted, file, &options, &mut map, &mut sink);
         let codes: Vec<_> = sink.kept().iter().map(|finding| finding.code.id).collect();
@@ -156,9 +156,9 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
 fn lenient_leaves_textures_and_objects_out_and_says_so() {
     let folder = folder();
     let scene = folder.path().join("inner/scene.yaml");
-    let lenient = Options {
+    let lenient = FrontOptions {
         lenient: true,
-        ..Options::default()
+        ..FrontOptions::default()
     };
     let outcome = bring(&scene, IMAGE, "a.png", &lenient);
     let message =

@@ -49,10 +49,10 @@ fn options(text: &str) -> pipeline::Options {
         .unwrap_or_default();
     let has = |word| line.split_whitespace().any(|option| option == word);
     pipeline::Options {
-        front: front::Options {
+        front: front::FrontOptions {
             strict: has("strict"),
             lenient: has("lenient"),
-            ..front::Options::default()
+            ..front::FrontOptions::default()
         },
         ..pipeline::Options::default()
     }

@@ -13,7 +13,7 @@ use proptest::prelude::*;
 use rtc::diag::Sink;
 use rtc::emit;
 use rtc::front::course::assets::Asset;
-use rtc::front::{Options, course};
+use rtc::front::{FrontOptions, course};
 use rtc::ir::{self, Scene};
 use rtc::math::{Vec3, camera_basis};
 use rtc::source::SourceMap;
@@ -25,7 +25,7 @@ fn scene(text: &str) -> Option<Scene> {
     let mut map = SourceMap::default();
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
-    let lowered = course::lower(file, &map, &Options::default(), &mut sink);
+    let lowered = course::lower(file, &map, &FrontOptions::default(), &mut sink);
     lowered
         .filter(|_| !sink.has_errors())
         .map(|draft| draft.finish().scene)
@@ -266,7 +266,7 @@ fn files_are_wanted_once_and_their_places_wait() {
     let mut map = SourceMap::default();
     let file = map.add("text", text.as_bytes().to_vec());
     let mut sink = Sink::default();
-    let draft = course::lower(file, &map, &Options::default(), &mut sink).unwrap();
+    let draft = course::lower(file, &map, &FrontOptions::default(), &mut sink).unwrap();
     let wanted: Vec<_> = draft
         .wanted
         .iter()

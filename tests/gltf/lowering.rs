@@ -14,7 +14,7 @@ use rtc::render::Job;
 use rtc::source::SourceMap;
 
 /// The scene that an asset shows; every asset here is sound, and some have lines or no tangents.
-fn lower(bytes: Vec<u8>, front: front::Options) -> Scene {
+fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
     let (mut map, mut sink) = (SourceMap::default(), Sink::default());
     let file = map.add("made.gltf", bytes);
     let options = Options {
@@ -40,22 +40,30 @@ fn text(scene: &Scene) -> String {
 
 #[test]
 fn small_assets_become_what_was_approved() {
-    let glass = front::Options {
+    let glass = front::FrontOptions {
         variant: Some("glass".to_owned()),
-        ..front::Options::default()
+        ..front::FrontOptions::default()
     };
-    let moved = front::Options {
+    let moved = front::FrontOptions {
         time: Some(1.0),
         animation: Some("move".to_owned()),
-        ..front::Options::default()
+        ..front::FrontOptions::default()
     };
     let cases = [
-        ("topology", make::topology(), front::Options::default()),
-        ("hierarchy", make::hierarchy(), front::Options::default()),
-        ("attributes", make::attributes(), front::Options::default()),
+        ("topology", make::topology(), front::FrontOptions::default()),
+        (
+            "hierarchy",
+            make::hierarchy(),
+            front::FrontOptions::default(),
+        ),
+        (
+            "attributes",
+            make::attributes(),
+            front::FrontOptions::default(),
+        ),
         ("motion", make::motion(), moved),
         ("stage", make::stage(), glass),
-        ("texture", make::texture(), front::Options::default()),
+        ("texture", make::texture(), front::FrontOptions::default()),
     ];
     for (name, bytes, options) in cases {
         insta::assert_snapshot!(name, text(&lower(bytes, options)));
@@ -64,26 +72,26 @@ fn small_assets_become_what_was_approved() {
 
 #[test]
 fn at_rest_nothing_moves_and_the_first_material_counts() {
-    let rest = lower(make::motion(), front::Options::default());
+    let rest = lower(make::motion(), front::FrontOptions::default());
     assert_eq!(
         rest.meshes[0].positions.at(0),
         [0.0, 0.0, 0.25],
         "the weight of the mesh itself"
     );
     assert_eq!(rest.meshes[1].positions.at(1), [1.0, 0.0, 0.0]);
-    assert!(text(&lower(make::stage(), front::Options::default())).contains("glowing"));
+    assert!(text(&lower(make::stage(), front::FrontOptions::default())).contains("glowing"));
 }
 
 #[test]
 fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
     let asked = [
-        front::Options {
+        front::FrontOptions {
             animation: Some("fly".to_owned()),
-            ..front::Options::default()
+            ..front::FrontOptions::default()
         },
-        front::Options {
+        front::FrontOptions {
             variant: Some("gold".to_owned()),
-            ..front::Options::default()
+            ..front::FrontOptions::default()
         },
     ];
     for front in asked {
@@ -103,7 +111,7 @@ fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
 
 #[test]
 fn a_mesh_used_twice_is_made_once() {
-    let scene = lower(make::hierarchy(), front::Options::default());
+    let scene = lower(make::hierarchy(), front::FrontOptions::default());
     assert_eq!(
         (scene.meshes.len(), scene.surfaces.len()),
         (1, 4),
@@ -144,16 +152,16 @@ fn picture(mut scene: Scene) -> Vec<[u64; 3]> {
 
 #[test]
 fn assets_make_the_same_picture_from_either_form_of_the_ir() {
-    let moved = front::Options {
+    let moved = front::FrontOptions {
         time: Some(1.0),
         animation: Some("move".to_owned()),
-        ..front::Options::default()
+        ..front::FrontOptions::default()
     };
     let cases = [
-        (make::hierarchy(), front::Options::default()),
-        (make::attributes(), front::Options::default()),
+        (make::hierarchy(), front::FrontOptions::default()),
+        (make::attributes(), front::FrontOptions::default()),
         (make::motion(), moved),
-        (make::texture(), front::Options::default()),
+        (make::texture(), front::FrontOptions::default()),
     ];
     let (mut names, mut images, mut surroundings) = (0, 0, 0);
     for (bytes, options) in cases {
@@ -175,7 +183,7 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
         for form in [Form::Text, Form::Binary] {
             let back = lower(
                 codec::encode(form, &scene).unwrap(),
-                front::Options::default(),
+                front::FrontOptions::default(),
             );
             assert_eq!(format!("{back:?}"), format!("{scene:?}"), "{form:?}");
             assert!(picture(back) == expected, "{form:?}");
@@ -190,7 +198,7 @@ fn assets_make_the_same_picture_from_either_form_of_the_ir() {
 /// Without a camera the ball around all of it just fits into 35° from bottom to top.
 #[test]
 fn a_camera_that_is_not_there_sees_all_of_it() {
-    let scene = lower(make::texture(), front::Options::default());
+    let scene = lower(make::texture(), front::FrontOptions::default());
     let [eye, up] = [scene.camera.eye, scene.camera.up].map(Vec3::from_array);
     let ball = scene.ball().unwrap();
     let half = (up.length() * f64::from(scene.camera.size[1]) / 2.0).atan();

@@ -62,7 +62,7 @@ pub(crate) fn check(scene: &ir::Scene) -> Result<Proof, Vec<&'static str>> {
     let proof = valid::validate(
         scene,
         &ir::Origins::default(),
-        &valid::Options::default(),
+        &valid::ProofOptions::default(),
         &mut sink,
     );
     proof.ok_or_else(|| sink.kept().iter().map(|finding| finding.code.id).collect())

@@ -1,7 +1,7 @@
 //! The hierarchy of a world finds what its surfaces find one by one, and veils in it let through
 //! what veils beside it do.
 
-use super::{add_light, add_square, lambert, material, prove, render, scene, sky};
+use super::{JOB, add_light, add_sphere, add_square, lambert, material, prove, render, scene, sky};
 use rtc::ir::{Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface};
 use rtc::math::{Vec3, cos, sin};
 use rtc::plan::{Plan, Rules};
@@ -177,4 +177,50 @@ fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
             .max_element();
         assert!(off < 1e-9, "pixel {index}: {a:?} and {b:?}");
     }
+}
+
+/// The plan proves one of two blended materials opaque; the transmittances of the other are
+/// multiplied in the same order as without the plan.
+#[test]
+fn a_veil_that_is_opaque_changes_no_order() {
+    let mut scene = scene(4);
+    let emitter = Emitter::Sun {
+        direction: [0.3, 0.4, 1.0],
+    };
+    add_light(
+        &mut scene,
+        Punctual {
+            emitter,
+            intensity: [2.0; 3],
+        },
+    );
+    add_square(&mut scene, 0.0, 2.0, lambert([0.8; 3]));
+    let corners = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.5, 0.0]];
+    scene.meshes = vec![Mesh {
+        positions: corners.into(),
+        triangles: vec![[0, 1, 2]].into(),
+        ..Mesh::default()
+    }];
+    let blended = |opacity: f64| Standard {
+        base_color: [0.5, 0.5, 0.5, opacity],
+        alpha: Alpha::Blend,
+        ..lambert([0.5; 3])
+    };
+    let mut next = numbers(7);
+    for _ in 0..24 {
+        let axes = [
+            [2.0, 0.0, next()],
+            [0.0, 2.0, next()],
+            [0.0, 0.0, 1.0],
+            [next() * 0.5, next() * 0.5, 1.5 + 0.5 * next()],
+        ];
+        place(&mut scene, 0, axes, blended(0.2 + 0.1 * next()));
+    }
+    add_sphere(&mut scene, [5.0, 5.0, 0.0], 0.5, blended(1.0));
+    let proof = prove(&scene);
+    let [pruned, unpruned] = [Rules::ALL, Rules::NONE].map(|rules| {
+        let plan = Plan::new(&proof, rules);
+        rtc::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
+    });
+    assert!(pruned.image.pixels == unpruned.image.pixels);
 }

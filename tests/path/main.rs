@@ -132,7 +132,7 @@ fn prove(scene: &Scene) -> Proof {
     let proof = valid::validate(
         scene,
         &Origins::default(),
-        &valid::Options::default(),
+        &valid::ProofOptions::default(),
         &mut sink,
     );
     proof.unwrap_or_else(|| panic!("{sink:?}"))
@@ -150,11 +150,8 @@ const JOB: Job = Job {
 
 fn render_by(scene: &Scene, strategy: Strategy) -> Film {
     let proof = prove(scene);
-    let valid::Mode::Path(path) = proof.settings().mode else {
-        panic!("no paths")
-    };
     World::<Basic>::prepare(&proof, &Plan::new(&proof, Rules::ALL))
-        .render_paths(path, strategy, &JOB, &|_| true)
+        .render_paths(strategy, &JOB, &|_| true)
         .unwrap()
 }
 

@@ -9,6 +9,7 @@ use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Background, Film, Job, Seeds, Stride, Values};
 use rtc::source::{FileId, Loader, SourceMap};
+use rtc::valid::Proof;
 use std::path::{Path, PathBuf};
 
 /// The scenes of the repo.
@@ -69,14 +70,17 @@ pub(crate) const WHOLE: Job = Job {
     samples: None,
 };
 
-pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
+pub(crate) fn proven(scene: &Scene) -> Proof {
     let (mut sink, options) = (Sink::default(), Options::default());
     let lowered = Lowered {
         scene: scene.clone(),
         origins: Origins::default(),
     };
-    let valid = pipeline::prove(&lowered, &options, &mut sink)
-        .unwrap_or_else(|| panic!("{:?}", sink.kept()));
+    pipeline::prove(&lowered, &options, &mut sink).unwrap_or_else(|| panic!("{:?}", sink.kept()))
+}
+
+pub(crate) fn film(scene: &Scene, job: &Job, threads: usize) -> Film {
+    let valid = proven(scene);
     pipeline::render(
         &valid,
         &Plan::new(&valid, Rules::ALL),

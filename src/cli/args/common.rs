@@ -61,7 +61,7 @@ impl Reading {
 /// How findings are told.
 #[derive(Debug, Args)]
 #[command(next_help_heading = None::<&str>)]
-pub(in crate::cli) struct Talk {
+pub(in crate::cli) struct TalkArgs {
     /// The form of diagnostics
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub(in crate::cli) message_format: MessageFormat,

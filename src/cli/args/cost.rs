@@ -1,6 +1,6 @@
 //! What `rtc cost` is told.
 
-use super::{Reading, Stage, Talk};
+use super::{Reading, StageArgs, TalkArgs};
 use crate::study;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -15,13 +15,13 @@ pub(in crate::cli) struct Cost {
     pub(in crate::cli) output: PathBuf,
     /// The form of the report
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub(in crate::cli) format: Report,
+    pub(in crate::cli) format: StudyFormat,
     /// Also write a page for a browser, with plots and pictures
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) html: Option<PathBuf>,
     /// How much work the study may be
     #[arg(long, value_enum, default_value_t)]
-    pub(in crate::cli) effort: Effort,
+    pub(in crate::cli) effort: EffortArg,
     /// Which tiles of the picture are looked at, and in which order settings are timed
     #[arg(long, value_name = "N", default_value = "1")]
     pub(in crate::cli) seed: u64,
@@ -29,15 +29,15 @@ pub(in crate::cli) struct Cost {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(in crate::cli) threads: Option<u16>,
     #[command(flatten)]
-    pub(in crate::cli) stage: Stage,
+    pub(in crate::cli) stage: StageArgs,
     #[command(flatten)]
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]
-    pub(in crate::cli) talk: Talk,
+    pub(in crate::cli) talk: TalkArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Report {
+pub(in crate::cli) enum StudyFormat {
     /// A table of 80 columns
     #[default]
     Table,
@@ -48,7 +48,7 @@ pub(in crate::cli) enum Report {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Effort {
+pub(in crate::cli) enum EffortArg {
     /// Seconds
     Quick,
     /// About a minute for a simple scene
@@ -58,12 +58,12 @@ pub(in crate::cli) enum Effort {
     Thorough,
 }
 
-impl From<Effort> for study::Effort {
-    fn from(effort: Effort) -> Self {
+impl From<EffortArg> for study::Effort {
+    fn from(effort: EffortArg) -> Self {
         match effort {
-            Effort::Quick => Self::QUICK,
-            Effort::Default => Self::DEFAULT,
-            Effort::Thorough => Self::THOROUGH,
+            EffortArg::Quick => Self::QUICK,
+            EffortArg::Default => Self::DEFAULT,
+            EffortArg::Thorough => Self::THOROUGH,
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::render::Aov;
 use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
-pub(in crate::cli) struct Look {
+pub(in crate::cli) struct LookArgs {
     /// How a PNG shows linear values; an EXR holds them as they are [default: srgb if paths are
     /// traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
@@ -25,11 +25,11 @@ pub(in crate::cli) struct Look {
     pub(in crate::cli) aov: Vec<Layer>,
     /// Bits a channel of a PNG [default: 8]
     #[arg(long)]
-    pub(in crate::cli) bits: Option<Bits>,
+    pub(in crate::cli) bits: Option<BitDepth>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Bits {
+pub(in crate::cli) enum BitDepth {
     #[value(name = "8")]
     Eight,
     #[value(name = "16")]

@@ -6,11 +6,11 @@ mod look;
 mod render;
 mod stage;
 
-pub(super) use common::{Color, MessageFormat, Reading, Talk};
-pub(super) use cost::{Cost, Report};
-pub(super) use look::{Bits, Look};
+pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
+pub(super) use cost::{Cost, StudyFormat};
+pub(super) use look::{BitDepth, LookArgs};
 pub(super) use render::{Pruning, Render};
-pub(super) use stage::Stage;
+pub(super) use stage::StageArgs;
 
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
@@ -41,7 +41,7 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Check scenes and say what is wrong with them
-    Check(Check),
+    Check(CheckArgs),
     /// Compile a scene to the intermediate representation
     Compile(Compile),
     /// Render a scene to a picture
@@ -59,14 +59,14 @@ pub(super) enum Command {
 }
 
 #[derive(Debug, Args)]
-pub(super) struct Check {
+pub(super) struct CheckArgs {
     /// Scenes, as YAML, glTF or IR; `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
-    pub(super) talk: Talk,
+    pub(super) talk: TalkArgs,
 }
 
 #[derive(Debug, Args)]
@@ -84,11 +84,11 @@ pub(super) struct Compile {
     #[arg(long, value_enum)]
     pub(super) emit: Option<Emit>,
     #[command(flatten)]
-    pub(super) stage: Stage,
+    pub(super) stage: StageArgs,
     #[command(flatten)]
     pub(super) reading: Reading,
     #[command(flatten)]
-    pub(super) talk: Talk,
+    pub(super) talk: TalkArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -113,7 +113,7 @@ pub(super) struct Explain {
 pub(super) struct Schema {
     /// The format
     #[arg(value_enum, default_value_t)]
-    pub(super) of: Format,
+    pub(super) of: SchemaFormat,
 }
 
 #[derive(Debug, Args)]
@@ -139,7 +139,7 @@ pub(super) enum Emit {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum SchemaFormat {
     /// Scenes
     #[default]
     Scene,

@@ -1,7 +1,7 @@
 //! What `rtc render` is told.
 
 use super::super::parse::{crop, levels, rule, seconds, setting, size};
-use super::{Look, Reading, Stage, Talk};
+use super::{LookArgs, Reading, StageArgs, TalkArgs};
 use crate::plan::{self, Rule};
 use crate::render::Crop;
 use clap::{Args, ValueEnum, ValueHint};
@@ -58,21 +58,21 @@ pub(in crate::cli) struct Render {
     pub(in crate::cli) crop: Option<Crop>,
     /// How rays meet shapes
     #[arg(long, value_enum, default_value_t, value_name = "ARITHMETIC")]
-    pub(in crate::cli) arithmetic: Arithmetic,
+    pub(in crate::cli) arithmetic: ArithmeticArg,
     /// Replace a setting of the IR by its name there, last of all, as multipleScattering=false;
     /// `rtc schema ir` lists them
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     pub(in crate::cli) set: Vec<(String, String)>,
     #[command(flatten)]
-    pub(in crate::cli) look: Look,
+    pub(in crate::cli) look: LookArgs,
     #[command(flatten)]
     pub(in crate::cli) pruning: Pruning,
     #[command(flatten)]
-    pub(in crate::cli) stage: Stage,
+    pub(in crate::cli) stage: StageArgs,
     #[command(flatten)]
     pub(in crate::cli) reading: Reading,
     #[command(flatten)]
-    pub(in crate::cli) talk: Talk,
+    pub(in crate::cli) talk: TalkArgs,
 }
 
 /// What is left out of the work for a picture.
@@ -90,7 +90,7 @@ pub(in crate::cli) struct Pruning {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Arithmetic {
+pub(in crate::cli) enum ArithmeticArg {
     /// With bounds on all errors, in f64
     #[default]
     Robust,
@@ -100,12 +100,12 @@ pub(in crate::cli) enum Arithmetic {
     F32,
 }
 
-impl From<Arithmetic> for plan::Arithmetic {
-    fn from(arithmetic: Arithmetic) -> Self {
+impl From<ArithmeticArg> for plan::Arithmetic {
+    fn from(arithmetic: ArithmeticArg) -> Self {
         match arithmetic {
-            Arithmetic::Robust => Self::Robust,
-            Arithmetic::Plain => Self::Plain,
-            Arithmetic::F32 => Self::F32,
+            ArithmeticArg::Robust => Self::Robust,
+            ArithmeticArg::Plain => Self::Plain,
+            ArithmeticArg::F32 => Self::F32,
         }
     }
 }

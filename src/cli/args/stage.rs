@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// From where a scene is seen, and what lights it.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "View and light")]
-pub(in crate::cli) struct Stage {
+pub(in crate::cli) struct StageArgs {
     /// Where the camera stands [default: as in the scene]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub(in crate::cli) eye: Option<[f64; 3]>,
@@ -37,22 +37,22 @@ pub(in crate::cli) struct Stage {
     /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else
     /// Whitted's way]
     #[arg(long, value_enum)]
-    pub(in crate::cli) integrator: Option<Integrator>,
+    pub(in crate::cli) integrator: Option<IntegratorArg>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum Integrator {
+pub(in crate::cli) enum IntegratorArg {
     /// Direct light, mirrors and refraction
     Whitted,
     /// All the light along all paths
     Path,
 }
 
-impl From<Integrator> for passes::Integrator {
-    fn from(integrator: Integrator) -> Self {
+impl From<IntegratorArg> for passes::IntegratorChoice {
+    fn from(integrator: IntegratorArg) -> Self {
         match integrator {
-            Integrator::Whitted => Self::Whitted,
-            Integrator::Path => Self::Path,
+            IntegratorArg::Whitted => Self::Whitted,
+            IntegratorArg::Path => Self::Path,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `rtc render`: a scene to a picture. What was typed becomes a [`Plan`] before anything is read.
+//! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
 
 mod shot;
 
@@ -7,7 +7,7 @@ use super::args;
 use super::findings;
 use super::input::{self, Input, Proven};
 use super::interrupt::Interrupt;
-use super::look::Look;
+use super::look::OutputLook;
 use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
@@ -22,9 +22,9 @@ use crate::valid::Proof;
 use std::path::{Path, PathBuf};
 
 /// A render as it will be done.
-struct Plan {
+struct RenderSetup {
     output: PathBuf,
-    look: Look,
+    look: OutputLook,
     overrides: Overrides,
     set: Vec<(String, String)>,
     arithmetic: plan::Arithmetic,
@@ -46,7 +46,7 @@ struct Subject {
 
 /// Renders the scene and writes the picture.
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
-    let plan = Plan::new(args)?;
+    let plan = RenderSetup::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
     let outcome = plan.carry_out(
         &mut Input::staged(&args.file, &args.reading, &args.stage)?,
@@ -56,7 +56,7 @@ pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     outcome
 }
 
-impl Plan {
+impl RenderSetup {
     fn new(args: &args::Render) -> Result<Self, Failure> {
         let output = match &args.output {
             Some(output) => output.clone(),
@@ -73,7 +73,7 @@ impl Plan {
             time: args.time_budget,
         };
         Ok(Self {
-            look: Look::new(&args.look, &output)?,
+            look: OutputLook::new(&args.look, &output)?,
             output,
             overrides: Overrides {
                 size: args.size,

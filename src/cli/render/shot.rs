@@ -2,8 +2,8 @@
 
 use super::super::Failure;
 use super::super::interrupt::Interrupt;
-use super::super::progress::{self, Progress};
-use super::{Plan, Subject, no_threads};
+use super::super::progress::{self, RenderProgress};
+use super::{RenderSetup, Subject, no_threads};
 use crate::diag::Diagnostic;
 use crate::image::Image;
 use crate::pipeline::{self, Meter};
@@ -15,7 +15,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// What was rendered, and what is said of it.
-pub(super) struct Shot {
+pub(super) struct Rendered {
     pub(super) image: Image,
     pub(super) coverage: Vec<f32>,
     pub(super) counts: Counts,
@@ -24,7 +24,7 @@ pub(super) struct Shot {
     pub(super) quality: Option<String>,
 }
 
-impl Shot {
+impl Rendered {
     /// What is said of it; if `verbose`, with how often each effect was simulated.
     pub(super) fn summary(&self, path: &Path, verbose: bool) -> String {
         let Self {
@@ -56,7 +56,7 @@ fn simulated(counts: &Counts) -> String {
     format!("simulated: {}", words.collect::<Vec<_>>().join("; "))
 }
 
-impl Plan {
+impl RenderSetup {
     /// The picture in the setting of the scene, or where its rays ran out, of which there may be so
     /// many.
     pub(super) fn trace(
@@ -65,7 +65,7 @@ impl Plan {
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
+    ) -> Result<Result<Rendered, Box<Diagnostic>>, Failure> {
         let scene = &subject.proven.scene;
         let values = self.look.values(&scene.settings().mode);
         let job = Job {
@@ -74,7 +74,8 @@ impl Plan {
             background: self.look.background(),
             ..Job::default()
         };
-        let progress = Progress::start(u64::from(window.width) * u64::from(window.height), quiet);
+        let progress =
+            RenderProgress::start(u64::from(window.width) * u64::from(window.height), quiet);
         let renders = if self.verify { 2 } else { 1 };
         let meter = Meter::of_each(rays, window, renders);
         let on_pixel = |step| {
@@ -98,7 +99,7 @@ impl Plan {
             coverage,
             counts,
         } = film.map_err(|mismatch| Failure::Trouble(left_out(&mismatch)))?;
-        Ok(Ok(Shot {
+        Ok(Ok(Rendered {
             image,
             coverage,
             counts,
@@ -114,7 +115,7 @@ impl Plan {
         (window, rays): (Crop, u64),
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Result<Shot, Box<Diagnostic>>, Failure> {
+    ) -> Result<Result<Rendered, Box<Diagnostic>>, Failure> {
         let order = Order {
             goal: self.goal,
             crop: window,
@@ -123,7 +124,7 @@ impl Plan {
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
         };
-        let progress = Progress::start(0, quiet);
+        let progress = RenderProgress::start(0, quiet);
         let meter = Meter::new(rays, window);
         let watch = Watch {
             on_pixel: &|step| {
@@ -159,7 +160,7 @@ impl Plan {
             "{} (90 %), {mean:.0} samples a pixel on the mean, {min} … {most}{end}",
             error(reached.error)
         );
-        Ok(Ok(Shot {
+        Ok(Ok(Rendered {
             image,
             coverage,
             counts,

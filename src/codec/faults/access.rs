@@ -2,9 +2,9 @@
 //! much is noted and passed over.
 
 use super::error::Error;
-use super::reader::Reader;
-use super::{Fields, Notes, Part};
-use crate::source::tree::{Kind, NodeId};
+use super::reader::NodeReader;
+use super::{FaultPart, Fields, Notes};
+use crate::source::tree::{NodeId, NodeKind};
 use serde::de::value::StrDeserializer;
 use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, Error as _, Expected, IntoDeserializer, MapAccess,
@@ -49,8 +49,8 @@ impl<'de> SeqAccess<'de> for Items<'_, '_> {
         if !is_wanted {
             return Ok(None);
         }
-        let stand_in = || Reader::stand_in(self.notes);
-        let reader = item.map_or_else(stand_in, |item| Reader::new(self.notes, item));
+        let stand_in = || NodeReader::stand_in(self.notes);
+        let reader = item.map_or_else(stand_in, |item| NodeReader::new(self.notes, item));
         seed.deserialize(reader).map(Some)
     }
 }
@@ -114,12 +114,12 @@ impl<'n, 't> Members<'n, 't> {
                 }
             };
             self.has_unknown |= !self.seen.contains(&text);
-            self.notes.note(key, Part::Whole, fault.what);
+            self.notes.note(key, FaultPart::Whole, fault.what);
         }
         let name = self.absent.pop()?;
         if let Some(map) = self.map.filter(|_| !self.has_unknown) {
             self.notes
-                .note(map, Part::Whole, Error::missing_field(name).what);
+                .note(map, FaultPart::Whole, Error::missing_field(name).what);
         }
         self.value = None;
         Some(name)
@@ -139,10 +139,10 @@ impl<'de> MapAccess<'de> for Members<'_, '_> {
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let stand_in = || Reader::stand_in(self.notes);
+        let stand_in = || NodeReader::stand_in(self.notes);
         seed.deserialize(
             self.value
-                .map_or_else(stand_in, |value| Reader::new(self.notes, value)),
+                .map_or_else(stand_in, |value| NodeReader::new(self.notes, value)),
         )
     }
 }
@@ -150,33 +150,33 @@ impl<'de> MapAccess<'de> for Members<'_, '_> {
 /// A variant of an enum and what it holds.
 pub(super) struct Variant<'n, 't> {
     name: &'n str,
-    content: Reader<'n, 't>,
+    content: NodeReader<'n, 't>,
     /// The name stands alone, where this is.
-    bare: Option<Reader<'n, 't>>,
+    bare: Option<NodeReader<'n, 't>>,
 }
 
 impl<'n, 't> Variant<'n, 't> {
     /// The variant at a node; the first one if it is none.
-    pub(super) fn of(at: Reader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
+    pub(super) fn of(at: NodeReader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
         let (notes, tree) = (at.notes, at.notes.tree);
         let first = Self {
             name: variants.first().copied().unwrap_or_default(),
-            content: Reader::stand_in(notes),
+            content: NodeReader::stand_in(notes),
             bare: None,
         };
         let Some(node) = at.at else { return first };
         let kind = tree.kind(node);
         let mut pairs = tree.pairs(node);
         let (name, own) = match (kind, pairs.next(), pairs.next()) {
-            (Kind::Text, ..) => {
+            (NodeKind::Text, ..) => {
                 let bare = Some(at);
                 (node, Self { bare, ..first })
             }
-            (Kind::Map, Some((key, value)), None) => {
-                let content = Reader::new(notes, value);
+            (NodeKind::Map, Some((key, value)), None) => {
+                let content = NodeReader::new(notes, value);
                 (key, Self { content, ..first })
             }
-            (Kind::Map, ..) => {
+            (NodeKind::Map, ..) => {
                 at.note(Error::invalid_value(Unexpected::Map, &"a map with one key"));
                 return first;
             }
@@ -191,11 +191,11 @@ impl<'n, 't> Variant<'n, 't> {
         }
         notes.note(
             name,
-            Part::Whole,
+            FaultPart::Whole,
             Error::unknown_variant(text, variants).what,
         );
         Self {
-            content: Reader::stand_in(notes),
+            content: NodeReader::stand_in(notes),
             bare: None,
             ..own
         }
@@ -224,7 +224,7 @@ impl<'de> VariantAccess<'de> for Variant<'_, '_> {
     fn unit_variant(self) -> Result<(), Error> {
         let content = self.content;
         let kind = content.at.map(|at| content.notes.tree.kind(at));
-        if kind.is_some_and(|kind| kind != Kind::Null) {
+        if kind.is_some_and(|kind| kind != NodeKind::Null) {
             content.wrong_type(&"unit");
         }
         Ok(())

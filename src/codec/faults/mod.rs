@@ -10,7 +10,7 @@ mod reader;
 use crate::source::Span;
 use crate::source::tree::{NodeId, Tree};
 use error::Error;
-use reader::Reader;
+use reader::NodeReader;
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,7 +24,7 @@ const MAX_RUNS: usize = 64;
 
 /// A fault of a text.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(super) struct TextFault {
     /// The bytes that are wrong.
     pub(super) span: Span,
     /// The way to them, a JSON pointer; none for what `serde_json` takes for a fault of JSON.
@@ -34,11 +34,11 @@ pub(super) struct Fault {
 }
 
 /// All that is wrong with a tree as a `T`.
-pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<Fault> {
+pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<TextFault> {
     let mut notes = Notes::new(tree);
     notes.learn::<T>();
     for _ in 0..MAX_RUNS {
-        match T::deserialize(Reader::new(&notes, tree.root())) {
+        match T::deserialize(NodeReader::new(&notes, tree.root())) {
             Err(error) if notes.mend(&error) => {}
             Ok(_) | Err(_) => break,
         }
@@ -49,23 +49,23 @@ pub(super) fn all<T: DeserializeOwned>(tree: &Tree<'_>) -> Vec<Fault> {
         .collect()
 }
 
-fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: Part) -> Fault {
+fn fault(tree: &Tree<'_>, at: NodeId, what: String, part: FaultPart) -> TextFault {
     let Span { file, start, end } = tree.span(at);
     let (start, end) = match part {
-        Part::Whole => (start, end),
-        Part::Bracket => (start, start + 1),
-        Part::LastDigit => (end - 1, end),
+        FaultPart::Whole => (start, end),
+        FaultPart::Bracket => (start, start + 1),
+        FaultPart::LastDigit => (end - 1, end),
     };
-    Fault {
+    TextFault {
         span: Span::new(file, start, end),
-        pointer: (part != Part::LastDigit).then(|| tree.pointer(at)),
+        pointer: (part != FaultPart::LastDigit).then(|| tree.pointer(at)),
         what,
     }
 }
 
 /// What is wrong of a node.
 #[derive(Clone, Copy, PartialEq)]
-enum Part {
+enum FaultPart {
     /// All of it.
     Whole,
     /// The bracket that opens it: something else than a list or map should be here.
@@ -80,7 +80,7 @@ type Fields = &'static [&'static str];
 /// What was noted so far.
 struct Notes<'t> {
     tree: &'t Tree<'t>,
-    found: RefCell<BTreeMap<(NodeId, String), Part>>,
+    found: RefCell<BTreeMap<(NodeId, String), FaultPart>>,
     /// Nodes that can't be read, and are stood in for.
     refused: BTreeSet<NodeId>,
     /// The fields that must be there, as far as is known.
@@ -100,7 +100,7 @@ impl<'t> Notes<'t> {
     /// Learns which fields must be there from a document in which nothing is.
     fn learn<T: DeserializeOwned>(&mut self) {
         loop {
-            let missing = T::deserialize(Reader::stand_in(self)).err();
+            let missing = T::deserialize(NodeReader::stand_in(self)).err();
             let missing = missing.and_then(|error| error.missing);
             if !missing.is_some_and(|(fields, name)| self.require(fields, name)) {
                 return;
@@ -126,12 +126,12 @@ impl<'t> Notes<'t> {
             return self.require(fields, name);
         }
         let Some(at) = error.at else { return false };
-        self.note(at, Part::Whole, error.what.clone());
+        self.note(at, FaultPart::Whole, error.what.clone());
         self.refused.insert(at)
     }
 
     /// Notes a fault, once.
-    fn note(&self, at: NodeId, part: Part, what: String) {
+    fn note(&self, at: NodeId, part: FaultPart, what: String) {
         let mut found = self.found.borrow_mut();
         if found.len() < MAX_FAULTS {
             found.entry((at, what)).or_insert(part);

@@ -3,13 +3,13 @@
 
 use super::access::{Items, Members, Variant};
 use super::error::Error;
-use super::{Fields, Notes, Part};
-use crate::source::tree::{Kind, NodeId};
+use super::{FaultPart, Fields, Notes};
+use crate::source::tree::{NodeId, NodeKind};
 use serde::de::{Deserializer, Error as _, Expected, Unexpected, Visitor};
 
 /// Decodes one node, or stands in for one that is not there.
 #[derive(Clone, Copy)]
-pub(super) struct Reader<'n, 't> {
+pub(super) struct NodeReader<'n, 't> {
     pub(super) notes: &'n Notes<'t>,
     pub(super) at: Option<NodeId>,
 }
@@ -69,7 +69,7 @@ impl Number {
     }
 }
 
-impl<'n, 't> Reader<'n, 't> {
+impl<'n, 't> NodeReader<'n, 't> {
     /// Decodes a node, unless it is one to stand in for.
     pub(super) fn new(notes: &'n Notes<'t>, at: NodeId) -> Self {
         let at = (!notes.refused.contains(&at)).then_some(at);
@@ -81,19 +81,19 @@ impl<'n, 't> Reader<'n, 't> {
         Self { notes, at: None }
     }
 
-    fn kind(self) -> Option<Kind> {
+    fn kind(self) -> Option<NodeKind> {
         self.at.map(|at| self.notes.tree.kind(at))
     }
 
     /// The number of the node; 0 for one that is out of range, which is noted.
     fn number(self) -> Option<Number> {
-        let at = self.at.filter(|_| self.kind() == Some(Kind::Number))?;
+        let at = self.at.filter(|_| self.kind() == Some(NodeKind::Number))?;
         let number = Number::of(self.notes.tree.written(at));
         if !number.is_out_of_range() {
             return Some(number);
         }
         let what = "number out of range".to_owned();
-        self.notes.note(at, Part::LastDigit, what);
+        self.notes.note(at, FaultPart::LastDigit, what);
         Some(Number::Unsigned(0))
     }
 
@@ -107,26 +107,26 @@ impl<'n, 't> Reader<'n, 't> {
             return;
         };
         let (found, part) = match kind {
-            Kind::Null => (Unexpected::Unit, Part::Whole),
-            Kind::Bool => {
+            NodeKind::Null => (Unexpected::Unit, FaultPart::Whole),
+            NodeKind::Bool => {
                 let truth = self.notes.tree.boolean(at).unwrap_or_default();
-                (Unexpected::Bool(truth), Part::Whole)
+                (Unexpected::Bool(truth), FaultPart::Whole)
             }
-            Kind::Number => {
+            NodeKind::Number => {
                 let number = Number::of(self.notes.tree.written(at));
                 if number.is_out_of_range() {
                     // That is said instead.
                     self.number();
                     return;
                 }
-                (number.unexpected(), Part::Whole)
+                (number.unexpected(), FaultPart::Whole)
             }
-            Kind::Word | Kind::Text => (
+            NodeKind::Word | NodeKind::Text => (
                 Unexpected::Str(self.text().unwrap_or_default()),
-                Part::Whole,
+                FaultPart::Whole,
             ),
-            Kind::List => (Unexpected::Seq, Part::Bracket),
-            Kind::Map => (Unexpected::Map, Part::Bracket),
+            NodeKind::List => (Unexpected::Seq, FaultPart::Bracket),
+            NodeKind::Map => (Unexpected::Map, FaultPart::Bracket),
         };
         let error = Error::invalid_type(found, expected);
         self.notes.note(at, part, error.what);
@@ -135,7 +135,7 @@ impl<'n, 't> Reader<'n, 't> {
     /// Notes an error at the node as a whole.
     pub(super) fn note(self, error: Error) {
         if let Some(at) = self.at {
-            self.notes.note(at, Part::Whole, error.what);
+            self.notes.note(at, FaultPart::Whole, error.what);
         }
     }
 
@@ -184,7 +184,7 @@ impl<'n, 't> Reader<'n, 't> {
         visitor: V,
         length: Option<usize>,
     ) -> Result<V::Value, Error> {
-        let list = self.at.filter(|_| self.kind() == Some(Kind::List));
+        let list = self.at.filter(|_| self.kind() == Some(NodeKind::List));
         let items: Vec<NodeId> = match list {
             Some(list) => self.notes.tree.items(list).collect(),
             None => {
@@ -209,7 +209,7 @@ macro_rules! whole {
     };
 }
 
-impl<'de> Deserializer<'de> for Reader<'_, '_> {
+impl<'de> Deserializer<'de> for NodeReader<'_, '_> {
     type Error = Error;
 
     whole! {
@@ -224,12 +224,14 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
             return visitor.visit_seq(Items::new(self.notes, Vec::new(), None));
         };
         let value: Result<V::Value, Error> = match kind {
-            Kind::Null => visitor.visit_unit(),
-            Kind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
-            Kind::Number => self.number().unwrap_or(Number::Unsigned(0)).visit(visitor),
-            Kind::Word | Kind::Text => visitor.visit_str(self.text().unwrap_or_default()),
-            Kind::List => visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None)),
-            Kind::Map => visitor.visit_map(Members::any(self.notes, at)),
+            NodeKind::Null => visitor.visit_unit(),
+            NodeKind::Bool => visitor.visit_bool(tree.boolean(at).unwrap_or_default()),
+            NodeKind::Number => self.number().unwrap_or(Number::Unsigned(0)).visit(visitor),
+            NodeKind::Word | NodeKind::Text => visitor.visit_str(self.text().unwrap_or_default()),
+            NodeKind::List => {
+                visitor.visit_seq(Items::new(self.notes, tree.items(at).collect(), None))
+            }
+            NodeKind::Map => visitor.visit_map(Members::any(self.notes, at)),
         };
         value.map_err(|error| error.at(self.at))
     }
@@ -281,13 +283,13 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         match self.kind() {
-            Some(Kind::Null) | None => visitor.visit_none(),
+            Some(NodeKind::Null) | None => visitor.visit_none(),
             Some(_) => visitor.visit_some(self),
         }
     }
 
     fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        if self.kind() != Some(Kind::Null) {
+        if self.kind() != Some(NodeKind::Null) {
             self.wrong_type(&visitor);
         }
         visitor.visit_unit()
@@ -340,10 +342,10 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         fields: Fields,
         visitor: V,
     ) -> Result<V::Value, Error> {
-        if self.kind() == Some(Kind::List) {
+        if self.kind() == Some(NodeKind::List) {
             return self.positional(fields.len(), visitor);
         }
-        let map = self.at.filter(|_| self.kind() == Some(Kind::Map));
+        let map = self.at.filter(|_| self.kind() == Some(NodeKind::Map));
         if map.is_none() {
             self.wrong_type(&visitor);
         }

@@ -1,6 +1,6 @@
 //! For GitHub: workflow commands, which become annotations in the lines of a pull request.
 
-use super::place::{Place, Point};
+use super::place::{FilePlace, TextPosition};
 use super::text::clean_except;
 use crate::diag::{Diagnostic, Severity};
 use crate::source::SourceMap;
@@ -15,7 +15,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
     let place = diagnostic
         .primary
         .as_ref()
-        .map(|label| Place::new(map, label.span));
+        .map(|label| FilePlace::new(map, label.span));
     let file = property(place.as_ref().map_or(name, |place| place.file));
     let at = place
         .and_then(|place| Some(position(place.start?, place.end?)))
@@ -32,7 +32,7 @@ pub(super) fn more(name: &str, count: usize) -> String {
     format!("::notice file={}::and {count} more\n", property(name))
 }
 
-fn position(start: Point, end: Point) -> String {
+fn position(start: TextPosition, end: TextPosition) -> String {
     let lines = format!(",line={},endLine={}", start.line, end.line);
     // Columns are understood only within one line.
     if start.line == end.line {

@@ -1,10 +1,10 @@
 //! For people: the source with its marks, in the style of rustc. The one file that names
 //! `annotate-snippets`.
 
-use super::place::{Place, is_text};
+use super::place::{FilePlace, is_text};
 use super::text::{clean, clean_except};
-use super::window::{self, Window};
-use super::{Options, text};
+use super::window::{self, SourceWindow};
+use super::{PrintOptions, text};
 use crate::diag::{Diagnostic, Hint, Label, Replacement, Severity};
 use crate::source::SourceMap;
 use annotate_snippets::renderer::DecorStyle;
@@ -16,7 +16,7 @@ use annotate_snippets::{
 type Mark<'a> = (&'a Label, AnnotationKind);
 
 /// One finding, with an empty line after it.
-pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &Options) -> String {
+pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &PrintOptions) -> String {
     let renderer = if options.color {
         Renderer::styled()
     } else {
@@ -110,13 +110,13 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
             .iter()
             .all(|(label, _)| window::is_near(map, label.span))
     {
-        return without_source(run, &Place::new(map, head.span));
+        return without_source(run, &FilePlace::new(map, head.span));
     }
     let spans: Vec<_> = run
         .iter()
         .map(|(label, _)| window::mark(map, label.span))
         .collect();
-    let window = Window::new(map, &spans);
+    let window = SourceWindow::new(map, &spans);
     let annotation = |(&(label, kind), &span): (&Mark<'a>, _)| -> Annotation<'a> {
         let text = Some(clean(&label.text)).filter(|text| !text.is_empty());
         kind.span(window.range(span)).label(text)
@@ -129,7 +129,7 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
 }
 
 /// What is said of places whose source is not shown.
-fn without_source<'a>(run: &[Mark<'a>], place: &Place) -> Vec<Element<'a>> {
+fn without_source<'a>(run: &[Mark<'a>], place: &FilePlace) -> Vec<Element<'a>> {
     let labels = run.iter().filter(|(label, _)| !label.text.is_empty());
     let notes = labels.map(|(label, _)| Level::NOTE.message(clean(&label.text)).into());
     std::iter::once(Origin::path(place.to_string()).into())
@@ -143,7 +143,7 @@ fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
     if !is_text(map, span.file) || !window::fits(map, *span) {
         return None;
     }
-    let window = Window::new(map, &[*span]);
+    let window = SourceWindow::new(map, &[*span]);
     let patch = Patch::new(window.range(*span), clean_except(text, &['\n', '\t']));
     let snippet = Snippet::source(window.text)
         .line_start(window.first_line)

@@ -3,7 +3,7 @@
 //!
 //! If findings were left out, a last line `{"omitted": N}` says how many.
 
-use super::place::Place;
+use super::place::FilePlace;
 use super::{severity, text};
 use crate::diag::{Diagnostic, Hint, Label, Replacement};
 use crate::source::{SourceMap, Span};
@@ -37,7 +37,7 @@ struct Finding<'a> {
 #[derive(Serialize)]
 struct Marked<'a> {
     #[serde(flatten)]
-    place: Place<'a>,
+    place: FilePlace<'a>,
     /// The words of the label, or the new text of a replacement.
     text: &'a str,
 }
@@ -89,7 +89,7 @@ fn labelled<'a>(map: &'a SourceMap, label: &'a Label) -> Marked<'a> {
 
 fn marked<'a>(map: &'a SourceMap, span: Span, text: &'a str) -> Marked<'a> {
     Marked {
-        place: Place::new(map, span),
+        place: FilePlace::new(map, span),
         text,
     }
 }

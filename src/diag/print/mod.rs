@@ -44,7 +44,7 @@ impl Format {
 
 /// How findings are shown.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+pub struct PrintOptions {
     /// With colours, in the human format.
     pub color: bool,
     /// Columns of the terminal.
@@ -59,7 +59,7 @@ pub struct Options {
 #[derive(Debug)]
 pub struct Printer {
     format: Format,
-    options: Options,
+    options: PrintOptions,
     omitted: usize,
     results: Vec<serde_json::Value>,
 }
@@ -67,7 +67,7 @@ pub struct Printer {
 impl Printer {
     /// A printer that has seen no file.
     #[must_use]
-    pub fn new(format: Format, options: Options) -> Self {
+    pub fn new(format: Format, options: PrintOptions) -> Self {
         Self {
             format,
             options,

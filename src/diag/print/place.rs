@@ -12,7 +12,7 @@ const SNIFF: usize = 8192;
 /// A place in a file.
 #[derive(Clone, Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Place<'a> {
+pub(super) struct FilePlace<'a> {
     /// The name of the file as the user gave it.
     pub(super) file: &'a str,
     /// The first byte, from 0.
@@ -21,26 +21,26 @@ pub(super) struct Place<'a> {
     pub(super) byte_end: u32,
     /// Line and column of the first character; absent where the file is not text.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) start: Option<Point>,
+    pub(super) start: Option<TextPosition>,
     /// Line and column just past the last character.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) end: Option<Point>,
+    pub(super) end: Option<TextPosition>,
 }
 
 /// Line and column, both from 1, columns in characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub(super) struct Point {
+pub(super) struct TextPosition {
     pub(super) line: u32,
     pub(super) column: u32,
 }
 
-impl<'a> Place<'a> {
+impl<'a> FilePlace<'a> {
     /// The place of `span`.
     pub(super) fn new(map: &'a SourceMap, span: Span) -> Self {
         let Span { file, start, end } = span;
         let point = |offset| {
             let at = map.line_column(file, offset);
-            Point {
+            TextPosition {
                 line: at.line,
                 column: at.column,
             }
@@ -56,11 +56,11 @@ impl<'a> Place<'a> {
     }
 }
 
-impl fmt::Display for Place<'_> {
+impl fmt::Display for FilePlace<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = clean(self.file);
         match self.start {
-            Some(Point { line, column }) => write!(f, "{file}:{line}:{column}"),
+            Some(TextPosition { line, column }) => write!(f, "{file}:{line}:{column}"),
             None => write!(f, "{file}: byte {}", self.byte_start),
         }
     }

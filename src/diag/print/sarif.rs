@@ -1,6 +1,6 @@
 //! For code scanning: SARIF 2.1.0, one run, the rules from the table of codes.
 
-use super::place::Place;
+use super::place::FilePlace;
 use super::text;
 use crate::diag::{Diagnostic, Label, Severity, codes};
 use crate::source::{SourceMap, Span};
@@ -88,7 +88,7 @@ fn location(label: &Label, map: &SourceMap) -> Value {
 }
 
 fn region(span: Span, map: &SourceMap) -> Value {
-    let place = Place::new(map, span);
+    let place = FilePlace::new(map, span);
     let mut region =
         json!({ "byteOffset": span.start, "byteLength": span.end.saturating_sub(span.start) });
     if let (Some(start), Some(end)) = (place.start, place.end) {

@@ -7,7 +7,7 @@ use crate::source::Span;
 use insta::assert_snapshot;
 use proptest::prelude::*;
 
-const PLAIN: Options = Options {
+const PLAIN: PrintOptions = PrintOptions {
     color: false,
     width: 80,
     least: Severity::Warning,
@@ -17,7 +17,7 @@ const SCENE: &str = "Camera:\n\teye: [0, 日本, .inf]\nShaddows: true\n";
 
 fn print(
     format: Format,
-    options: Options,
+    options: PrintOptions,
     text: &[u8],
     make: impl Fn(Span) -> Vec<Diagnostic>,
 ) -> String {
@@ -263,7 +263,7 @@ fn errors_come_before_warnings_when_not_all_fit() {
         let error = Diagnostic::new(&codes::NOT_FINITE, "error").at(place(2), "");
         (0..5).map(warning).chain([error]).collect()
     };
-    let options = Options { max: 2, ..PLAIN };
+    let options = PrintOptions { max: 2, ..PLAIN };
     assert_snapshot!(print(Format::Short, options, b"0123456789", flood), @r#"
     a b.yaml:1:1: warning[SC001]: warning 0
     a b.yaml:1:3: error[VA001]: error
@@ -280,7 +280,13 @@ fn errors_come_before_warnings_when_not_all_fit() {
 fn notes_are_for_those_who_ask_and_for_programs() {
     let note = |at: Span| vec![two(at).remove(0).severity(Severity::Note)];
     let shown = |format, least| {
-        !print(format, Options { least, ..PLAIN }, SCENE.as_bytes(), note).is_empty()
+        !print(
+            format,
+            PrintOptions { least, ..PLAIN },
+            SCENE.as_bytes(),
+            note,
+        )
+        .is_empty()
     };
     assert_eq!(
         [Severity::Warning, Severity::Note].map(|least| shown(Format::Human, least)),

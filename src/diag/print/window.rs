@@ -18,7 +18,7 @@ const MARK: u32 = 160;
 const APART: u32 = 400;
 
 /// Lines of a file.
-pub(super) struct Window {
+pub(super) struct SourceWindow {
     /// The lines, with line ends between them.
     pub(super) text: String,
     /// The number of the first line, from 1.
@@ -27,7 +27,7 @@ pub(super) struct Window {
     moved: Vec<(usize, usize)>,
 }
 
-impl Window {
+impl SourceWindow {
     /// The lines from the start of the first span to the end of the last; all lie in one file.
     pub(super) fn new(map: &SourceMap, spans: &[Span]) -> Self {
         let (start, end) = spans.iter().fold((u32::MAX, 0), |(a, b), span| {
@@ -163,7 +163,7 @@ mod tests {
         let mut map = SourceMap::default();
         let file = map.add("x", text.to_vec());
         let span = mark(&map, Span::new(file, start, end));
-        let window = Window::new(&map, &[span]);
+        let window = SourceWindow::new(&map, &[span]);
         (
             window.text.get(window.range(span)).unwrap().to_owned(),
             window.text.clone(),

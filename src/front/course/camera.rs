@@ -3,8 +3,8 @@
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative, Opening};
-use super::record::{Found, keys, record};
-use super::value::{Point, Size, Vector};
+use super::record::{FieldOutcome, keys, record};
+use super::value::{PictureSize, Point, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
 use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
@@ -23,7 +23,7 @@ record! {
         /// it stands, and the image need not face the eye. Without it pixels are square.
         right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
-        view_size: Spanned<Size>, required, keys!["viewSize"];
+        view_size: Spanned<PictureSize>, required, keys!["viewSize"];
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
         /// not count.
         fov: Spanned<Opening>, optional, keys!["fov"];
@@ -74,7 +74,7 @@ impl Lowering {
             (Field::Center, center.span),
             (
                 Field::Right,
-                if let Found::Read(step) = step {
+                if let FieldOutcome::Read(step) = step {
                     step.span
                 } else {
                     up.span
@@ -115,9 +115,9 @@ impl Lowering {
             eye: *eye,
             center: *center,
             up: up.map(|point| Vector(point.0)),
-            right: Found::Absent,
-            view_size: Spanned::unwritten(Size([OLD_SIDE, OLD_SIDE])),
-            fov: Found::Absent,
+            right: FieldOutcome::Absent,
+            view_size: Spanned::unwritten(PictureSize([OLD_SIDE, OLD_SIDE])),
+            fov: FieldOutcome::Absent,
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
         };
@@ -146,11 +146,11 @@ impl Lowering {
 
 /// The angle that the image spans, in radians, if that is given.
 fn opening(
-    fov: &Found<Spanned<Opening>>,
+    fov: &FieldOutcome<Spanned<Opening>>,
     up: &Spanned<Vector>,
     context: &mut Context<'_>,
 ) -> Option<f64> {
-    let Found::Read(Spanned {
+    let FieldOutcome::Read(Spanned {
         value: Opening(degrees),
         span: Some(span),
     }) = *fov
@@ -180,14 +180,14 @@ fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
         ..
     } = camera;
     match right {
-        Found::Read(right) => {
+        FieldOutcome::Read(right) => {
             return Some((
                 Vec3::from_array(right.value.0),
                 Vec3::from_array(up.value.0),
             ));
         }
-        Found::Broken => return None,
-        Found::Absent => {}
+        FieldOutcome::Broken => return None,
+        FieldOutcome::Absent => {}
     }
     let [from, to, mut upward] = [eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
     if !fov.is_absent() {

@@ -1,6 +1,6 @@
 //! The cone.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::Positive;
@@ -20,7 +20,7 @@ record! {
         /// The radius of the base, above 0.
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 

@@ -1,10 +1,10 @@
 //! The cylinder.
 
-use super::decode::{Numbers, Shared, Spanned};
+use super::decode::{Numbers, SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::Positive;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::value::{Point, Text, Vector};
 use crate::ir::{self, Field};
 use crate::math::Vec3;
@@ -25,7 +25,7 @@ record! {
         /// The radius, above 0.
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
     forms { [position direction height] [ends] }
 }
@@ -70,12 +70,17 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         material: _,
     } = cylinder;
     match (position, direction, height, ends) {
-        (Found::Read(position), Found::Read(direction), Found::Read(height), _) => Some((
+        (
+            FieldOutcome::Read(position),
+            FieldOutcome::Read(direction),
+            FieldOutcome::Read(height),
+            _,
+        ) => Some((
             position.map(|point| point.0),
             direction.map(|vector| vector.0),
             height.map(|height| height.0),
         )),
-        (.., Found::Read([base, top])) => {
+        (.., FieldOutcome::Read([base, top])) => {
             let axis = Vec3::from_array(top.value.0) - Vec3::from_array(base.value.0);
             Some((
                 base.map(|point| point.0),

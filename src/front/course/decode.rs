@@ -3,8 +3,8 @@
 use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::front::Options;
-use crate::source::tree::{NodeId, Shape, Tree};
+use crate::front::FrontOptions;
+use crate::source::tree::{NodeContent, NodeId, Tree};
 use crate::source::{Budget, Resource, Span};
 use serde_json::Value as Json;
 use std::collections::BTreeSet;
@@ -51,12 +51,12 @@ pub(super) type Numbers = Spanned<[f64; 3]>;
 
 /// A value that aliases and merge keys may bring us to again: its node, and the value the first
 /// time.
-pub(super) struct Shared<T> {
+pub(super) struct SharedValue<T> {
     pub(super) node: NodeId,
     pub(super) value: Option<T>,
 }
 
-impl<T: Value> Value for Shared<T> {
+impl<T: Value> Value for SharedValue<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let target = context.tree.target(node);
         if context.decoded.contains(&target) {
@@ -109,7 +109,7 @@ impl<T: Value> Each<T> {
     ) {
         let tree = context.tree;
         for item in self.list.iter().flat_map(|list| tree.items(*list)) {
-            context.key = Key {
+            context.key = ValueKey {
                 text: name,
                 span: None,
             };
@@ -124,11 +124,13 @@ impl<T: Value> Each<T> {
 impl<T: Value> Value for Each<T> {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::List => Some(Self {
+            NodeContent::List => Some(Self {
                 list: Some(node),
                 items: PhantomData,
             }),
-            Shape::Word(_) | Shape::Text(_) | Shape::Map => context.expected(node, "a list"),
+            NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::Map => {
+                context.expected(node, "a list")
+            }
         }
     }
 
@@ -143,7 +145,7 @@ impl<T: Value> Value for Each<T> {
 
 /// The key a value belongs to.
 #[derive(Clone, Copy)]
-pub(super) struct Key<'a> {
+pub(super) struct ValueKey<'a> {
     pub(super) text: &'a str,
     /// Where the key stands; an item of a list has none of its own.
     pub(super) span: Option<Span>,
@@ -151,7 +153,7 @@ pub(super) struct Key<'a> {
 
 /// A key of a map, its own or merged, with its value.
 #[derive(Clone, Copy)]
-pub(super) struct Entry<'a> {
+pub(super) struct MapEntry<'a> {
     pub(super) key: &'a str,
     pub(super) key_node: NodeId,
     pub(super) value: NodeId,
@@ -164,10 +166,10 @@ const REMEMBERED: usize = 10_000;
 /// One pass over a tree: the findings, and what the pass remembers.
 pub(super) struct Context<'a> {
     pub(super) tree: &'a Tree<'a>,
-    pub(super) options: &'a Options,
-    pub(super) key: Key<'a>,
+    pub(super) options: &'a FrontOptions,
+    pub(super) key: ValueKey<'a>,
     /// The entries of the maps being read, innermost last.
-    pub(super) entries: Vec<Entry<'a>>,
+    pub(super) entries: Vec<MapEntry<'a>>,
     /// Other spellings met, once each, with the first place.
     pub(super) spellings: Vec<(&'static str, &'static str, Span)>,
     sink: &'a mut Sink,
@@ -184,14 +186,14 @@ pub(super) struct Context<'a> {
 impl<'a> Context<'a> {
     pub(super) fn new(
         tree: &'a Tree<'a>,
-        options: &'a Options,
+        options: &'a FrontOptions,
         budget: &Budget,
         sink: &'a mut Sink,
     ) -> Self {
         Self {
             tree,
             options,
-            key: Key {
+            key: ValueKey {
                 text: "",
                 span: None,
             },
@@ -272,8 +274,10 @@ impl<'a> Context<'a> {
     pub(super) fn head(&self, node: NodeId) -> Span {
         match self.tree.pairs(node).next() {
             Some((key, value)) if self.tree.is_map(node) => match self.tree.shape(value) {
-                Shape::Word(_) | Shape::Text(_) => self.tree.span(key).to(self.tree.span(value)),
-                Shape::List | Shape::Map => self.tree.span(key),
+                NodeContent::Word(_) | NodeContent::Text(_) => {
+                    self.tree.span(key).to(self.tree.span(value))
+                }
+                NodeContent::List | NodeContent::Map => self.tree.span(key),
             },
             Some(_) | None => self.tree.span(node),
         }
@@ -318,12 +322,12 @@ impl<'a> Context<'a> {
 }
 
 /// What a node is, in the user's words.
-pub(super) fn describe(shape: Shape<'_>) -> String {
+pub(super) fn describe(shape: NodeContent<'_>) -> String {
     match shape {
-        Shape::Word("" | "~" | "null" | "Null" | "NULL") => "nothing".to_owned(),
-        Shape::Word(word) => format!("`{}`", clip(word)),
-        Shape::Text(text) => format!("the text `{}`", clip(text)),
-        Shape::List => "a list".to_owned(),
-        Shape::Map => "a map".to_owned(),
+        NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => "nothing".to_owned(),
+        NodeContent::Word(word) => format!("`{}`", clip(word)),
+        NodeContent::Text(text) => format!("the text `{}`", clip(text)),
+        NodeContent::List => "a list".to_owned(),
+        NodeContent::Map => "a map".to_owned(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::decode::Spanned;
 use super::lower::Lowering;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::solid::turned;
 use super::value::{Channels, FileName, Vector};
 use crate::ir::{self, Field, Noun};
@@ -28,15 +28,17 @@ impl Lowering {
             rotation,
         } = &environment.value;
         let image = match file {
-            Found::Read(file) => Some(self.files.environment(&mut self.scene, file)),
-            Found::Absent => None,
-            Found::Broken => return,
+            FieldOutcome::Read(file) => Some(self.files.environment(&mut self.scene, file)),
+            FieldOutcome::Absent => None,
+            FieldOutcome::Broken => return,
         };
         let turn = match rotation {
             // Its rows are where the axes come to: the way back from the world.
-            Found::Read(rotation) => Some(turned(rotation.value.0).map(|axis| axis.to_array())),
-            Found::Absent => None,
-            Found::Broken => return,
+            FieldOutcome::Read(rotation) => {
+                Some(turned(rotation.value.0).map(|axis| axis.to_array()))
+            }
+            FieldOutcome::Absent => None,
+            FieldOutcome::Broken => return,
         };
         self.scene.environment = Some(ir::Environment {
             radiance: color.value.0,

@@ -3,7 +3,7 @@
 use super::decode::{Context, Spanned, Value};
 use super::lower::Lowering;
 use super::number::NonNegative;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Channels, Color, Point, Vector, word, word_schema};
 use crate::diag::{Severity, codes};
@@ -16,7 +16,7 @@ record! {
     /// with one is shown by its paths.
     struct Light, "light" {
         /// What kind of light this is.
-        kind: Spanned<Kind>, optional, keys!["type"];
+        kind: Spanned<LightKind>, optional, keys!["type"];
         /// Where the light stands.
         position: Spanned<Point>, optional, keys!["position"];
         /// Its colour: red, green, blue; more than 1 is allowed.
@@ -34,15 +34,15 @@ record! {
 
 /// A kind of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum LightKind {
     Point,
     Sun,
 }
 
 /// The words for the kinds.
-const KINDS: &[(&str, Kind)] = &[("point", Kind::Point), ("sun", Kind::Sun)];
+const KINDS: &[(&str, LightKind)] = &[("point", LightKind::Point), ("sun", LightKind::Sun)];
 
-impl Value for Kind {
+impl Value for LightKind {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         word(node, KINDS, context)
     }
@@ -72,7 +72,7 @@ impl Lowering {
         } = &light.value;
         let index = self.scene.lights.len();
         let (made, is) = match (position, color, direction, irradiance) {
-            (Found::Read(position), Found::Read(color), ..) => {
+            (FieldOutcome::Read(position), FieldOutcome::Read(color), ..) => {
                 self.origin(Noun::Light, index, Field::Position, position.span);
                 self.origin(Noun::Light, index, Field::Color, color.span);
                 self.origin(Noun::Light, index, Field::LightRadius, radius.span);
@@ -83,10 +83,10 @@ impl Lowering {
                         color,
                         radius,
                     }),
-                    Kind::Point,
+                    LightKind::Point,
                 )
             }
-            (.., Found::Read(direction), Found::Read(irradiance)) => {
+            (.., FieldOutcome::Read(direction), FieldOutcome::Read(irradiance)) => {
                 let emitter = ir::Emitter::Sun {
                     direction: direction.value.0,
                 };
@@ -95,12 +95,12 @@ impl Lowering {
                         emitter,
                         intensity: irradiance.value.0,
                     }),
-                    Kind::Sun,
+                    LightKind::Sun,
                 )
             }
             _ => return,
         };
-        if let Found::Read(Spanned {
+        if let FieldOutcome::Read(Spanned {
             value,
             span: Some(span),
         }) = kind

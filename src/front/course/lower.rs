@@ -3,17 +3,17 @@
 
 use super::assets::{Asset, Wanted};
 use super::camera;
-use super::decode::{Context, Key, Value};
+use super::decode::{Context, Value, ValueKey};
 use super::mesh;
-use super::record::Found;
+use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
 use super::texture::Files;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::Options;
+use crate::front::FrontOptions;
 use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
 use crate::source::tree::yaml::{self, Mistake};
-use crate::source::tree::{NodeId, Shape};
+use crate::source::tree::{NodeContent, NodeId};
 use crate::source::{FileId, SourceMap, Span};
 use std::collections::BTreeMap;
 
@@ -22,19 +22,24 @@ use std::collections::BTreeMap;
 ///
 /// What can't be read is left out, and a camera that can't be read is replaced by a sound one, so
 /// that the proof can find the mistakes of the rest; the sink has an error for each.
-pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Draft> {
+pub fn lower(
+    file: FileId,
+    map: &SourceMap,
+    options: &FrontOptions,
+    sink: &mut Sink,
+) -> Option<UnfinishedScene> {
     let tell = &mut |mistake: Mistake<'_>| sink.push(syntax::finding(mistake));
     let tree = yaml::parse(file, map.bytes(file), tell)?;
     match tree.shape(tree.root()) {
-        Shape::Map => {}
-        Shape::Word("" | "~" | "null" | "Null" | "NULL") => {
+        NodeContent::Map => {}
+        NodeContent::Word("" | "~" | "null" | "Null" | "NULL") => {
             sink.push(
                 Diagnostic::new(&codes::EMPTY_FILE, "this file holds no scene")
                     .at(tree.span(tree.root()), "empty"),
             );
             return None;
         }
-        Shape::Word(_) | Shape::Text(_) | Shape::List => {
+        NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
             let hint = "it starts like `Camera:`, with a colon and a space after each key";
             sink.push(
                 Diagnostic::new(&codes::NOT_A_SCENE, "a scene is a map of keys and values")
@@ -55,7 +60,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
 
 /// A scene as lowered from its text alone: the files it names are still to be brought.
 #[derive(Clone, Debug)]
-pub struct Draft {
+pub struct UnfinishedScene {
     /// The scene, with an image of one pixel or an empty mesh for each file.
     pub lowered: Lowered,
     /// The files, each once.
@@ -63,7 +68,7 @@ pub struct Draft {
     fitted: Vec<usize>,
 }
 
-impl Draft {
+impl UnfinishedScene {
     /// The scene, with each mesh in its size; after its files were brought.
     #[must_use]
     pub fn finish(mut self) -> Lowered {
@@ -128,7 +133,7 @@ impl Lowering {
 
     fn scene(&mut self, context: &mut Context<'_>) {
         let root = context.tree.root();
-        context.key = Key {
+        context.key = ValueKey {
             text: "the file",
             span: None,
         };
@@ -137,7 +142,7 @@ impl Lowering {
         };
         self.view(&scene, context);
         self.settings(&scene, context);
-        if let Found::Read(environment) = &scene.environment {
+        if let FieldOutcome::Read(environment) = &scene.environment {
             self.environment(environment);
         }
         scene
@@ -167,25 +172,31 @@ impl Lowering {
             camera, eye, look, ..
         } = scene;
         match (camera, look, eye) {
-            (Found::Absent, Found::Absent, Found::Absent) => no_camera(context),
-            (Found::Read(camera), ..) => self.camera(camera, context),
-            (Found::Absent, Found::Read(look), _) => self.look(look, context),
-            (Found::Absent, Found::Absent, Found::Read(eye)) => self.eye(*eye),
-            (Found::Broken, ..) | (_, Found::Broken, _) | (.., Found::Broken) => {}
+            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
+                no_camera(context)
+            }
+            (FieldOutcome::Read(camera), ..) => self.camera(camera, context),
+            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => self.look(look, context),
+            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Read(eye)) => self.eye(*eye),
+            (FieldOutcome::Broken, ..)
+            | (_, FieldOutcome::Broken, _)
+            | (.., FieldOutcome::Broken) => {}
         }
-        if let (false, Found::Read(look)) = (camera.is_absent(), look) {
+        if let (false, FieldOutcome::Read(look)) = (camera.is_absent(), look) {
             ignored_camera("CameraEye", "Camera", look[0].span, context);
         }
         match (camera.is_absent(), look.is_absent(), eye) {
-            (false, _, Found::Read(eye)) => ignored_camera("Eye", "Camera", eye.span, context),
-            (true, false, Found::Read(eye)) => {
+            (false, _, FieldOutcome::Read(eye)) => {
+                ignored_camera("Eye", "Camera", eye.span, context)
+            }
+            (true, false, FieldOutcome::Read(eye)) => {
                 ignored_camera("Eye", "CameraEye", eye.span, context)
             }
             _ => {}
         }
     }
 
-    fn finish(self) -> Draft {
+    fn finish(self) -> UnfinishedScene {
         let Self {
             scene,
             shared: _,
@@ -217,7 +228,7 @@ impl Lowering {
             );
         }
         origins.finish();
-        Draft {
+        UnfinishedScene {
             lowered: Lowered { scene, origins },
             wanted,
             fitted,

@@ -1,9 +1,9 @@
 //! The materials.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{SharedValue, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::value::{Color, FileName};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
@@ -49,16 +49,19 @@ const GREY: ir::Phong = ir::Phong {
 
 impl Lowering {
     /// Lowers a material, once if aliases share it. `None` if it can't be, which is reported.
-    pub(super) fn material(&mut self, material: &Spanned<Shared<Material>>) -> Option<MaterialId> {
-        let Shared { node, value } = &material.value;
+    pub(super) fn material(
+        &mut self,
+        material: &Spanned<SharedValue<Material>>,
+    ) -> Option<MaterialId> {
+        let SharedValue { node, value } = &material.value;
         if let Some(id) = self.shared.get(node) {
             return Some(*id);
         }
         let value = value.as_ref()?;
         let color = match (&value.color, &value.texture) {
-            (Found::Read(color), _) => *color,
-            (Found::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
-            (Found::Broken, _) => return None,
+            (FieldOutcome::Read(color), _) => *color,
+            (FieldOutcome::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
+            (FieldOutcome::Broken, _) => return None,
         };
         let phong = self.phong(value, color.value);
         let id = self.add_material(phong);
@@ -102,8 +105,8 @@ impl Lowering {
         }
     }
 
-    fn map(&mut self, file: &Found<Spanned<FileName>>) -> Option<ir::TextureId> {
-        if let Found::Read(file) = file {
+    fn map(&mut self, file: &FieldOutcome<Spanned<FileName>>) -> Option<ir::TextureId> {
+        if let FieldOutcome::Read(file) = file {
             Some(self.files.texture(&mut self.scene, file))
         } else {
             None
@@ -150,7 +153,7 @@ impl Lowering {
             (Field::NormalMap, normal_map),
             (Field::Bump, bump),
         ] {
-            if let Found::Read(file) = file {
+            if let FieldOutcome::Read(file) = file {
                 self.origin(Noun::Material, id.0 as usize, field, file.span);
             }
         }

@@ -1,10 +1,10 @@
 //! The meshes: triangles from a file, placed.
 
-use super::decode::{Context, Shared, Spanned};
+use super::decode::{Context, SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::Real;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::sphere::Radius;
 use super::value::{FileName, Point, Text};
 use crate::diag::{Severity, codes};
@@ -25,7 +25,7 @@ record! {
         /// Half the longest side of the mesh in the scene, however large it is in its file; above 0.
         radius: Spanned<Radius>, optional, keys!["radius"];
         /// What it is made of; grey if nothing is said.
-        material: Spanned<Shared<Material>>, optional, keys!["material"];
+        material: Spanned<SharedValue<Material>>, optional, keys!["material"];
     }
     forms { [file] [file scale] [file radius] }
 }
@@ -42,17 +42,17 @@ impl Lowering {
             material,
         } = mesh;
         let clothes = match material {
-            Found::Read(material) => self.clothe(kind, material),
-            Found::Absent => Some(self.clothe_in_grey(kind)),
-            Found::Broken => None,
+            FieldOutcome::Read(material) => self.clothe(kind, material),
+            FieldOutcome::Absent => Some(self.clothe_in_grey(kind)),
+            FieldOutcome::Broken => None,
         };
         let (size, to_fit) = match (scale, radius) {
-            (Found::Read(scale), _) => (scale.map(|scale| scale.0), false),
-            (_, Found::Read(radius)) => {
+            (FieldOutcome::Read(scale), _) => (scale.map(|scale| scale.0), false),
+            (_, FieldOutcome::Read(radius)) => {
                 useless_axis(radius, context);
                 (radius.map(|radius| radius.length), true)
             }
-            (Found::Absent, Found::Absent) => (
+            (FieldOutcome::Absent, FieldOutcome::Absent) => (
                 Spanned {
                     value: 1.0,
                     span: position.span,

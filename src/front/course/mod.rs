@@ -35,6 +35,6 @@ mod torus;
 mod triangle;
 mod value;
 
-pub use lower::{Draft, lower};
+pub use lower::{UnfinishedScene, lower};
 pub use page::page;
 pub use schema::schema;

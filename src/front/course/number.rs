@@ -7,7 +7,7 @@ use super::decode::{Context, Value, describe};
 use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::codes;
-use crate::source::tree::{NodeId, Shape};
+use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 /// What a word says about a number.
@@ -103,11 +103,11 @@ fn is_decimal(word: &str) -> bool {
 /// The number a word without quotes says, if it says one; nothing is reported.
 pub(super) fn plain_number(node: NodeId, context: &Context<'_>) -> Option<f64> {
     match context.tree.shape(node) {
-        Shape::Word(word) => match read(word) {
+        NodeContent::Word(word) => match read(word) {
             Reading::Number(value) => Some(value),
             Reading::NotFinite | Reading::NoNumber => None,
         },
-        Shape::Text(_) | Shape::List | Shape::Map => None,
+        NodeContent::Text(_) | NodeContent::List | NodeContent::Map => None,
     }
 }
 
@@ -120,9 +120,9 @@ pub(super) fn is_number(word: &str) -> bool {
 pub(super) fn number(node: NodeId, what: &str, context: &mut Context<'_>) -> Option<f64> {
     let tree = context.tree;
     let (word, quoted) = match tree.shape(node) {
-        Shape::Word(word) => (word, false),
-        Shape::Text(text) => (text, true),
-        Shape::List | Shape::Map => return context.expected(node, what),
+        NodeContent::Word(word) => (word, false),
+        NodeContent::Text(text) => (text, true),
+        NodeContent::List | NodeContent::Map => return context.expected(node, what),
     };
     let (key, span) = (context.key, tree.span(node));
     match read(word) {

@@ -2,7 +2,7 @@
 
 use super::cone::Cone;
 use super::cylinder::Cylinder;
-use super::decode::{Context, Key, Shared, Spanned, Value};
+use super::decode::{Context, SharedValue, Spanned, Value, ValueKey};
 use super::disc::Disc;
 use super::gltf::Gltf;
 use super::lower::Lowering;
@@ -27,7 +27,7 @@ use crate::source::tree::NodeId;
 use serde_json::Value as Json;
 
 /// A type of object: the words for it, the canonical one first, and its declaration.
-pub(super) struct Kind {
+pub(super) struct ObjectKind {
     pub(super) words: &'static [&'static str],
     pub(super) record: &'static Record,
     decode: fn(NodeId, &mut Context<'_>) -> Option<Object>,
@@ -43,7 +43,7 @@ macro_rules! kinds {
         }
 
         /// The types there are.
-        pub(super) const KINDS: &[Kind] = &[$(Kind {
+        pub(super) const KINDS: &[ObjectKind] = &[$(ObjectKind {
             words: &[$($word),+],
             record: &$record::RECORD,
             decode: |node, context| $record::decode(node, context).map(Object::$record),
@@ -79,7 +79,7 @@ impl Value for Object {
             return None;
         };
         let span = context.tree.span(kind);
-        context.key = Key {
+        context.key = ValueKey {
             text: "type",
             span: Some(span),
         };
@@ -102,7 +102,7 @@ impl Value for Object {
 
     fn schema(definitions: &mut Definitions) -> Json {
         let mut kinds = Vec::new();
-        for Kind { words, schema, .. } in KINDS {
+        for ObjectKind { words, schema, .. } in KINDS {
             let schema = schema(definitions);
             kinds.extend(words.iter().map(|word| (*word, schema.clone())));
         }
@@ -172,7 +172,7 @@ impl Lowering {
     pub(super) fn clothe(
         &mut self,
         kind: &Spanned<Text>,
-        material: &Spanned<Shared<Material>>,
+        material: &Spanned<SharedValue<Material>>,
     ) -> Option<Clothes> {
         let id = self.material(material)?;
         Some(Clothes {

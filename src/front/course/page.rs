@@ -5,7 +5,7 @@ use super::camera::Camera;
 use super::environment::Environment;
 use super::light::Light;
 use super::material::Material;
-use super::object::{KINDS, Kind};
+use super::object::{KINDS, ObjectKind};
 use super::record::{Field, Need, Record};
 use super::schema::Definitions;
 use super::settings::{Gooch, Grid, Scene};
@@ -39,7 +39,7 @@ pub fn page() -> String {
     ] {
         section(title, record, &mut page);
     }
-    for Kind { words, record, .. } in KINDS {
+    for ObjectKind { words, record, .. } in KINDS {
         section(&format!("`type: {}`", words[0]), record, &mut page);
         if let [_, others @ ..] = words
             && !others.is_empty()

@@ -1,11 +1,11 @@
 //! The planes: infinite ones, and the bounded ones of some files.
 
-use super::decode::{Context, Numbers, Shared, Spanned, Value};
+use super::decode::{Context, Numbers, SharedValue, Spanned, Value};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::{Positive, Real};
 use super::quad::EDGES;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::triangle::CORNERS;
 use super::value::{Point, Text, Vector, word, word_schema};
@@ -32,7 +32,7 @@ record! {
         /// A direction in the plane.
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
     forms { [position normal] [normal distance] [corners] [position edges] }
 }
@@ -52,7 +52,7 @@ record! {
         /// The radius, or half the side of the square; above 0.
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 
@@ -188,14 +188,14 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         material: _,
     } = plane;
     match (corners, position, normal, distance, edges) {
-        (Found::Read(corners), ..) => Some(through(corners)),
-        (_, Found::Read(position), Found::Read(normal), ..) => {
+        (FieldOutcome::Read(corners), ..) => Some(through(corners)),
+        (_, FieldOutcome::Read(position), FieldOutcome::Read(normal), ..) => {
             Some((position.map(|point| point.0), normal.map(|vector| vector.0)))
         }
-        (_, _, Found::Read(normal), Found::Read(distance), _) => {
+        (_, _, FieldOutcome::Read(normal), FieldOutcome::Read(distance), _) => {
             Some(at_distance(normal, distance))
         }
-        (_, Found::Read(position), .., Found::Read([up, side])) => {
+        (_, FieldOutcome::Read(position), .., FieldOutcome::Read([up, side])) => {
             let [up_vector, side_vector] = [up, side].map(|edge| Vec3::from_array(edge.value.0));
             let span = up.span.zip(side.span).map(|(first, last)| first.to(last));
             let normal = across(side_vector, up_vector);

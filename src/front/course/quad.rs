@@ -1,9 +1,9 @@
 //! The quadrilateral.
 
-use super::decode::{Numbers, Shared, Spanned};
+use super::decode::{Numbers, SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
-use super::record::{Found, Rows, keys, record};
+use super::record::{FieldOutcome, Rows, keys, record};
 use super::value::{Point, Text, Vector};
 use crate::ir::{self, Field};
 use crate::math::Vec3;
@@ -36,7 +36,7 @@ record! {
         /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
     forms { [corners] [position edges] }
 }
@@ -69,8 +69,10 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
         material: _,
     } = quad;
     match (corners, position, edges) {
-        (Found::Read(corners), ..) => Some(corners.map(|corner| corner.map(|point| point.0))),
-        (_, Found::Read(position), Found::Read([up, side])) => {
+        (FieldOutcome::Read(corners), ..) => {
+            Some(corners.map(|corner| corner.map(|point| point.0)))
+        }
+        (_, FieldOutcome::Read(position), FieldOutcome::Read([up, side])) => {
             let [corner, v, u] = [position.value.0, up.value.0, side.value.0].map(Vec3::from_array);
             let second = side.map(|_| (corner + u).to_array());
             let third = side.map(|_| (corner + u + v).to_array());

@@ -1,9 +1,9 @@
 //! Maps read field by field, in the order of a record's declaration; what was left unread and what
 //! is missing is reported.
 
-use super::decode::{Context, Entry, Key, describe};
+use super::decode::{Context, MapEntry, ValueKey, describe};
 use super::form;
-use super::record::{Field, Found, Need, Record, Slot};
+use super::record::{Field, FieldOutcome, Need, Record, Slot};
 use super::spelling::{list, nearest};
 use crate::diag::clip;
 use crate::diag::codes;
@@ -50,12 +50,12 @@ impl Reader {
     }
 
     /// The next field of the declaration.
-    pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> Found<S> {
+    pub(super) fn next<S: Slot>(&mut self, context: &mut Context<'_>) -> FieldOutcome<S> {
         let field = &self.record.fields[self.rows.len()];
         let found = self.row(field, context);
         self.rows.push(found.map(|(row, _)| row));
         let Some((row, found)) = found else {
-            return Found::Absent;
+            return FieldOutcome::Absent;
         };
         for ((key, canonical), at) in row.iter().zip(field.rows[0]).zip(found) {
             context.entries[at].claimed = true;
@@ -67,7 +67,7 @@ impl Reader {
                 );
             }
         }
-        S::take(&found[..row.len()], context).map_or(Found::Broken, Found::Read)
+        S::take(&found[..row.len()], context).map_or(FieldOutcome::Broken, FieldOutcome::Read)
     }
 
     /// The first row of the field whose keys are all there and not yet used, and where.
@@ -127,7 +127,7 @@ impl Reader {
 
     /// Reports a key nobody used. The bit of the field it is a part of, if that field is
     /// incomplete.
-    fn unread(&self, entry: Entry<'_>, context: &mut Context<'_>) -> u32 {
+    fn unread(&self, entry: MapEntry<'_>, context: &mut Context<'_>) -> u32 {
         let Record { word, fields, .. } = self.record;
         let span = context.tree.span(entry.key_node);
         let part_of = |field: &Field| field.rows.iter().any(|row| row.contains(&entry.key));
@@ -201,7 +201,7 @@ pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &m
     });
 }
 
-fn unknown_key(word: &str, meant: Option<&str>, entry: Entry<'_>, context: &mut Context<'_>) {
+fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &mut Context<'_>) {
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
     context.report(
@@ -236,7 +236,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
             match tree.text(key_node) {
                 Some("<<") if tree.is_list(value) => merged.extend(tree.items(value)),
                 Some("<<") => merged.push(value),
-                Some(key) => context.entries.push(Entry {
+                Some(key) => context.entries.push(MapEntry {
                     key,
                     key_node,
                     value,
@@ -255,7 +255,7 @@ fn gather(map: NodeId, context: &mut Context<'_>) {
             if tree.is_map(map) {
                 open.extend(seen.insert(tree.target(map)).then_some(map));
             } else {
-                context.key = Key {
+                context.key = ValueKey {
                     text: "<<",
                     span: Some(tree.span(map)),
                 };

@@ -4,7 +4,7 @@
 //! A field is one value or a group of values that stand under a row of keys; it may have several
 //! rows, the canonical one first. Every key of a map is either used by one field or reported.
 
-use super::decode::{Context, Entry, Key, Spanned, Value};
+use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
 use super::schema::Definitions;
 use serde_json::Value as Json;
 
@@ -96,7 +96,7 @@ macro_rules! record {
             }
         }
     };
-    (@type optional $type:ty) => { $crate::front::course::record::Found<$type> };
+    (@type optional $type:ty) => { $crate::front::course::record::FieldOutcome<$type> };
     (@type $need:ident $type:ty) => { $type };
     (@need required $type:ty) => { $crate::front::course::record::Need::Required };
     (@need optional $type:ty) => { $crate::front::course::record::Need::Optional };
@@ -114,7 +114,7 @@ pub(super) use {keys, record};
 
 /// What became of a field.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Found<T> {
+pub(super) enum FieldOutcome<T> {
     /// It is not there.
     Absent,
     /// It is there but can't be read; the sink has an error.
@@ -123,7 +123,7 @@ pub(super) enum Found<T> {
     Read(T),
 }
 
-impl<T> Found<T> {
+impl<T> FieldOutcome<T> {
     pub(super) fn ok(self) -> Option<T> {
         match self {
             Self::Read(value) => Some(value),
@@ -148,7 +148,7 @@ pub(super) trait Slot: Sized {
 
 impl<T: Value> Slot for Spanned<T> {
     fn take(places: &[usize], context: &mut Context<'_>) -> Option<Self> {
-        let Entry {
+        let MapEntry {
             key: text,
             key_node,
             value: node,
@@ -156,7 +156,7 @@ impl<T: Value> Slot for Spanned<T> {
         } = context.entries[*places.first()?];
         let tree = context.tree;
         let key = tree.span(key_node);
-        context.key = Key {
+        context.key = ValueKey {
             text,
             span: Some(key),
         };

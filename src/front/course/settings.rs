@@ -8,12 +8,12 @@ use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, Real, plain_number};
 use super::object::Object;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Point, Text, word, word_schema};
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun};
-use crate::source::tree::{NodeId, Shape};
+use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -192,14 +192,14 @@ impl SuperSampling {
 impl Value for SuperSampling {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::Map => {
+            NodeContent::Map => {
                 let Grid { factor, pattern } = Grid::decode(node, context)?;
                 Some(Self {
                     factor: factor.value,
                     pattern: pattern.value.0,
                 })
             }
-            Shape::Word(_) | Shape::Text(_) | Shape::List => {
+            NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
                 Count::decode(node, context).map(|factor| Self {
                     factor,
                     ..Self::ONE
@@ -235,7 +235,7 @@ impl Lowering {
             light_samples,
             ..
         } = scene;
-        let light_samples = if let Found::Read(count) = light_samples {
+        let light_samples = if let FieldOutcome::Read(count) = light_samples {
             *count
         } else {
             Spanned::unwritten(Count(1))
@@ -313,10 +313,10 @@ impl Lowering {
     fn mode(
         &mut self,
         mode: Mode,
-        gooch: &Found<Spanned<Gooch>>,
+        gooch: &FieldOutcome<Spanned<Gooch>>,
         context: &mut Context<'_>,
     ) -> ir::Mode {
-        let given = if let Found::Read(gooch) = gooch {
+        let given = if let FieldOutcome::Read(gooch) = gooch {
             Some(gooch)
         } else {
             None
@@ -356,7 +356,7 @@ fn max_depth(scene: &Scene, context: &mut Context<'_>) -> u32 {
     let Scene {
         depth, reflections, ..
     } = scene;
-    let Found::Read(Spanned {
+    let FieldOutcome::Read(Spanned {
         value: reflect,
         span: Some(span),
     }) = reflections

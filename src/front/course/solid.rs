@@ -1,12 +1,12 @@
 //! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they
 //! are bounded by.
 
-use super::decode::{Context, Shared, Spanned};
+use super::decode::{Context, SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::object::Clothes;
 use super::quad::FOUR_CORNERS;
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::triangle::{CORNERS, VERTICES};
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
@@ -31,7 +31,7 @@ record! {
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 3], optional, &[&["up", "side", "depth"]];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
     forms { [extremes] [position dimension] [position dimension rotation] [position edges] }
 }
@@ -44,7 +44,7 @@ record! {
         /// A corner.
         corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 
@@ -58,7 +58,7 @@ record! {
         /// From the base to the top.
         up: Spanned<Vector>, required, keys!["up" "direction"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 
@@ -238,17 +238,17 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
     } = cuboid;
     let end = |index: usize, axis: usize| (index >> axis) & 1;
     match (extremes, position, dimension, rotation, edges) {
-        (Found::Read(ends), ..) => {
+        (FieldOutcome::Read(ends), ..) => {
             let corner = |index| {
                 Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]))
             };
             Some((std::array::from_fn(corner), ends[0].span))
         }
-        (_, Found::Read(center), Found::Read(dimension), rotation, _) => {
+        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension), rotation, _) => {
             let turn = match rotation {
-                Found::Read(rotation) => turned(rotation.value.0),
-                Found::Absent => Vec3::AXES,
-                Found::Broken => return None,
+                FieldOutcome::Read(rotation) => turned(rotation.value.0),
+                FieldOutcome::Absent => Vec3::AXES,
+                FieldOutcome::Broken => return None,
             };
             let (center, size) = (Vec3::from_array(center.value.0), dimension.value.0);
             let half = |index, axis: usize| {
@@ -266,7 +266,7 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
             };
             Some((std::array::from_fn(corner), dimension.span))
         }
-        (_, Found::Read(corner), .., Found::Read([up, side, depth])) => {
+        (_, FieldOutcome::Read(corner), .., FieldOutcome::Read([up, side, depth])) => {
             let edges = [side, up, depth].map(|edge| Vec3::from_array(edge.value.0));
             let from = Vec3::from_array(corner.value.0);
             let along = |index| {

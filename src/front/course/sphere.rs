@@ -1,16 +1,16 @@
 //! The sphere, and the turn of its texture.
 
-use super::decode::{Context, Shared, Spanned, Value};
+use super::decode::{Context, SharedValue, Spanned, Value};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::{Positive, Real, json_number};
-use super::record::{Found, keys, record};
+use super::record::{FieldOutcome, keys, record};
 use super::schema::Definitions;
 use super::value::{Point, Text, Vector};
 use crate::diag::codes;
 use crate::ir::{self, Field};
 use crate::math::{Vec3, turned_to_z, unit};
-use crate::source::tree::{NodeId, Shape};
+use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
@@ -27,7 +27,7 @@ record! {
         /// The axis that the texture is turned about: its poles lie on it.
         axis: Spanned<Vector>, optional, keys!["axis" "rotation"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Radius {
 impl Value for Radius {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
-        if tree.shape(node) != Shape::List {
+        if tree.shape(node) != NodeContent::List {
             return Positive::decode(node, context).map(|length| Self {
                 length: length.0,
                 axis: None,
@@ -102,7 +102,7 @@ impl Lowering {
 /// noted.
 fn texture_axis(
     radius: &Spanned<Radius>,
-    axis: &Found<Spanned<Vector>>,
+    axis: &FieldOutcome<Spanned<Vector>>,
     context: &mut Context<'_>,
 ) -> Vec3 {
     let mut no_effect = |axis: &Spanned<Vector>, message: &str| {
@@ -116,7 +116,7 @@ fn texture_axis(
         });
     };
     let chosen = match (axis, &radius.value.axis) {
-        (Found::Read(axis), inner) => {
+        (FieldOutcome::Read(axis), inner) => {
             inner.iter().for_each(|inner| {
                 no_effect(
                     inner,
@@ -125,8 +125,8 @@ fn texture_axis(
             });
             axis
         }
-        (Found::Absent | Found::Broken, Some(axis)) => axis,
-        (Found::Absent | Found::Broken, None) => return Vec3::Z,
+        (FieldOutcome::Absent | FieldOutcome::Broken, Some(axis)) => axis,
+        (FieldOutcome::Absent | FieldOutcome::Broken, None) => return Vec3::Z,
     };
     unit(Vec3::from_array(chosen.value.0)).unwrap_or_else(|| {
         no_effect(

@@ -1,6 +1,6 @@
 //! The torus.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
 use super::number::Positive;
@@ -22,7 +22,7 @@ record! {
         /// The direction of the axis, of any length but 0.
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), keys!["direction" "axis" "normal" "N"];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 

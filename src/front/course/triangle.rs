@@ -1,9 +1,9 @@
 //! The triangle.
 
-use super::decode::{Shared, Spanned};
+use super::decode::{SharedValue, Spanned};
 use super::lower::Lowering;
 use super::material::Material;
-use super::record::{Found, Rows, keys, record};
+use super::record::{FieldOutcome, Rows, keys, record};
 use super::value::{Point, Text, Uv};
 use crate::ir::{self, Field};
 
@@ -29,7 +29,7 @@ record! {
         /// The place of a corner in the texture: (0, 0) is its lower left, (1, 1) its upper right.
         uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"]];
         /// What it is made of.
-        material: Spanned<Shared<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
 }
 
@@ -49,7 +49,7 @@ impl Lowering {
             uvs,
             material,
         } = triangle;
-        let uvs = if let Found::Read(uvs) = uvs {
+        let uvs = if let FieldOutcome::Read(uvs) = uvs {
             Some(uvs.map(|uv| uv.value.0))
         } else {
             None

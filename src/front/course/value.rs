@@ -6,7 +6,7 @@ use super::schema::Definitions;
 use super::spelling::{list, nearest};
 use crate::diag::clip;
 use crate::diag::codes;
-use crate::source::tree::{NodeId, Shape};
+use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the
@@ -96,8 +96,8 @@ macro_rules! spread {
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 const WHAT: &str = "a number or a list of three numbers";
                 match context.tree.shape(node) {
-                    Shape::List => tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self),
-                    Shape::Word(_) | Shape::Text(_) | Shape::Map => {
+                    NodeContent::List => tuple(node, WHAT, context, |node, context| number(node, WHAT, context)).map(Self),
+                    NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::Map => {
                         number(node, WHAT, context).map(|number| Self([number; 3]))
                     }
                 }
@@ -130,9 +130,9 @@ pub(super) const MAX_SIDE: u32 = 65_535;
 
 /// The width and height of an image in pixels.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Size(pub(super) [u32; 2]);
+pub(super) struct PictureSize(pub(super) [u32; 2]);
 
-impl Value for Size {
+impl Value for PictureSize {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         tuple(
             node,
@@ -188,8 +188,8 @@ impl Value for bool {
             return context.expected(node, "`true` or `false`");
         };
         match (context.tree.shape(node), text) {
-            (Shape::Word(_), "true" | "True" | "TRUE") => return Some(true),
-            (Shape::Word(_), "false" | "False" | "FALSE") => return Some(false),
+            (NodeContent::Word(_), "true" | "True" | "TRUE") => return Some(true),
+            (NodeContent::Word(_), "false" | "False" | "FALSE") => return Some(false),
             _ => {}
         }
         let meant = match text.to_ascii_lowercase().as_str() {
@@ -240,8 +240,8 @@ pub(super) struct Text;
 impl Value for Text {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::Word(_) | Shape::Text(_) => Some(Self),
-            Shape::List | Shape::Map => context.expected(node, "text"),
+            NodeContent::Word(_) | NodeContent::Text(_) => Some(Self),
+            NodeContent::List | NodeContent::Map => context.expected(node, "text"),
         }
     }
 
@@ -257,9 +257,9 @@ pub(super) struct FileName(pub(super) String);
 impl Value for FileName {
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
-            Shape::Word(word) if is_text(word) => Some(Self(word.to_owned())),
-            Shape::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
-            Shape::Word(_) | Shape::Text(_) | Shape::List | Shape::Map => {
+            NodeContent::Word(word) if is_text(word) => Some(Self(word.to_owned())),
+            NodeContent::Text(text) if !text.is_empty() => Some(Self(text.to_owned())),
+            NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List | NodeContent::Map => {
                 context.expected(node, "the name of a file")
             }
         }

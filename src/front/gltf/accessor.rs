@@ -3,10 +3,10 @@
 use super::buffer::{Purpose, Purposes};
 use super::document::Document;
 use super::field::Fields;
-use super::layout::{Component, Layout};
-use super::report::Report;
+use super::layout::{Component, ElementLayout};
+use super::report::AssetReport;
 use crate::diag::codes;
-use crate::source::tree::{Kind, NodeId};
+use crate::source::tree::{NodeId, NodeKind};
 
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;
@@ -18,7 +18,7 @@ pub(super) struct Accessor {
     pub(super) view: Option<usize>,
     pub(super) offset: usize,
     pub(super) count: Option<usize>,
-    pub(super) layout: Option<Layout>,
+    pub(super) layout: Option<ElementLayout>,
     pub(super) min: Option<Vec<f64>>,
     pub(super) max: Option<Vec<f64>>,
     pub(super) sparse: Option<Sparse>,
@@ -61,7 +61,7 @@ impl Accessor {
     }
 }
 
-fn layout(fields: Fields<'_, '_>) -> Option<Layout> {
+fn layout(fields: Fields<'_, '_>) -> Option<ElementLayout> {
     let component = Component::from_code(fields.whole("componentType")?)?;
     let (columns, rows) = match fields.text("type")?.as_str() {
         "SCALAR" => (1, 1),
@@ -73,7 +73,7 @@ fn layout(fields: Fields<'_, '_>) -> Option<Layout> {
         "MAT4" => (4, 4),
         _ => return None,
     };
-    Some(Layout {
+    Some(ElementLayout {
         component,
         columns,
         rows,
@@ -104,7 +104,7 @@ fn sparse(fields: Fields<'_, '_>) -> Option<Sparse> {
 pub(super) fn find<'d>(
     doc: &'d Document<'_>,
     index: Option<usize>,
-    report: &Report<'_, '_>,
+    report: &AssetReport<'_, '_>,
 ) -> Option<(usize, &'d Accessor)> {
     let accessor = doc
         .accessors
@@ -114,7 +114,7 @@ pub(super) fn find<'d>(
 }
 
 /// Checks each accessor for itself and against its views.
-pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut AssetReport<'_, '_>) {
     for accessor in &doc.accessors {
         depends(accessor, report);
         let Some(layout) = accessor.layout else {
@@ -155,7 +155,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
 }
 
 /// An offset counts from the start of a view.
-fn depends(accessor: &Accessor, report: &mut Report<'_, '_>) {
+fn depends(accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
     if let Some(at) = report
         .json
         .get(accessor.at, "byteOffset")
@@ -167,7 +167,7 @@ fn depends(accessor: &Accessor, report: &mut Report<'_, '_>) {
 }
 
 /// What can be said without looking at a view.
-fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
+fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_, '_>) {
     let fields = Fields::new(report.json, accessor.at);
     if layout.columns > 1 && accessor.view.is_some() && !accessor.offset.is_multiple_of(4) {
         let at = report.json.at_or(accessor.at, "byteOffset");
@@ -203,10 +203,10 @@ fn alone(accessor: &Accessor, layout: Layout, report: &mut Report<'_, '_>) {
 }
 
 /// One bound: as many numbers as an element has, each one that the component type can hold.
-fn bound(list: NodeId, key: &str, layout: Layout, report: &mut Report<'_, '_>) {
+fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetReport<'_, '_>) {
     let kind = report.json.kind(list);
-    if kind != Kind::List {
-        let message = format!("`{key}` is {}, not {}", kind.name(), Kind::List.name());
+    if kind != NodeKind::List {
+        let message = format!("`{key}` is {}, not {}", kind.name(), NodeKind::List.name());
         return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", list, message);
     }
     let items: Vec<NodeId> = report.json.items(list).collect();
@@ -271,7 +271,7 @@ fn fits(
     (view, offset, size): (usize, usize, usize),
     bytes: u64,
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let Some(holder) = doc.views.get(view).filter(|view| report.is_part(view.at)) else {
         return;
@@ -303,9 +303,9 @@ fn fits(
 fn check_sparse(
     doc: &Document<'_>,
     sparse: &Sparse,
-    (layout, count): (Layout, usize),
+    (layout, count): (ElementLayout, usize),
     purposes: &mut Purposes,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     if sparse.count > count {
         let at = report.json.at_or(sparse.at, "count");
@@ -362,7 +362,7 @@ fn check_sparse(
 
 /// Refuses accessors that stand for more zeros than any asset needs; sparse ones are never sparser
 /// than that.
-pub(super) fn check_claims(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check_claims(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     let mut left = MAX_ZEROS;
     for accessor in &doc.accessors {
         let (Some(layout), Some(count), None) = (accessor.layout, accessor.count, accessor.view)

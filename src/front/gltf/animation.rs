@@ -6,8 +6,8 @@ use super::channel::{self, Channel, Path};
 use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
-use super::layout::{Component, Layout};
-use super::report::Report;
+use super::layout::{Component, ElementLayout};
+use super::report::AssetReport;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -18,12 +18,12 @@ use std::collections::BTreeMap;
 pub(super) struct Animation {
     pub(super) name: String,
     pub(super) channels: Vec<Channel>,
-    pub(super) samplers: Vec<Sampler>,
+    pub(super) samplers: Vec<Keyframes>,
 }
 
 /// Keyframes.
 #[derive(Debug)]
-pub(super) struct Sampler {
+pub(super) struct Keyframes {
     at: NodeId,
     pub(super) input: Option<usize>,
     pub(super) output: Option<usize>,
@@ -43,12 +43,12 @@ impl Animation {
         Self {
             name: fields.name(),
             channels: fields.objects("channels").map(Channel::read).collect(),
-            samplers: fields.objects("samplers").map(Sampler::read).collect(),
+            samplers: fields.objects("samplers").map(Keyframes::read).collect(),
         }
     }
 }
 
-impl Sampler {
+impl Keyframes {
     fn read(fields: Fields<'_, '_>) -> Self {
         let interpolation = match fields.text("interpolation").as_deref() {
             Some("STEP") => Interpolation::Step,
@@ -65,10 +65,14 @@ impl Sampler {
 }
 
 /// What the checks of animations gather.
-pub(super) type Links<'l> = (&'l mut Purposes, &'l mut Usages, &'l mut Demands);
+pub(super) type AnimationLinks<'l> = (&'l mut Purposes, &'l mut Usages, &'l mut Demands);
 
 /// Checks all animations.
-pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(
+    doc: &Document<'_>,
+    links: &mut AnimationLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     for animation in &doc.animations {
         for sampler in &animation.samplers {
             check_sampler(doc, sampler, links, report);
@@ -96,7 +100,7 @@ pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Repo
     }
 }
 
-fn check_used(animation: &Animation, report: &mut Report<'_, '_>) {
+fn check_used(animation: &Animation, report: &mut AssetReport<'_, '_>) {
     let mut used = vec![false; animation.samplers.len()];
     for sampler in animation
         .channels
@@ -124,9 +128,9 @@ fn check_used(animation: &Animation, report: &mut Report<'_, '_>) {
 
 fn check_sampler(
     doc: &Document<'_>,
-    sampler: &Sampler,
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    sampler: &Keyframes,
+    links: &mut AnimationLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let (purposes, usages, demands) = links;
     for (key, index, usage) in [
@@ -161,15 +165,20 @@ fn check_sampler(
     }
 }
 
-fn is_time(layout: Layout) -> bool {
+fn is_time(layout: ElementLayout) -> bool {
     layout.components() == 1 && layout.component == Component::F32 && !layout.normalized
 }
 
-fn check_times(accessor: &Accessor, sampler: &Sampler, at: NodeId, report: &mut Report<'_, '_>) {
+fn check_times(
+    accessor: &Accessor,
+    sampler: &Keyframes,
+    at: NodeId,
+    report: &mut AssetReport<'_, '_>,
+) {
     if !accessor.layout.is_some_and(is_time) {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), Layout::name);
+            .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("times are {found}, not scalar of f32");
         report.say(
             &codes::GLTF_FORMAT,

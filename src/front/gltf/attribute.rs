@@ -4,9 +4,9 @@ use super::accessor::Accessor;
 use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
-use super::layout::{Component, Layout};
+use super::layout::{Component, ElementLayout};
 use super::primitive::Primitive;
-use super::report::{Report, shown};
+use super::report::{AssetReport, shown};
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,7 +76,7 @@ impl Semantic {
 }
 
 /// Checks the names of the attributes of a primitive, and that none is missing.
-pub(super) fn check_names(primitive: &Primitive, report: &mut Report<'_, '_>) {
+pub(super) fn check_names(primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
     let semantics: Vec<Semantic> = primitive
         .attributes
         .iter()
@@ -119,7 +119,7 @@ pub(super) fn check_names(primitive: &Primitive, report: &mut Report<'_, '_>) {
     check_sets(&semantics, at, report);
 }
 
-fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut Report<'_, '_>) {
+fn check_sets(semantics: &[Semantic], at: NodeId, report: &mut AssetReport<'_, '_>) {
     type Kind = fn(u64) -> Semantic;
     let kinds: [(&str, Kind); 4] = [
         ("TEXCOORD", Semantic::Uv),
@@ -166,7 +166,7 @@ pub(super) fn check_format(
     attribute: &Attribute,
     accessor: &Accessor,
     in_target: bool,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let semantic = Semantic::of(&attribute.name);
     if semantic == Semantic::Position && !accessor.has_bounds() {
@@ -215,9 +215,9 @@ pub(super) fn check_format(
 }
 
 /// True if the specification, or `KHR_mesh_quantization`, has the format for the attribute.
-fn allows(semantic: Semantic, layout: Layout, quantized: bool, in_target: bool) -> bool {
+fn allows(semantic: Semantic, layout: ElementLayout, quantized: bool, in_target: bool) -> bool {
     use Component::{F32, I8, I16, U8, U16, U32};
-    let Layout {
+    let ElementLayout {
         component,
         columns,
         rows,
@@ -255,7 +255,7 @@ pub(super) fn check_place(
     attribute: &Attribute,
     accessor: &Accessor,
     streams: &mut BTreeMap<usize, usize>,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let Some((index, view)) = accessor
         .view
@@ -314,6 +314,6 @@ pub(super) fn demand(attribute: &Attribute, accessor: &Accessor, demands: &mut D
 
 /// True if an accessor has an alignment that vertices need.
 fn is_aligned(accessor: &Accessor, stride: Option<usize>) -> bool {
-    let packed = accessor.layout.map_or(4, Layout::packed);
+    let packed = accessor.layout.map_or(4, ElementLayout::packed);
     accessor.offset.is_multiple_of(4) && stride.unwrap_or(packed).is_multiple_of(4)
 }

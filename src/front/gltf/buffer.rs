@@ -3,7 +3,7 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 use std::borrow::Cow;
@@ -51,7 +51,7 @@ impl Buffer<'_> {
 
 /// A stretch of a buffer.
 #[derive(Debug)]
-pub(super) struct View {
+pub(super) struct BufferView {
     pub(super) at: NodeId,
     pub(super) buffer: Option<usize>,
     pub(super) offset: usize,
@@ -86,7 +86,7 @@ impl Purpose {
     }
 }
 
-impl View {
+impl BufferView {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         Self {
             at: fields.at,
@@ -106,7 +106,7 @@ impl View {
     }
 }
 
-impl View {
+impl BufferView {
     /// A view of bytes that stand nowhere in the asset.
     pub(super) fn decoded(at: NodeId, bytes: Bytes<'static>) -> Self {
         let (buffer, offset, length, stride, target) = (None, 0, Some(bytes.len()), None, None);
@@ -136,7 +136,7 @@ impl Document<'_> {
 }
 
 /// Checks that each view lies in its buffer.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for view in &doc.views {
         stride(view, report);
         let (Some(buffer), Some(length)) = (view.buffer, view.length) else {
@@ -160,7 +160,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn stride(view: &View, report: &mut Report<'_, '_>) {
+fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
     let Some(stride) = view.stride else { return };
     let at = report.json.at_or(view.at, "byteStride");
     if !stride.is_multiple_of(4) {
@@ -202,7 +202,7 @@ impl Purposes {
         view: Option<usize>,
         purpose: Purpose,
         at: NodeId,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) {
         let Some(slot) = view.and_then(|view| self.0.get_mut(view)) else {
             return;

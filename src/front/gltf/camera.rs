@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 
@@ -51,7 +51,7 @@ impl Camera {
 }
 
 /// Checks all cameras.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for camera in &doc.cameras {
         let fields = Fields::new(report.json, camera.at);
         let (perspective, orthographic) =
@@ -94,7 +94,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_perspective(part: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_perspective(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     if part.number_or("yfov", 0.0) >= std::f64::consts::PI {
         let message = "the camera opens half a turn or more";
         let alias = "CAMERA_YFOV_GEQUAL_PI";
@@ -102,7 +102,7 @@ fn check_perspective(part: Fields<'_, '_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_orthographic(part: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_orthographic(part: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let mags = [part.number_or("xmag", 1.0), part.number_or("ymag", 1.0)];
     if mags.contains(&0.0) {
         let message = "the picture of the camera has no width or no height";

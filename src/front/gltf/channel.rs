@@ -1,14 +1,14 @@
 //! Channels of animations: the property of a node that moves, and the keyframes that fit it.
 
 use super::accessor;
-use super::animation::{Animation, Interpolation, Links};
+use super::animation::{Animation, AnimationLinks, Interpolation};
 use super::demand::Demand;
 use super::document::Document;
 use super::field::Fields;
-use super::layout::{Component, Layout};
+use super::layout::{Component, ElementLayout};
 use super::mesh::Mesh;
 use super::node::Transform;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 
@@ -54,7 +54,7 @@ impl Channel {
 pub(super) fn check_pointers(
     doc: &Document<'_>,
     animation: &Animation,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     const NAME: &str = "KHR_animation_pointer";
     let is_used = doc.uses(NAME);
@@ -99,8 +99,8 @@ pub(super) fn check(
     doc: &Document<'_>,
     animation: &Animation,
     channel: &Channel,
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    links: &mut AnimationLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     check_target(doc, channel, report);
     let Some(index) = channel.sampler else { return };
@@ -126,7 +126,7 @@ pub(super) fn check(
     if !accessor.layout.is_some_and(|layout| allows(path, layout)) {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), Layout::name);
+            .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("the keyframes are {found}, which this path does not take");
         report.say(
             &codes::GLTF_FORMAT,
@@ -165,7 +165,7 @@ fn expected(
 fn check_count(
     (count, expected, times): (usize, usize, usize),
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     if expected != 0 && expected != count {
         let message = format!("{count} keyframes, and {expected} are expected for {times} times");
@@ -183,8 +183,8 @@ fn mesh<'d>(doc: &'d Document<'_>, channel: &Channel) -> Option<&'d Mesh> {
 }
 
 /// True if the keyframes of a path may have this format (glTF 2.0, section 3.11).
-fn allows(path: Path, layout: Layout) -> bool {
-    let Layout {
+fn allows(path: Path, layout: ElementLayout) -> bool {
+    let ElementLayout {
         component,
         columns,
         rows,
@@ -200,7 +200,7 @@ fn allows(path: Path, layout: Layout) -> bool {
     }
 }
 
-fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut Report<'_, '_>) {
+fn check_target(doc: &Document<'_>, channel: &Channel, report: &mut AssetReport<'_, '_>) {
     let node = channel
         .node
         .and_then(|node| doc.nodes.get(node))

@@ -4,7 +4,7 @@ use super::accessor::Accessor;
 use super::demand::{Demand, Demands, meet};
 use super::document::Document;
 use super::elements::Elements;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 
 /// Components that are looked at, for each byte of the buffers and beside that.
@@ -13,7 +13,7 @@ const FREE_LOOKS: u64 = 1 << 24;
 
 /// Checks the elements of each accessor once, whatever uses it. What was compressed is no longer
 /// exact, so bounds and lengths don't count there.
-pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetReport<'_, '_>) {
     let demands = demands.sorted();
     let held: u64 = doc
         .buffers
@@ -55,7 +55,7 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut Report<'_
     }
 }
 
-fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut Report<'_, '_>) {
+fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut AssetReport<'_, '_>) {
     let Some(indices) = elements.replaced() else {
         return;
     };
@@ -103,7 +103,7 @@ fn values(
     elements: &Elements<'_>,
     accessor: &Accessor,
     is_exact: bool,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let components = elements.layout.components();
     let (mut least, mut most) = ([f64::INFINITY; 16], [f64::NEG_INFINITY; 16]);
@@ -181,7 +181,7 @@ fn bound(
     accessor: &Accessor,
     (key, component): (&str, usize),
     found: f64,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let own = all[component];
     if own.total_cmp(&found).is_eq() || own - found == 0.0 || !found.is_finite() {

@@ -1,7 +1,7 @@
 //! Demands: what each use of an accessor asks of its elements.
 
 use super::elements::Elements;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 
@@ -54,7 +54,7 @@ pub(super) fn meet(
     elements: &Elements<'_>,
     demand: Demand,
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let components = elements.layout.components();
     match demand {
@@ -131,7 +131,7 @@ fn tell(
     alias: &'static str,
     what: &str,
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let (mut count, mut first) = (0_usize, 0);
     elements.each(|at, element| {
@@ -149,7 +149,7 @@ fn tell(
     }
 }
 
-fn times(elements: &Elements<'_>, at: NodeId, report: &mut Report<'_, '_>) {
+fn times(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let (mut negative, mut falling, mut before) = (None, None, f64::NEG_INFINITY);
     elements.each(|at, element| {
         let time = element[0];
@@ -187,7 +187,7 @@ fn indices(
     elements: &Elements<'_>,
     (count, mode): (usize, u64),
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     const TRIANGLES: u64 = 4;
     let (mut beyond, mut restart, mut degenerate) = (None, None, 0_usize);
@@ -237,7 +237,7 @@ fn indices(
     }
 }
 
-fn affine(elements: &Elements<'_>, at: NodeId, report: &mut Report<'_, '_>) {
+fn affine(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let mut off = None;
     elements.each(|at, matrix| {
         let row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];

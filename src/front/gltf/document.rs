@@ -1,8 +1,8 @@
 //! A whole asset, typed: every part with the node it was read from, references as indices.
 
 use super::accessor::Accessor;
-use super::animation::{Animation, Sampler as Keyframes};
-use super::buffer::{Buffer, View};
+use super::animation::{Animation, Keyframes};
+use super::buffer::{Buffer, BufferView};
 use super::camera::Camera;
 use super::channel::Channel;
 use super::field::Fields;
@@ -11,7 +11,7 @@ use super::mesh::Mesh;
 use super::node::Node;
 use super::primitive::Primitive;
 use super::skin::Skin;
-use super::texture::{Sampler, Texture};
+use super::texture::{Texture, TextureSampler};
 use crate::source::tree::{NodeId, Tree};
 use std::collections::BTreeSet;
 
@@ -19,12 +19,12 @@ use std::collections::BTreeSet;
 #[derive(Debug)]
 pub(super) struct Document<'s> {
     pub(super) buffers: Vec<Buffer<'s>>,
-    pub(super) views: Vec<View>,
+    pub(super) views: Vec<BufferView>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) images: Vec<Image>,
     /// What the images were decoded to, without names.
     pub(super) pictures: Vec<crate::ir::Image>,
-    pub(super) samplers: Vec<Sampler>,
+    pub(super) samplers: Vec<TextureSampler>,
     pub(super) textures: Vec<Texture>,
     /// Where each material was written; its many optional parts are read when it is lowered.
     pub(super) materials: Vec<NodeId>,
@@ -65,7 +65,7 @@ pub(super) fn cost(json: &Tree<'_>) -> u64 {
             .sum::<usize>()
     };
     let parts = [
-        (count(json.root(), "bufferViews"), size_of::<View>()),
+        (count(json.root(), "bufferViews"), size_of::<BufferView>()),
         (count(json.root(), "accessors"), size_of::<Accessor>()),
         (count(json.root(), "images"), size_of::<Image>()),
         (count(json.root(), "meshes"), size_of::<Mesh>()),
@@ -102,11 +102,11 @@ impl Document<'_> {
         let lights = root.extension("KHR_lights_punctual").filter(|_| has_lights);
         Self {
             buffers: each(root, "buffers", Buffer::read),
-            views: each(root, "bufferViews", View::read),
+            views: each(root, "bufferViews", BufferView::read),
             accessors: each(root, "accessors", Accessor::read),
             images: each(root, "images", Image::read),
             pictures: Vec::new(),
-            samplers: each(root, "samplers", Sampler::read),
+            samplers: each(root, "samplers", TextureSampler::read),
             textures: each(root, "textures", Texture::read),
             materials: each(root, "materials", |fields| fields.at),
             meshes: each(root, "meshes", Mesh::read),

@@ -1,11 +1,11 @@
 //! Primitives compressed by Draco (`KHR_draco_mesh_compression`): decoded by `draco-core`, and put
 //! in place as views of the accessors that stand for them. The one file that names the decoder.
 
-use super::buffer::{Bytes, Stretch, View, stretch};
+use super::buffer::{BufferView, Bytes, Stretch, stretch};
 use super::document::Document;
 use super::field::Fields;
-use super::layout::{Component, Layout};
-use super::report::Report;
+use super::layout::{Component, ElementLayout};
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::Resource;
 use crate::source::tree::NodeId;
@@ -49,7 +49,7 @@ struct Size {
 }
 
 /// Decodes the primitives that are compressed.
-pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
     let mut made = Made::default();
     for packed in find(doc, report) {
         match unpack(doc, &packed, &mut made, report) {
@@ -64,7 +64,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn find(doc: &Document<'_>, report: &Report<'_, '_>) -> Vec<Packed> {
+fn find(doc: &Document<'_>, report: &AssetReport<'_, '_>) -> Vec<Packed> {
     let primitives = doc.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let packed = primitives.filter_map(|primitive| {
         let fields = Fields::new(report.json, primitive.draco?);
@@ -89,7 +89,7 @@ fn unpack(
     doc: &Document<'_>,
     packed: &Packed,
     made: &mut Made,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) -> Result<Vec<(usize, Bytes<'static>)>, String> {
     let bytes = doc.view_bytes(packed.view).ok_or("its view is not there")?;
     let own = stretch(bytes);
@@ -143,7 +143,7 @@ fn unpack(
     Ok(accessors)
 }
 
-fn charge(size: Size, packed: &Packed, report: &mut Report<'_, '_>) -> Result<(), String> {
+fn charge(size: Size, packed: &Packed, report: &mut AssetReport<'_, '_>) -> Result<(), String> {
     let Size { points, faces } = size;
     let memory = points
         .saturating_mul(POINT)
@@ -185,7 +185,11 @@ fn decode(bytes: &[u8], size: Size) -> Result<Rc<Mesh>, String> {
 
 /// Checks that an attribute, or the corners without a number, have the size that an accessor
 /// claims.
-fn check(mesh: &Mesh, number: Option<u32>, (layout, count): (Layout, usize)) -> Result<(), String> {
+fn check(
+    mesh: &Mesh,
+    number: Option<u32>,
+    (layout, count): (ElementLayout, usize),
+) -> Result<(), String> {
     let Some(number) = number else {
         let faces = mesh.num_faces();
         let message = || format!("there are {count} indices, and the data has {faces} triangles");
@@ -209,7 +213,7 @@ fn check(mesh: &Mesh, number: Option<u32>, (layout, count): (Layout, usize)) -> 
 }
 
 /// The bytes of an attribute, or of the corners.
-fn column(mesh: &Mesh, number: Option<u32>, layout: Layout) -> Vec<u8> {
+fn column(mesh: &Mesh, number: Option<u32>, layout: ElementLayout) -> Vec<u8> {
     match number.map(|number| mesh.attribute_by_unique_id(number)) {
         None => to_bytes(
             mesh.faces()
@@ -229,7 +233,7 @@ fn column(mesh: &Mesh, number: Option<u32>, layout: Layout) -> Vec<u8> {
     }
 }
 
-fn layout_of(doc: &Document<'_>, accessor: usize) -> Result<(Layout, usize), String> {
+fn layout_of(doc: &Document<'_>, accessor: usize) -> Result<(ElementLayout, usize), String> {
     let accessor = doc.accessors.get(accessor);
     accessor
         .and_then(|accessor| Some((accessor.layout?, accessor.count?)))
@@ -260,7 +264,7 @@ fn to_bytes(numbers: impl Iterator<Item = f64>, component: Component) -> Vec<u8>
 /// Gives an accessor a view of its own.
 fn fill(doc: &mut Document<'_>, accessor: usize, bytes: Bytes<'static>) {
     let at = doc.accessors[accessor].at;
-    let view = View::decoded(at, bytes);
+    let view = BufferView::decoded(at, bytes);
     let accessor = &mut doc.accessors[accessor];
     (accessor.view, accessor.offset, accessor.sparse) = (Some(doc.views.len()), 0, None);
     doc.views.push(view);

@@ -2,7 +2,7 @@
 
 use super::accessor::Accessor;
 use super::document::Document;
-use super::layout::{Component, Layout};
+use super::layout::{Component, ElementLayout};
 use crate::ir::Column;
 
 /// The components of an element; a matrix has the most.
@@ -10,7 +10,7 @@ pub(super) type Element = [f64; 16];
 
 /// Where the elements of an accessor are; all of them lie there.
 pub(super) struct Elements<'d> {
-    pub(super) layout: Layout,
+    pub(super) layout: ElementLayout,
     pub(super) count: usize,
     /// The first element and the bytes from one to the next; none for zeros.
     base: Option<(&'d [u8], usize)>,
@@ -124,7 +124,7 @@ impl<'d> Elements<'d> {
             .as_ref()
             .and_then(|(indices, values)| Some((indices.find(at)?, *values)));
         if let Some((place, values)) = replaced {
-            let flat = Layout {
+            let flat = ElementLayout {
                 columns: 1,
                 rows: layout.components(),
                 ..layout
@@ -150,7 +150,7 @@ impl<'d> Elements<'d> {
         let mut place = 0;
         for at in 0..self.count {
             if let (true, Some((indices, values))) = (next == Some(at), &self.sparse) {
-                let flat = Layout {
+                let flat = ElementLayout {
                     columns: 1,
                     rows: components,
                     ..layout
@@ -223,12 +223,12 @@ impl<'d> Elements<'d> {
 }
 
 /// Bytes of an element from its first to its last component.
-fn extent(layout: Layout) -> usize {
+fn extent(layout: ElementLayout) -> usize {
     layout.column() * (layout.columns - 1) + layout.rows * layout.component.size()
 }
 
 /// Reads one element that `bytes` start with.
-fn read(bytes: &[u8], layout: Layout, element: &mut Element) {
+fn read(bytes: &[u8], layout: ElementLayout, element: &mut Element) {
     let size = layout.component.size();
     for column in 0..layout.columns {
         let bytes = &bytes[column * layout.column()..];

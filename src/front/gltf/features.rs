@@ -1,7 +1,7 @@
 //! What an image file says beside its pixels and is not followed: colour profiles, pixels that are
 //! no squares, animation. glTF lays down what the numbers mean, whatever the file says.
 
-use super::image::Format;
+use super::image::ImageCoding;
 
 /// The gamma of an ordinary PNG and of a linear one, times 100 000.
 const GAMMAS: [u32; 2] = [45_455, 100_000];
@@ -11,11 +11,11 @@ const SRGB: [u32; 8] = [
 ];
 
 /// What an image has that is not followed, if it has any such thing.
-pub(super) fn unfollowed(format: Format, bytes: &[u8]) -> Option<&'static str> {
+pub(super) fn unfollowed(format: ImageCoding, bytes: &[u8]) -> Option<&'static str> {
     match format {
-        Format::Png => png(bytes),
-        Format::Jpeg => None,
-        Format::WebP => webp(bytes),
+        ImageCoding::Png => png(bytes),
+        ImageCoding::Jpeg => None,
+        ImageCoding::WebP => webp(bytes),
     }
 }
 
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn the_first_word_about_colour_counts_and_srgb_before_all() {
-        let found = |chunks: &[(&[u8; 4], &[u8])]| unfollowed(Format::Png, &image(chunks));
+        let found = |chunks: &[(&[u8; 4], &[u8])]| unfollowed(ImageCoding::Png, &image(chunks));
         let gamma = 50_000_u32.to_be_bytes();
         let srgb: Vec<u8> = SRGB.iter().flat_map(|word| word.to_be_bytes()).collect();
         assert_eq!(
@@ -97,20 +97,20 @@ mod tests {
             found(&[(b"pHYs", &[0, 0, 0, 1, 0, 0, 0, 2, 0])]),
             Some("pixels that are no squares")
         );
-        assert_eq!(unfollowed(Format::Png, b"\x89PNG"), None);
+        assert_eq!(unfollowed(ImageCoding::Png, b"\x89PNG"), None);
     }
 
     #[test]
     fn flags_of_a_webp_count_if_it_is_extended() {
         let webp = |kind: &[u8], flags| [b"RIFF\0\0\0\0WEBP", kind, &[10, 0, 0, 0, flags]].concat();
         assert_eq!(
-            unfollowed(Format::WebP, &webp(b"VP8X", 0x20)),
+            unfollowed(ImageCoding::WebP, &webp(b"VP8X", 0x20)),
             Some("colours of its own")
         );
         assert_eq!(
-            unfollowed(Format::WebP, &webp(b"VP8X", 0x02)),
+            unfollowed(ImageCoding::WebP, &webp(b"VP8X", 0x02)),
             Some("an animation")
         );
-        assert_eq!(unfollowed(Format::WebP, &webp(b"VP8L", 0x22)), None);
+        assert_eq!(unfollowed(ImageCoding::WebP, &webp(b"VP8L", 0x22)), None);
     }
 }

@@ -1,7 +1,7 @@
 //! The properties of an object as values, once its shape was checked: what is absent or wrong is
 //! simply not there.
 
-use crate::source::tree::{Kind, NodeId, Tree};
+use crate::source::tree::{NodeId, NodeKind, Tree};
 
 /// The object at a node.
 #[derive(Clone, Copy)]
@@ -27,7 +27,7 @@ impl<'t, 's> Fields<'t, 's> {
     pub(super) fn object(&self, key: &str) -> Option<Self> {
         let at = self
             .node(key)
-            .filter(|at| self.json.kind(*at) == Kind::Map)?;
+            .filter(|at| self.json.kind(*at) == NodeKind::Map)?;
         Some(Self { at, ..*self })
     }
 
@@ -39,7 +39,7 @@ impl<'t, 's> Fields<'t, 's> {
     /// The objects of the list that `key` holds.
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
         let (json, list) = (self.json, self.node(key));
-        let list = list.filter(|list| json.kind(*list) == Kind::List);
+        let list = list.filter(|list| json.kind(*list) == NodeKind::List);
         list.into_iter()
             .flat_map(|list| json.items(list))
             .map(|at| Self { json, at })
@@ -77,7 +77,7 @@ impl<'t, 's> Fields<'t, 's> {
     pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         let list = self
             .node(key)
-            .filter(|list| self.json.kind(*list) == Kind::List)?;
+            .filter(|list| self.json.kind(*list) == NodeKind::List)?;
         self.json
             .items(list)
             .map(|item| self.json.number(item).filter(|number| number.is_finite()))

@@ -1,7 +1,7 @@
 //! What an asset says about itself: its version and its extensions.
 
 use super::field::Fields;
-use super::report::{Report, shown};
+use super::report::{AssetReport, shown};
 use super::schema;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -66,7 +66,7 @@ const PREFIXES: &[&str] = &[
 ];
 
 /// Checks the version. True if it is 2, whatever comes after the point.
-pub(super) fn check_version(report: &mut Report<'_, '_>) -> bool {
+pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {
     let Some(asset) = Fields::new(report.json, report.json.root()).object("asset") else {
         return false;
     };
@@ -125,7 +125,7 @@ fn version(asset: Fields<'_, '_>, key: &str) -> Option<(crate::source::tree::Nod
 }
 
 /// Checks the lists of extensions; one that is required and not supported is refused.
-pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
+pub(super) fn check_extensions(report: &mut AssetReport<'_, '_>) {
     let json = report.json;
     let texts = |key| -> Vec<_> {
         json.list(json.root(), key)
@@ -157,7 +157,7 @@ pub(super) fn check_extensions(report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut Report<'_, '_>) {
+fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut AssetReport<'_, '_>) {
     let shown = shown(name);
     if !is_listed {
         let message = format!("`{shown}` is required and not listed in `extensionsUsed`");
@@ -173,7 +173,12 @@ fn check_required(at: NodeId, name: &str, is_listed: bool, report: &mut Report<'
 }
 
 /// Checks an extension that the asset uses and does not require.
-fn check_not_required(at: NodeId, name: &str, is_in_materials: bool, report: &mut Report<'_, '_>) {
+fn check_not_required(
+    at: NodeId,
+    name: &str,
+    is_in_materials: bool,
+    report: &mut AssetReport<'_, '_>,
+) {
     if name == "KHR_mesh_quantization" {
         let message = format!("no reader can do without `{name}`, so it must be required");
         let alias = "NON_REQUIRED_EXTENSION";
@@ -197,7 +202,7 @@ fn check_not_required(at: NodeId, name: &str, is_in_materials: bool, report: &mu
 }
 
 /// Checks that the name of an extension is one, of a registered prefix.
-fn check_name(at: NodeId, name: &str, report: &mut Report<'_, '_>) {
+fn check_name(at: NodeId, name: &str, report: &mut AssetReport<'_, '_>) {
     let parts = name.split_once('_');
     match parts.filter(|(prefix, rest)| !prefix.is_empty() && !rest.is_empty()) {
         Some((prefix, _)) if PREFIXES.contains(&prefix) => {}
@@ -218,7 +223,7 @@ fn check_name(at: NodeId, name: &str, report: &mut Report<'_, '_>) {
 }
 
 /// The extensions that some material has.
-fn in_materials(report: &Report<'_, '_>) -> BTreeSet<String> {
+fn in_materials(report: &AssetReport<'_, '_>) -> BTreeSet<String> {
     let json = report.json;
     let extensions = json
         .list(json.root(), "materials")

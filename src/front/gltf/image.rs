@@ -4,12 +4,12 @@ use super::buffer::{Bytes, Purpose, Purposes, Stretch, stretch};
 use super::document::Document;
 use super::features;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::{Code, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{DecodeError, Opacity};
 use crate::ir;
-use crate::source::tree::{Kind, NodeId};
+use crate::source::tree::{NodeId, NodeKind};
 use crate::source::{Budget, Exceeded};
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub(super) struct Image {
     /// What `mimeType`, or else a data URI, says.
     pub(super) media: Option<String>,
     /// What its first bytes say.
-    pub(super) format: Option<Format>,
+    pub(super) format: Option<ImageCoding>,
     /// The bytes of its file or URI; those of a view stay there.
     pub(super) bytes: Option<Bytes<'static>>,
     /// Which picture of the document it is, if it is sound.
@@ -31,13 +31,13 @@ pub(super) struct Image {
 
 /// A format of images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Format {
+pub(super) enum ImageCoding {
     Png,
     Jpeg,
     WebP,
 }
 
-impl Format {
+impl ImageCoding {
     pub(super) fn media(self) -> &'static str {
         match self {
             Self::Png => "image/png",
@@ -120,11 +120,11 @@ impl Document<'_> {
 }
 
 /// Checks what is written about each image.
-pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut AssetReport<'_, '_>) {
     for image in doc
         .images
         .iter()
-        .filter(|image| report.json.kind(image.at) == Kind::Map)
+        .filter(|image| report.json.kind(image.at) == NodeKind::Map)
     {
         let fields = Fields::new(report.json, image.at);
         if fields.text("uri").is_some() == fields.index("bufferView").is_some() {
@@ -160,7 +160,7 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut Re
 type Fault = (&'static Code, &'static str, String);
 
 /// Looks at the bytes of each image, and decodes them; images of the same bytes are one picture.
-pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn inspect(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
     let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
@@ -168,7 +168,7 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
             continue;
         };
         let (at, media) = (image.at, image.media.as_deref());
-        let Some(format) = Format::of(bytes) else {
+        let Some(format) = ImageCoding::of(bytes) else {
             let message = "the image is neither PNG nor JPEG nor WebP".to_owned();
             report.say(
                 &codes::GLTF_IMAGE_ODD,
@@ -213,9 +213,9 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
 /// An image is of the type that is said, and of one that the asset may have.
 fn check_media(
     doc: &Document<'_>,
-    (format, media): (Format, Option<&str>),
+    (format, media): (ImageCoding, Option<&str>),
     at: NodeId,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     if let Some(media) = media.filter(|media| *media != format.media()) {
         let message = format!(
@@ -225,14 +225,14 @@ fn check_media(
         );
         report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
     }
-    if format == Format::WebP && !doc.uses("EXT_texture_webp") {
+    if format == ImageCoding::WebP && !doc.uses("EXT_texture_webp") {
         let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();
         let alias = "IMAGE_NON_ENABLED_MIME_TYPE";
         report.say(&codes::GLTF_IMAGE, alias, at, message);
     }
 }
 
-fn remark_size(picture: &ir::Image, at: NodeId, report: &mut Report<'_, '_>) {
+fn remark_size(picture: &ir::Image, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let ir::Image { width, height, .. } = picture;
     if !width.is_power_of_two() || !height.is_power_of_two() {
         let message = format!("the image has {width} × {height} pixels");
@@ -246,7 +246,7 @@ enum Refusal {
 }
 
 /// Decodes an image within the budget of the run.
-fn picture(format: Format, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
+fn picture(format: ImageCoding, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
         return Err(Refusal::Fault((

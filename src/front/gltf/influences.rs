@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::elements::Elements;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::Resource;
 use crate::source::tree::NodeId;
@@ -25,7 +25,7 @@ pub(super) fn check(
     doc: &Document<'_>,
     (at, accessors): (NodeId, Vec<[usize; 2]>),
     joints: usize,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let part = |accessor: usize| {
         let accessor = doc.accessors.get(accessor)?;
@@ -93,7 +93,7 @@ impl Influences {
     }
 
     /// Reports what was found of the primitive at a node.
-    fn tell(self, at: NodeId, report: &mut Report<'_, '_>) {
+    fn tell(self, at: NodeId, report: &mut AssetReport<'_, '_>) {
         let Influences {
             out,
             twice,

@@ -65,7 +65,7 @@ impl Component {
 /// How an element is laid out: columns of components, each column of a matrix starting at a
 /// multiple of four bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Layout {
+pub(super) struct ElementLayout {
     pub(super) component: Component,
     pub(super) columns: usize,
     pub(super) rows: usize,
@@ -73,7 +73,7 @@ pub(super) struct Layout {
     pub(super) normalized: bool,
 }
 
-impl Layout {
+impl ElementLayout {
     /// How many components an element has.
     pub(super) fn components(self) -> usize {
         self.columns * self.rows
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn columns_of_matrices_are_padded_as_the_specification_says() {
-        let layout = |component, columns, rows| Layout {
+        let layout = |component, columns, rows| ElementLayout {
             component,
             columns,
             rows,

@@ -2,11 +2,11 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 
 /// Checks all lights.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for light in &doc.lights {
         let fields = Fields::new(report.json, *light);
         if fields.is("type", "spot") && !fields.has("spot") {

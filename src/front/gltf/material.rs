@@ -2,9 +2,9 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
-use crate::source::tree::{Kind, NodeId, Tree};
+use crate::source::tree::{NodeId, NodeKind, Tree};
 
 /// Each texture of a material with the set of texture coordinates it asks for.
 pub(super) fn texture_coordinates(
@@ -25,7 +25,7 @@ pub(super) fn texture_coordinates(
     let mut found = Vec::new();
     for (key, at) in holders.flat_map(|holder| json.pairs(holder)) {
         let is_texture = json.text(key).is_some_and(|key| key.ends_with("Texture"))
-            && json.kind(at) == Kind::Map;
+            && json.kind(at) == NodeKind::Map;
         if !is_texture {
             continue;
         }
@@ -65,7 +65,7 @@ pub(super) fn needs_tangents(doc: &Document<'_>, material: Fields<'_, '_>) -> bo
 }
 
 /// Checks all materials.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for material in &doc.materials {
         let fields = Fields::new(report.json, *material);
         if let Some(at) = fields
@@ -91,7 +91,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
 }
 
 /// Unlit and specular-glossiness replace the model that other extensions extend.
-fn check_models(fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_models(fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(extensions) = fields.node("extensions") else {
         return;
     };
@@ -118,7 +118,7 @@ fn extension<'t, 's>(
     fields.extension(name).filter(|_| doc.uses(name))
 }
 
-fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(ior) = extension(doc, fields, "KHR_materials_ior") else {
         return;
     };
@@ -131,7 +131,7 @@ fn check_ior(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_,
     }
 }
 
-fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(film) = extension(doc, fields, "KHR_materials_iridescence") else {
         return;
     };
@@ -169,7 +169,7 @@ fn check_iridescence(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Re
     }
 }
 
-fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(volume) = extension(doc, fields, "KHR_materials_volume") else {
         return;
     };
@@ -201,7 +201,7 @@ fn check_volume(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<
     }
 }
 
-fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let volume = extension(doc, fields, "KHR_materials_volume");
     if let Some(dispersion) =
         extension(doc, fields, "KHR_materials_dispersion").filter(|_| volume.is_none())
@@ -218,7 +218,7 @@ fn check_dispersion(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Rep
 }
 
 /// Textures that share tangents use the texture coordinates of the normal map.
-fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let set = |texture: Fields<'_, '_>| texture.whole("texCoord").unwrap_or(0);
     let Some(normal) = fields.object("normalTexture").map(set) else {
         return;
@@ -244,7 +244,7 @@ fn check_coats(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'
     }
 }
 
-fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Report<'_, '_>) {
+fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut AssetReport<'_, '_>) {
     let Some(strength) = extension(doc, fields, "KHR_materials_emissive_strength") else {
         return;
     };
@@ -266,7 +266,7 @@ fn check_emission(doc: &Document<'_>, fields: Fields<'_, '_>, report: &mut Repor
 }
 
 /// Checks that each primitive has one material a variant.
-pub(super) fn check_variants(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check_variants(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     if !doc.uses("KHR_materials_variants") {
         return;
     }

@@ -5,7 +5,7 @@ use super::demand::Demands;
 use super::document::Document;
 use super::field::Fields;
 use super::primitive::{self, Primitive};
-use super::report::Report;
+use super::report::AssetReport;
 use super::usage::Usages;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -50,7 +50,7 @@ impl Mesh {
 }
 
 /// What the checks of meshes gather.
-pub(super) struct Links<'l> {
+pub(super) struct MeshLinks<'l> {
     pub(super) purposes: &'l mut Purposes,
     pub(super) usages: &'l mut Usages,
     pub(super) demands: &'l mut Demands,
@@ -61,7 +61,11 @@ pub(super) struct Links<'l> {
 }
 
 /// Checks all meshes.
-pub(super) fn check(doc: &Document<'_>, links: &mut Links<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(
+    doc: &Document<'_>,
+    links: &mut MeshLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
+) {
     for mesh in &doc.meshes {
         for primitive in &mesh.primitives {
             primitive::check(doc, primitive, links, report);

@@ -41,7 +41,7 @@ mod usage;
 
 pub(super) use lower::SURFACE;
 
-use super::Options;
+use super::FrontOptions;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::ir::Lowered;
 use crate::source::tree::{Tree, json};
@@ -50,7 +50,7 @@ use buffer::Purposes;
 use container::Parts;
 use demand::Demands;
 use document::Document;
-use report::Report;
+use report::AssetReport;
 use resource::Resources;
 use usage::Usages;
 
@@ -83,7 +83,12 @@ fn opens_object(bytes: &[u8]) -> bool {
 }
 
 /// Checks an asset and lowers what it shows. `None` if it has errors; the sink says which.
-pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) -> Option<Lowered> {
+pub fn lower(
+    file: FileId,
+    map: &SourceMap,
+    options: &FrontOptions,
+    sink: &mut Sink,
+) -> Option<Lowered> {
     let bytes = map.bytes(file);
     let parts = parts(file, map, sink)?;
     let (base, text) = text(file, bytes, &parts, sink)?;
@@ -99,7 +104,7 @@ pub fn lower(file: FileId, map: &SourceMap, options: &Options, sink: &mut Sink) 
         }
     };
     check_keys(&tree, sink);
-    let mut report = Report::new(&tree, sink, options, map.budget());
+    let mut report = AssetReport::new(&tree, sink, options, map.budget());
     let root = tree.root();
     let is_small = report.charge(Resource::Nodes, tree.count() as u64, root, "the asset")
         && report.charge(Resource::Memory, document::cost(&tree), root, "the asset");
@@ -182,7 +187,7 @@ fn check_keys(tree: &Tree<'_>, sink: &mut Sink) {
 fn shape<'s>(
     tree: &'s Tree<'s>,
     is_glb: bool,
-    report: &mut Report<'_, 's>,
+    report: &mut AssetReport<'_, 's>,
 ) -> Option<Document<'s>> {
     let is_known = header::check_version(report);
     schema::walk(is_known, report);
@@ -195,7 +200,7 @@ fn fill<'s>(
     mut doc: Document<'s>,
     chunk: Option<&'s [u8]>,
     mut resources: Resources<'_>,
-    report: &mut Report<'_, 's>,
+    report: &mut AssetReport<'_, 's>,
 ) -> Document<'s> {
     resources.bring_buffers(&mut doc, chunk, report);
     resources.bring_images(&mut doc, report);
@@ -210,7 +215,7 @@ fn fill<'s>(
 }
 
 /// Checks how the parts fit together; what that asks of the accessors comes back.
-fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
+fn check_links(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Demands {
     let mut purposes = Purposes::new(doc);
     let mut usages = Usages::new(doc.accessors.len());
     let mut demands = Demands::default();
@@ -222,7 +227,7 @@ fn check_links(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Demands {
     material::check(doc, report);
     material::check_variants(doc, report);
     let mut streams = std::collections::BTreeMap::new();
-    let mut links = mesh::Links {
+    let mut links = mesh::MeshLinks {
         purposes: &mut purposes,
         usages: &mut usages,
         demands: &mut demands,

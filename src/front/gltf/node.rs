@@ -2,7 +2,7 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::math::unit;
 use crate::source::tree::{NodeId, Tree};
@@ -85,7 +85,7 @@ pub(super) struct Forest {
 }
 
 /// Checks each node, and that they form trees.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> Forest {
     let joints: BTreeSet<usize> = doc
         .skins
         .iter()
@@ -135,7 +135,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) -> Forest {
 fn roots(
     doc: &Document<'_>,
     parents: &[Option<usize>],
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) -> Vec<Option<usize>> {
     #[derive(Clone, Copy)]
     enum State {
@@ -185,7 +185,7 @@ fn roots(
     states.iter().map(root).collect()
 }
 
-fn check_transform(node: &Node, report: &mut Report<'_, '_>) {
+fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
     match node.transform {
         Transform::Matrix(matrix) => {
             let at = report.json.at_or(node.at, "matrix");
@@ -245,7 +245,7 @@ fn is_sheared(matrix: &[f64; 16]) -> bool {
         .any(|cosine| cosine.abs() > RIGHT_ANGLE)
 }
 
-fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
+fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut AssetReport<'_, '_>) {
     let mesh = node.mesh.and_then(|mesh| doc.meshes.get(mesh));
     let fields = Fields::new(report.json, node.at);
     if let Some(at) = fields.node("weights").filter(|_| !node.weights.is_empty()) {
@@ -293,7 +293,7 @@ fn check_mesh(doc: &Document<'_>, node: &Node, report: &mut Report<'_, '_>) {
     }
 }
 
-fn check_empty(node: &Node, report: &mut Report<'_, '_>) {
+fn check_empty(node: &Node, report: &mut AssetReport<'_, '_>) {
     let fields = Fields::new(report.json, node.at);
     let says = ["children", "mesh", "camera", "extensions", "extras"];
     if !says.iter().any(|key| fields.has(key)) {

@@ -7,10 +7,10 @@ use super::buffer::Purpose;
 use super::demand::Demand;
 use super::document::Document;
 use super::field::Fields;
-use super::layout::Layout;
+use super::layout::ElementLayout;
 use super::material;
-use super::mesh::Links;
-use super::report::Report;
+use super::mesh::MeshLinks;
+use super::report::AssetReport;
 use super::usage::Usage;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -81,8 +81,8 @@ impl Primitive {
 pub(super) fn check(
     doc: &Document<'_>,
     primitive: &Primitive,
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    links: &mut MeshLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     attribute::check_names(primitive, report);
     if primitive.mode < TRIANGLES {
@@ -130,8 +130,8 @@ pub(super) fn check(
 fn check_indices(
     doc: &Document<'_>,
     (primitive, vertices): (&Primitive, Option<usize>),
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    links: &mut MeshLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let indices = accessor::find(doc, primitive.indices, report);
     if let Some((index, accessor)) = indices {
@@ -153,7 +153,7 @@ fn check_indices(
                 message,
             );
         }
-        let is_index = |layout: Layout| {
+        let is_index = |layout: ElementLayout| {
             layout.component.is_index() && layout.components() == 1 && !layout.normalized
         };
         if accessor.layout.is_some_and(is_index) {
@@ -165,7 +165,7 @@ fn check_indices(
         } else {
             let found = accessor
                 .layout
-                .map_or("of no known type".to_owned(), Layout::name);
+                .map_or("of no known type".to_owned(), ElementLayout::name);
             let message = format!("the indices are {found}, not scalar of u8, u16 or u32");
             report.say(
                 &codes::GLTF_FORMAT,
@@ -209,8 +209,8 @@ fn fills(mode: u64, count: usize) -> bool {
 fn check_targets(
     doc: &Document<'_>,
     primitive: &Primitive,
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    links: &mut MeshLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     for attribute in primitive.targets.iter().flatten() {
         let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {
@@ -252,8 +252,8 @@ fn check_targets(
 fn check_material(
     doc: &Document<'_>,
     primitive: &Primitive,
-    links: &mut Links<'_>,
-    report: &mut Report<'_, '_>,
+    links: &mut MeshLinks<'_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let Some(material) = primitive
         .material
@@ -280,7 +280,7 @@ fn check_material(
 }
 
 /// Checks that there are tangents where the material looks at them, and none where not.
-fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut Report<'_, '_>) {
+fn check_tangents(doc: &Document<'_>, primitive: &Primitive, report: &mut AssetReport<'_, '_>) {
     let material = primitive
         .material
         .and_then(|material| doc.materials.get(material));

@@ -2,27 +2,27 @@
 //! of Khronos has for it.
 
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
-use crate::front::Options;
-use crate::source::tree::{Kind, NodeId, Tree};
+use crate::front::FrontOptions;
+use crate::source::tree::{NodeId, NodeKind, Tree};
 use crate::source::{Budget, Exceeded, Resource};
 
 /// Takes the findings about one asset.
-pub(super) struct Report<'r, 's> {
+pub(super) struct AssetReport<'r, 's> {
     /// The text that they are about.
     pub(super) json: &'r Tree<'s>,
     sink: &'r mut Sink,
-    options: &'r Options,
+    options: &'r FrontOptions,
     /// What the run may still take.
     pub(super) budget: &'r Budget,
     /// A limit was passed; that is said once.
     is_over: bool,
 }
 
-impl<'r, 's> Report<'r, 's> {
+impl<'r, 's> AssetReport<'r, 's> {
     pub(super) fn new(
         json: &'r Tree<'s>,
         sink: &'r mut Sink,
-        options: &'r Options,
+        options: &'r FrontOptions,
         budget: &'r Budget,
     ) -> Self {
         Self {
@@ -113,7 +113,7 @@ impl<'r, 's> Report<'r, 's> {
     /// True if the part at a node is an object; what refers to another one refers to nothing, which
     /// the walk has told.
     pub(super) fn is_part(&self, at: NodeId) -> bool {
-        self.json.kind(at) == Kind::Map
+        self.json.kind(at) == NodeKind::Map
     }
 
     /// True if an error was reported, here or before.

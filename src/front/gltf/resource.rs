@@ -4,8 +4,8 @@
 use super::buffer::Bytes;
 use super::document::Document;
 use super::field::Fields;
-use super::report::{Report, shown};
-use super::uri::{self, Fault, Uri};
+use super::report::{AssetReport, shown};
+use super::uri::{self, Uri, UriFault};
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 use crate::source::{Identity, Loader, Missing, Search, SourceMap};
@@ -43,7 +43,7 @@ impl<'m> Resources<'m> {
         &mut self,
         doc: &mut Document<'s>,
         chunk: Option<&'s [u8]>,
-        report: &mut Report<'_, 's>,
+        report: &mut AssetReport<'_, 's>,
     ) {
         let is_glb = doc.is_glb;
         for (index, buffer) in doc.buffers.iter_mut().enumerate() {
@@ -98,7 +98,11 @@ impl<'m> Resources<'m> {
     }
 
     /// Brings the bytes of all images that are not in a view.
-    pub(super) fn bring_images(&mut self, doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+    pub(super) fn bring_images(
+        &mut self,
+        doc: &mut Document<'_>,
+        report: &mut AssetReport<'_, '_>,
+    ) {
         let is_glb = doc.is_glb;
         for image in &mut doc.images {
             let Some(at) = report.json.get(image.at, "uri") else {
@@ -117,7 +121,12 @@ impl<'m> Resources<'m> {
     }
 
     /// The bytes behind the URI at a node; why there are none is reported.
-    fn fetch(&mut self, at: NodeId, is_glb: bool, report: &mut Report<'_, '_>) -> Option<Found> {
+    fn fetch(
+        &mut self,
+        at: NodeId,
+        is_glb: bool,
+        report: &mut AssetReport<'_, '_>,
+    ) -> Option<Found> {
         let text = report.json.text(at)?;
         match uri::parse(text) {
             Ok(Uri::Data { media, bytes }) => {
@@ -134,12 +143,12 @@ impl<'m> Resources<'m> {
                 Some((bytes, Some(media)))
             }
             Ok(Uri::Path(path)) => self.file(&path, at, report).map(|bytes| (bytes, None)),
-            Err(Fault::Malformed(why)) => {
+            Err(UriFault::Malformed(why)) => {
                 let message = format!("`{}` is no URI: {why}", shown(text));
                 report.say(&codes::GLTF_URI, "INVALID_URI", at, message);
                 None
             }
-            Err(Fault::Outside(how)) => {
+            Err(UriFault::Outside(how)) => {
                 outside(text, how, at, report);
                 None
             }
@@ -150,7 +159,7 @@ impl<'m> Resources<'m> {
         &mut self,
         path: &str,
         at: NodeId,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<Bytes<'static>> {
         let found = match self.search.below(path) {
             Ok(found) => found,
@@ -203,7 +212,7 @@ impl<'m> Resources<'m> {
     }
 }
 
-fn remark_uri(is_glb: bool, at: NodeId, report: &mut Report<'_, '_>) {
+fn remark_uri(is_glb: bool, at: NodeId, report: &mut AssetReport<'_, '_>) {
     if is_glb {
         report.say(
             &codes::GLTF_REMARK,
@@ -214,7 +223,7 @@ fn remark_uri(is_glb: bool, at: NodeId, report: &mut Report<'_, '_>) {
     }
 }
 
-fn outside(text: &str, how: &str, at: NodeId, report: &mut Report<'_, '_>) {
+fn outside(text: &str, how: &str, at: NodeId, report: &mut AssetReport<'_, '_>) {
     let message = format!(
         "`{}` leads out of the folder of the asset: {how}",
         shown(text)
@@ -224,7 +233,7 @@ fn outside(text: &str, how: &str, at: NodeId, report: &mut Report<'_, '_>) {
 }
 
 /// True if a data URI says that it holds a buffer, or is none.
-fn is_buffer(media: Option<&str>, at: NodeId, report: &mut Report<'_, '_>) -> bool {
+fn is_buffer(media: Option<&str>, at: NodeId, report: &mut AssetReport<'_, '_>) -> bool {
     let Some(media) = media else { return true };
     let is_buffer = ["application/octet-stream", "application/gltf-buffer"].contains(&media);
     if !is_buffer {

@@ -6,9 +6,9 @@ use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
 use super::influences;
-use super::layout::{Component, Layout};
+use super::layout::{Component, ElementLayout};
 use super::node::{Forest, Node, Transform};
-use super::report::Report;
+use super::report::AssetReport;
 use super::usage::{Usage, Usages};
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -39,7 +39,7 @@ pub(super) fn check(
     doc: &Document<'_>,
     forest: &Forest,
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let order = Order::new(doc, forest);
     for skin in &doc.skins {
@@ -184,7 +184,7 @@ fn check_tree(
     skin: &Skin,
     forest: &Forest,
     order: &Order,
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let Some(at) = report
         .json
@@ -216,7 +216,7 @@ fn check_matrices(
     doc: &Document<'_>,
     skin: &Skin,
     (purposes, usages, demands): (&mut Purposes, &mut Usages, &mut Demands),
-    report: &mut Report<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
 ) {
     let Some((index, accessor)) = accessor::find(doc, skin.matrices, report) else {
         return;
@@ -237,7 +237,7 @@ fn check_matrices(
             message,
         );
     }
-    let is_matrix = |layout: Layout| {
+    let is_matrix = |layout: ElementLayout| {
         layout.columns == 4 && layout.component == Component::F32 && !layout.normalized
     };
     if accessor.layout.is_some_and(is_matrix) {
@@ -245,7 +245,7 @@ fn check_matrices(
     } else {
         let found = accessor
             .layout
-            .map_or("of no known type".to_owned(), Layout::name);
+            .map_or("of no known type".to_owned(), ElementLayout::name);
         let message = format!("inverse bind matrices are {found}, not mat4 of f32");
         report.say(&codes::GLTF_FORMAT, "SKIN_IBM_INVALID_FORMAT", at, message);
     }
@@ -262,7 +262,7 @@ fn check_matrices(
     }
 }
 
-fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut Report<'_, '_>) {
+fn check_node((index, node): (usize, &Node), forest: &Forest, report: &mut AssetReport<'_, '_>) {
     let code = &codes::GLTF_SKIN_ODD;
     let unmoved = Transform::Parts {
         translation: [0.0; 3],

@@ -2,8 +2,8 @@
 
 use super::document::Document;
 use super::field::Fields;
-use super::image::Format;
-use super::report::{Report, shown};
+use super::image::ImageCoding;
+use super::report::{AssetReport, shown};
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 
@@ -20,7 +20,7 @@ pub(super) struct Texture {
 
 /// How a texture goes on beyond its image, and between pixels.
 #[derive(Debug)]
-pub(super) struct Sampler {
+pub(super) struct TextureSampler {
     pub(super) mag_filter: Option<u64>,
     pub(super) wrap: [u64; 2],
 }
@@ -41,7 +41,7 @@ impl Texture {
     }
 }
 
-impl Sampler {
+impl TextureSampler {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         let wrap = |key| fields.whole(key).unwrap_or(REPEAT);
         Self {
@@ -52,9 +52,9 @@ impl Sampler {
 }
 
 /// Checks that the images of textures are of the formats that their places ask for.
-pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
-        let faulty = |report: &mut Report<'_, '_>, at, found: &str, wanted: &str| {
+        let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
             let message = format!("the image is of the type {}, not {wanted}", shown(found));
             report.say(
                 &codes::GLTF_IMAGE,
@@ -63,12 +63,13 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
                 message,
             );
         };
-        let core = [Format::Png.media(), Format::Jpeg.media()];
+        let core = [ImageCoding::Png.media(), ImageCoding::Jpeg.media()];
         if let Some(found) = media(doc, texture.source).filter(|found| !core.contains(found)) {
             let at = report.json.at_or(texture.at, "source");
             faulty(report, at, found, "image/png or image/jpeg");
         }
-        if let Some(found) = media(doc, texture.webp).filter(|found| *found != Format::WebP.media())
+        if let Some(found) =
+            media(doc, texture.webp).filter(|found| *found != ImageCoding::WebP.media())
         {
             let way = ["extensions", "EXT_texture_webp", "source"];
             let at = report.json.at(texture.at, &way).unwrap_or(texture.at);
@@ -80,5 +81,8 @@ pub(super) fn check(doc: &Document<'_>, report: &mut Report<'_, '_>) {
 /// What an image says that it is, or else what its bytes say.
 fn media<'d>(doc: &'d Document<'_>, image: Option<usize>) -> Option<&'d str> {
     let image = doc.images.get(image?)?;
-    image.media.as_deref().or(image.format.map(Format::media))
+    image
+        .media
+        .as_deref()
+        .or(image.format.map(ImageCoding::media))
 }

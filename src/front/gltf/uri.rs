@@ -29,7 +29,7 @@ pub(super) enum Uri {
 
 /// Why a URI stands for nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(super) enum UriFault {
     /// It is none, for this reason.
     Malformed(&'static str),
     /// It leads out of the folder, in this way.
@@ -40,7 +40,7 @@ pub(super) enum Fault {
 ///
 /// # Errors
 /// If it is none, or leads out of the folder of the asset.
-pub(super) fn parse(uri: &str) -> Result<Uri, Fault> {
+pub(super) fn parse(uri: &str) -> Result<Uri, UriFault> {
     if let Some(rest) = strip_scheme(uri, "data") {
         return data(rest);
     }
@@ -52,23 +52,23 @@ pub(super) fn parse(uri: &str) -> Result<Uri, Fault> {
             [first, rest @ ..]
                 if first.is_ascii_alphabetic() && rest.iter().all(|byte| in_scheme(*byte)) =>
             {
-                Fault::Outside("it names a scheme or a drive")
+                UriFault::Outside("it names a scheme or a drive")
             }
-            _ => Fault::Malformed("what stands before the colon is no scheme"),
+            _ => UriFault::Malformed("what stands before the colon is no scheme"),
         });
     }
     let path = unescape(uri.split(['?', '#']).next().unwrap_or_default())?;
     if path.starts_with(['/', '\\']) {
-        return Err(Fault::Outside("it starts at the root"));
+        return Err(UriFault::Outside("it starts at the root"));
     }
     if path.split(['/', '\\']).any(|part| part == "..") {
-        return Err(Fault::Outside("it climbs by `..`"));
+        return Err(UriFault::Outside("it climbs by `..`"));
     }
     if path.contains(['\\', ':', '\0']) {
-        return Err(Fault::Outside("it holds a backslash, a colon or a NUL"));
+        return Err(UriFault::Outside("it holds a backslash, a colon or a NUL"));
     }
     if path.is_empty() {
-        Err(Fault::Malformed("it is empty"))
+        Err(UriFault::Malformed("it is empty"))
     } else {
         Ok(Uri::Path(path))
     }
@@ -85,10 +85,10 @@ fn strip_scheme<'a>(uri: &'a str, scheme: &str) -> Option<&'a str> {
 }
 
 /// A data URI without its scheme (RFC 2397).
-fn data(rest: &str) -> Result<Uri, Fault> {
-    let (head, body) = rest
-        .split_once(',')
-        .ok_or(Fault::Malformed("a data URI has a comma before its data"))?;
+fn data(rest: &str) -> Result<Uri, UriFault> {
+    let (head, body) = rest.split_once(',').ok_or(UriFault::Malformed(
+        "a data URI has a comma before its data",
+    ))?;
     let mut parameters = head.split(';');
     let media = parameters
         .next()
@@ -99,7 +99,7 @@ fn data(rest: &str) -> Result<Uri, Fault> {
         .split_once('/')
         .is_some_and(|(kind, name)| !kind.is_empty() && !name.is_empty());
     if !media.is_empty() && !is_media {
-        return Err(Fault::Malformed("its media type has no slash"));
+        return Err(UriFault::Malformed("its media type has no slash"));
     }
     let mut parameters: Vec<&str> = parameters.collect();
     let is_base64 = parameters
@@ -107,7 +107,7 @@ fn data(rest: &str) -> Result<Uri, Fault> {
         .is_some_and(|last| last.eq_ignore_ascii_case("base64"));
     parameters.truncate(parameters.len() - usize::from(is_base64));
     if !parameters.iter().all(|parameter| parameter.contains('=')) {
-        return Err(Fault::Malformed(
+        return Err(UriFault::Malformed(
             "a parameter of its media type has no value",
         ));
     }
@@ -121,20 +121,20 @@ fn data(rest: &str) -> Result<Uri, Fault> {
         let text = if escaped { text.as_str() } else { body };
         BASE64
             .decode(text)
-            .map_err(|_| Fault::Malformed("its data is not Base64"))?
+            .map_err(|_| UriFault::Malformed("its data is not Base64"))?
     } else {
         unescape_bytes(body)?
     };
     Ok(Uri::Data { media, bytes })
 }
 
-fn unescape(text: &str) -> Result<String, Fault> {
+fn unescape(text: &str) -> Result<String, UriFault> {
     String::from_utf8(unescape_bytes(text)?)
-        .map_err(|_| Fault::Malformed("its escapes are not UTF-8"))
+        .map_err(|_| UriFault::Malformed("its escapes are not UTF-8"))
 }
 
 /// Resolves `%41` and its like (RFC 3986, section 2.1).
-fn unescape_bytes(text: &str) -> Result<Vec<u8>, Fault> {
+fn unescape_bytes(text: &str) -> Result<Vec<u8>, UriFault> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
     while let [first, after @ ..] = rest {
@@ -147,10 +147,11 @@ fn unescape_bytes(text: &str) -> Result<Vec<u8>, Fault> {
             .split_at_checked(2)
             .and_then(|(hex, rest)| Some((std::str::from_utf8(hex).ok()?, rest)));
         let digits = hex.filter(|(hex, _)| hex.bytes().all(|byte| byte.is_ascii_hexdigit()));
-        let (hex, after) = digits.ok_or(Fault::Malformed("two hexadecimal digits follow a `%`"))?;
+        let (hex, after) =
+            digits.ok_or(UriFault::Malformed("two hexadecimal digits follow a `%`"))?;
         bytes.push(
             u8::from_str_radix(hex, 16)
-                .map_err(|_| Fault::Malformed("two hexadecimal digits follow a `%`"))?,
+                .map_err(|_| UriFault::Malformed("two hexadecimal digits follow a `%`"))?,
         );
         rest = after;
     }
@@ -184,7 +185,7 @@ mod tests {
             "a/b:c",
         ] {
             assert!(
-                matches!(parse(uri), Err(Fault::Outside(_))),
+                matches!(parse(uri), Err(UriFault::Outside(_))),
                 "{uri}: {:?}",
                 parse(uri)
             );
@@ -220,7 +221,7 @@ mod tests {
             "%4",
         ] {
             assert!(
-                matches!(parse(uri), Err(Fault::Malformed(_))),
+                matches!(parse(uri), Err(UriFault::Malformed(_))),
                 "{uri}: {:?}",
                 parse(uri)
             );

@@ -1,6 +1,6 @@
 //! What each accessor is used for: one purpose only.
 
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
 
@@ -40,7 +40,7 @@ impl Usages {
         accessor: usize,
         usage: Usage,
         at: NodeId,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) {
         let Some(slot) = self.0.get_mut(accessor) else {
             return;

@@ -7,7 +7,7 @@ mod obj;
 mod off;
 mod scan;
 
-pub use scan::Fault;
+pub use scan::MeshFault;
 
 use crate::source::{Budget, Exceeded};
 use scan::{Lines, Word};
@@ -19,16 +19,16 @@ pub const MAX_FAULTS: usize = 10;
 #[derive(Debug, Default)]
 pub struct Parsed {
     /// What is drawn.
-    pub mesh: Geometry,
+    pub mesh: ParsedMesh,
     /// Elements that don't show: the first, and how many.
-    pub not_drawn: Option<(Fault, usize)>,
+    pub not_drawn: Option<(MeshFault, usize)>,
 }
 
 /// Why a mesh file can't be read.
 #[derive(Debug)]
 pub enum Unread {
     /// Its faults in the order of the file, at least one.
-    Faults(Vec<Fault>),
+    Faults(Vec<MeshFault>),
     /// It would take more than the budget has.
     Limit(Exceeded),
 }
@@ -41,7 +41,7 @@ impl From<Exceeded> for Unread {
 
 /// A mesh without a name.
 #[derive(Debug, Default)]
-pub struct Geometry {
+pub struct ParsedMesh {
     /// Where each vertex is.
     pub positions: Vec<[f64; 3]>,
     /// The normal of each vertex; none if no face has any.

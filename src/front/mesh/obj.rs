@@ -5,8 +5,8 @@
 //! Groups and materials make no difference. Corners without a normal, where others have one, are
 //! shaded flat.
 
-use super::scan::{Fault, Lines, Word, numbers};
-use super::{Geometry, MAX_FAULTS, Parsed, Unread};
+use super::scan::{Lines, MeshFault, Word, numbers};
+use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
 use crate::source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.
@@ -54,8 +54,8 @@ struct Check {
     triangles: usize,
     /// Whether any corner has a texture coordinate, and a normal.
     used: [bool; 2],
-    faults: Vec<Fault>,
-    not_drawn: Option<(Fault, usize)>,
+    faults: Vec<MeshFault>,
+    not_drawn: Option<(MeshFault, usize)>,
 }
 
 /// What corners refer to.
@@ -71,7 +71,7 @@ impl Vertices {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), Fault> {
+    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), MeshFault> {
         match part {
             0 => self.positions.push(numbers(head, rest)?),
             // A height of a texture is rarely written.
@@ -118,7 +118,7 @@ impl Check {
         }
     }
 
-    fn face(&mut self, corners: &[Word<'_>], so_far: Counts) -> Result<(), Fault> {
+    fn face(&mut self, corners: &[Word<'_>], so_far: Counts) -> Result<(), MeshFault> {
         for corner in corners {
             let [_, uv, normal] = indices(corner, so_far, self.vertices.counts())?;
             self.used[0] |= uv.is_some();
@@ -136,7 +136,7 @@ impl Check {
     }
 
     /// The mesh of a file without faults.
-    fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<Geometry, Unread> {
+    fn mesh(&mut self, bytes: &[u8], budget: &Budget) -> Result<ParsedMesh, Unread> {
         let is_plain = self.used == [false; 2];
         // A corner, and its number, while equal ones are looked for.
         let passing = if is_plain {
@@ -170,7 +170,7 @@ impl Check {
 
     /// The mesh of a file whose corners are positions alone: those that are used, in the order of
     /// their first use.
-    fn plain(&mut self, bytes: &[u8]) -> Geometry {
+    fn plain(&mut self, bytes: &[u8]) -> ParsedMesh {
         const UNUSED: u32 = u32::MAX;
         let mut vertex_of = vec![UNUSED; self.vertices.positions.len()];
         let (mut positions, mut triangles) = (Vec::new(), Vec::with_capacity(self.triangles));
@@ -189,15 +189,15 @@ impl Check {
                 [first, before, last]
             }));
         });
-        Geometry {
+        ParsedMesh {
             positions,
             triangles,
-            ..Geometry::default()
+            ..ParsedMesh::default()
         }
     }
 
     /// The mesh of a file whose corners are more than positions.
-    fn merged(&mut self, bytes: &[u8]) -> Geometry {
+    fn merged(&mut self, bytes: &[u8]) -> ParsedMesh {
         let [_, uvs, normals] = self.vertices.counts();
         let mut sorted = Vec::with_capacity(self.corners);
         let mut triangles = Vec::with_capacity(self.triangles);
@@ -227,7 +227,7 @@ impl Check {
     }
 
     /// Makes one vertex of equal corners, in the order in which they are first used.
-    fn merge(&mut self, mut sorted: Vec<[u32; 4]>, mut triangles: Vec<[u32; 3]>) -> Geometry {
+    fn merge(&mut self, mut sorted: Vec<[u32; 4]>, mut triangles: Vec<[u32; 3]>) -> ParsedMesh {
         sorted.sort_unstable();
         let same = |a: &[u32; 4], b: &[u32; 4]| a[..3] == b[..3];
         // Of each corner the first that is equal, and then the vertex.
@@ -269,7 +269,7 @@ impl Check {
                 .map(|corner| from.get(corner[part] as usize).copied().unwrap_or([0.0; N]))
                 .collect()
         }
-        Geometry {
+        ParsedMesh {
             positions: pick(&sorted, 0, &positions),
             uvs: if self.used[0] {
                 pick(&sorted, 1, &uvs)
@@ -318,7 +318,7 @@ fn part_of(head: &Word<'_>) -> Option<usize> {
 
 /// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative,
 /// from the last so far.
-fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, Fault> {
+fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, MeshFault> {
     if corner.bytes[0] == b'/' {
         return Err(corner.fault(
             format!("the corner `{}` has no vertex", corner.text()),
@@ -340,7 +340,7 @@ fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, F
     Ok(found)
 }
 
-fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, Fault> {
+fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, MeshFault> {
     let number = index.integer()?;
     let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
     let resolved = if number < 0 {

@@ -2,8 +2,8 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::scan::{Fault, Lines, Word, numbers};
-use super::{Geometry, MAX_FAULTS, Parsed, Unread};
+use super::scan::{Lines, MeshFault, Word, numbers};
+use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
 use crate::source::{Budget, Resource};
 
 /// True if the word opens an OFF file of any kind.
@@ -28,7 +28,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    let Geometry {
+    let ParsedMesh {
         positions,
         normals,
         uvs: _,
@@ -48,7 +48,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// The words of the next line; `count` says who promised one.
-    fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], Fault> {
+    fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], MeshFault> {
         if self.lines.next(&mut self.words) {
             return Ok(&self.words);
         }
@@ -73,7 +73,7 @@ struct Head<'a> {
     faces: Count<'a>,
 }
 
-fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, Fault> {
+fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, MeshFault> {
     reader.lines.next(&mut reader.words);
     let head = reader.words[0];
     let has_normals = match head.bytes {
@@ -113,7 +113,7 @@ fn body<'a>(
     reader: &mut Reader<'a>,
     head: &Head<'a>,
     parsed: &mut Parsed,
-    faults: &mut Vec<Fault>,
+    faults: &mut Vec<MeshFault>,
 ) {
     for _ in 0..head.vertices.value {
         match reader.line(&head.vertices) {
@@ -135,7 +135,7 @@ fn body<'a>(
     }
 }
 
-fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut Geometry) -> Result<(), Fault> {
+fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut ParsedMesh) -> Result<(), MeshFault> {
     mesh.positions.push(numbers(&words[0], words)?);
     if has_normals {
         mesh.normals
@@ -145,7 +145,7 @@ fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut Geometry) -> Result<
 }
 
 /// A polygon, as the fan of its triangles; what follows its corners is its colour.
-fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), Fault> {
+fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), MeshFault> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
     let corners = usize::try_from(arity)
@@ -163,7 +163,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result
     let indices = corners
         .iter()
         .map(|corner| index(corner, vertices))
-        .collect::<Result<Vec<u32>, Fault>>()?;
+        .collect::<Result<Vec<u32>, MeshFault>>()?;
     parsed.mesh.triangles.extend(
         indices[1..]
             .windows(2)
@@ -172,7 +172,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result
     Ok(())
 }
 
-fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, Fault> {
+fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, MeshFault> {
     let number = corner.integer()?;
     let index = u32::try_from(number)
         .ok()

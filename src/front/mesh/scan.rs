@@ -13,7 +13,7 @@ pub(super) struct Word<'a> {
 
 /// What is wrong with a mesh file, and where.
 #[derive(Debug)]
-pub struct Fault {
+pub struct MeshFault {
     start: usize,
     end: usize,
     /// What is wrong.
@@ -22,7 +22,7 @@ pub struct Fault {
     pub label: String,
 }
 
-impl Fault {
+impl MeshFault {
     /// Where it is.
     #[must_use]
     pub fn span(&self, file: FileId) -> Span {
@@ -52,8 +52,8 @@ impl<'a> Word<'a> {
     }
 
     /// A fault at this word.
-    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> Fault {
-        Fault {
+    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> MeshFault {
+        MeshFault {
             start: self.start,
             end: self.start + self.bytes.len(),
             message: message.into(),
@@ -74,7 +74,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as a finite number.
-    pub(super) fn number(&self) -> Result<f64, Fault> {
+    pub(super) fn number(&self) -> Result<f64, MeshFault> {
         let number: Option<f64> = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -88,7 +88,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as an integer.
-    pub(super) fn integer(&self) -> Result<i64, Fault> {
+    pub(super) fn integer(&self) -> Result<i64, MeshFault> {
         let integer = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -105,7 +105,7 @@ impl<'a> Word<'a> {
 pub(super) fn numbers<const N: usize>(
     line: &Word<'_>,
     words: &[Word<'_>],
-) -> Result<[f64; N], Fault> {
+) -> Result<[f64; N], MeshFault> {
     let mut values = [0.0; N];
     for (at, value) in values.iter_mut().enumerate() {
         let missing = || {

@@ -1,7 +1,7 @@
 //! JPEG. A file that ends before its last pixel is damaged, however much of it could be shown.
 
-use super::layout::Layout;
-use super::{DecodeError, Size};
+use super::layout::PixelLayout;
+use super::{DecodeError, ImageSize};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
@@ -9,13 +9,13 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 pub(super) struct Jpeg<'a> {
     decoder: JpegDecoder<ZCursor<&'a [u8]>>,
-    pub(super) layout: Layout,
+    pub(super) layout: PixelLayout,
     scratch: u64,
     is_whole: bool,
 }
 
 /// Reads all that stands before the pixels.
-pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), DecodeError> {
+pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, Jpeg<'_>), DecodeError> {
     let options = DecoderOptions::default()
         .set_strict_mode(false)
         .set_max_width(usize::MAX)
@@ -27,7 +27,7 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), D
         return Err(DecodeError::Damaged("it has no header".to_owned()));
     };
     let side = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-    let size = Size::within(most_pixels, side(width), side(height))?;
+    let size = ImageSize::within(most_pixels, side(width), side(height))?;
     let is_kept = matches!(
         coded,
         ColorSpace::Luma | ColorSpace::LumaA | ColorSpace::RGBA
@@ -38,7 +38,7 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Jpeg<'_>), D
     let frame = Frame::of(bytes);
     let jpeg = Jpeg {
         decoder,
-        layout: Layout {
+        layout: PixelLayout {
             channels: color.num_components(),
             is_wide: false,
         },
@@ -108,7 +108,7 @@ impl Frame {
     }
 
     /// What the decoder takes: some rows of blocks, and two bytes a coefficient where all are kept.
-    fn scratch(&self, size: Size) -> u64 {
+    fn scratch(&self, size: ImageSize) -> u64 {
         let rows = u64::from(size.width) * 256 * self.components.max(1);
         let blocks = |side: u32| u64::from(side.div_ceil(32)) * 32;
         let coefficients = blocks(size.width)

@@ -3,14 +3,14 @@
 
 /// A pixel as a decoder writes it: grey, or red, green and blue, with opacity or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Layout {
+pub(super) struct PixelLayout {
     /// From 1 to 4: grey, grey and opacity, colour, colour and opacity.
     pub(super) channels: usize,
     /// Whether a channel has two bytes, the high one first.
     pub(super) is_wide: bool,
 }
 
-impl Layout {
+impl PixelLayout {
     /// Bytes of a pixel.
     pub(super) fn bytes(self) -> usize {
         self.channels * if self.is_wide { 2 } else { 1 }
@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     fn converted(channels: usize, is_wide: bool, to: usize) -> Vec<u8> {
-        let layout = Layout { channels, is_wide };
+        let layout = PixelLayout { channels, is_wide };
         let mut buffer = vec![0; 2 * layout.bytes().max(to)];
         let coded = layout.place(&mut buffer, to);
         // Byte k of both pixels together is 10·k, those of wide channels doubled: then the value is

@@ -10,7 +10,7 @@ mod png;
 mod webp;
 
 use ::image::ImageFormat;
-use layout::Layout;
+use layout::PixelLayout;
 use std::fmt;
 
 /// A picture of 8 bits a channel.
@@ -37,7 +37,7 @@ pub enum Opacity {
 
 /// What decoding a picture takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cost {
+pub struct DecodeCost {
     /// Its pixels.
     pub pixels: u64,
     /// Bytes of the buffer that is handed on.
@@ -81,7 +81,7 @@ impl DecodeError {
 
 /// A pixel file of which the header was read.
 pub struct PixelFile<'a> {
-    size: Size,
+    size: ImageSize,
     opacity: Opacity,
     decoder: Decoder<'a>,
 }
@@ -94,12 +94,12 @@ enum Decoder<'a> {
 
 /// Width and height in pixels, each at least 1.
 #[derive(Clone, Copy)]
-pub(super) struct Size {
+pub(super) struct ImageSize {
     pub(super) width: u32,
     pub(super) height: u32,
 }
 
-impl Size {
+impl ImageSize {
     /// A size, if it is of at most so many pixels.
     pub(super) fn within(most_pixels: u64, width: u32, height: u32) -> Result<Self, DecodeError> {
         if width == 0 || height == 0 {
@@ -180,7 +180,7 @@ impl<'a> PixelFile<'a> {
 
     /// What decoding it will take.
     #[must_use]
-    pub fn cost(&self) -> Cost {
+    pub fn cost(&self) -> DecodeCost {
         let (pixels, scratch) = (
             self.size.pixels(),
             match &self.decoder {
@@ -190,7 +190,7 @@ impl<'a> PixelFile<'a> {
             },
         );
         let pixel = self.layout().bytes().max(self.channels()) as u64;
-        Cost {
+        DecodeCost {
             pixels,
             memory: pixels.saturating_mul(pixel),
             scratch,
@@ -221,7 +221,7 @@ impl<'a> PixelFile<'a> {
     }
 
     /// How the decoder lays out pixels.
-    fn layout(&self) -> Layout {
+    fn layout(&self) -> PixelLayout {
         match &self.decoder {
             Decoder::Png(png) => png.layout,
             Decoder::Jpeg(jpeg) => jpeg.layout,

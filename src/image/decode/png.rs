@@ -1,25 +1,25 @@
 //! PNG. What a file holds beside its pixels is passed over: profiles and texts are compressed, and
 //! may be bombs.
 
-use super::layout::Layout;
-use super::{DecodeError, Size};
+use super::layout::PixelLayout;
+use super::{DecodeError, ImageSize};
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Reader, Transformations};
 use std::io::Cursor;
 
 pub(super) struct Png<'a> {
     reader: Reader<Cursor<&'a [u8]>>,
-    pub(super) layout: Layout,
+    pub(super) layout: PixelLayout,
 }
 
 /// Reads all that stands before the pixels.
-pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Png<'_>), DecodeError> {
+pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, Png<'_>), DecodeError> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: usize::MAX });
     decoder.set_ignore_iccp_chunk(true);
     decoder.set_ignore_text_chunk(true);
     // Indexed colours and fewer than 8 bits become bytes.
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info().map_err(DecodeError::damaged)?;
-    let size = Size::within(most_pixels, header.width, header.height)?;
+    let size = ImageSize::within(most_pixels, header.width, header.height)?;
     let reader = decoder.read_info().map_err(|error| fault(&error, size))?;
     let (color, depth) = reader.output_color_type();
     let channels = match color {
@@ -32,7 +32,7 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Png<'_>), De
         size,
         Png {
             reader,
-            layout: Layout {
+            layout: PixelLayout {
                 channels,
                 is_wide: depth == BitDepth::Sixteen,
             },
@@ -40,7 +40,7 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, Png<'_>), De
     ))
 }
 
-fn fault(error: &DecodingError, size: Size) -> DecodeError {
+fn fault(error: &DecodingError, size: ImageSize) -> DecodeError {
     match error {
         DecodingError::LimitsExceeded => size.too_large(),
         DecodingError::Format(_) | DecodingError::IoError(_) | DecodingError::Parameter(_) => {

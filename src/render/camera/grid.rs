@@ -1,12 +1,22 @@
 //! The samples of a pixel in a scene of the course: sub-samples in cells, and lens points for each
 //! sub-sample.
 
-use super::{CranleyPatterson, image_point, lens_point, lens_samples, ray_through};
+use super::{Camera, CranleyPatterson, image_point, lens_point, ray_through};
 use crate::math::Vec3;
 use crate::render::film::Seeds;
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
-use crate::valid::{Camera, Mode, Pattern, Proof};
+
+/// Where in its cell of the pixel each sub-sample lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) enum Pattern {
+    /// In the middle.
+    Grid,
+    /// Anywhere in its cell, seeded by pixel and sample.
+    Jitter,
+    /// Anywhere in the pixel, seeded by pixel and sample.
+    Random,
+}
 
 /// How the samples of a pixel are laid out.
 #[derive(Clone, Copy, Debug)]
@@ -33,16 +43,12 @@ impl Grid {
         pattern: Pattern::Grid,
     };
 
-    /// The layout of a scene. A depth buffer has one ray through the center of each pixel.
-    pub(in crate::render) fn of(scene: &Proof) -> Self {
-        let settings = scene.settings();
-        match settings.mode {
-            Mode::Zbuffer => Self::MIDDLE,
-            Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => Self {
-                factor: settings.supersampling.get(),
-                points: lens_samples(&scene.camera().lens),
-                pattern: settings.pattern,
-            },
+    /// `factor × factor` cells, each with so many points of the lens.
+    pub(in crate::render) fn new(factor: u32, points: u32, pattern: Pattern) -> Self {
+        Self {
+            factor,
+            points,
+            pattern,
         }
     }
 

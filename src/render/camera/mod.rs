@@ -5,15 +5,44 @@ pub(in crate::render) mod grid;
 use crate::math::{Vec3, cos_sin_turns, golden_turns};
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
-use crate::valid::{Camera, Lens, Projection};
+
+/// A camera as its rays see it.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// Where rays start.
+    pub eye: Vec3,
+    /// The middle of the image.
+    pub center: Vec3,
+    /// The step to the right neighbour of a pixel.
+    pub right: Vec3,
+    /// The step to the upper neighbour; at a right angle to `right`.
+    pub up: Vec3,
+    /// The width and the height of the image in pixels, each at least 1.
+    pub size: [u32; 2],
+    /// The radius of the lens; 0 for a pinhole.
+    pub lens_radius: f64,
+    /// The points of the lens for each sub-sample; 1 for a pinhole.
+    pub lens_samples: u32,
+    /// How the rays run.
+    pub projection: Projection,
+}
+
+/// How the rays of a camera run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Projection {
+    /// From the lens through the point of the image.
+    Perspective,
+    /// Parallel, along the line from the eye to the middle of the image.
+    Orthographic,
+}
 
 /// The point of the image plane at an offset within pixel (x, y), each coordinate in [0, 1] from
 /// the left and upper edge: `center + (x + place₀ − width/2)·right + (height/2 − y −
 /// place₁)·up`.
 #[must_use]
 pub fn image_point(camera: &Camera, [x, y]: [u32; 2], place: [f64; 2]) -> Vec3 {
-    let across = f64::from(x) + place[0] - f64::from(camera.width.get()) / 2.0;
-    let upward = f64::from(camera.height.get()) / 2.0 - f64::from(y) - place[1];
+    let across = f64::from(x) + place[0] - f64::from(camera.size[0]) / 2.0;
+    let upward = f64::from(camera.size[1]) / 2.0 - f64::from(y) - place[1];
     camera.center + camera.right * across + camera.up * upward
 }
 
@@ -35,16 +64,6 @@ pub(in crate::render) fn ray_through(camera: &Camera, lens_point: Vec3, image_po
         Projection::Orthographic => {
             camera_ray(lens_point + (image_point - camera.center), image_point)
         }
-    }
-}
-
-/// The number of lens points for each sub-sample; 1 for a pinhole.
-#[must_use]
-pub(in crate::render) fn lens_samples(lens: &Lens) -> u32 {
-    if lens.radius.get() == 0.0 {
-        1
-    } else {
-        lens.samples.get()
     }
 }
 
@@ -103,7 +122,7 @@ const LENS: u64 = u64::MAX - 1;
 pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) -> Vec3 {
     /// 2⁶⁴.
     const TURN: f64 = 18_446_744_073_709_551_616.0;
-    let radius = camera.lens.radius.get();
+    let radius = camera.lens_radius;
     if radius == 0.0 {
         return camera.eye;
     }
@@ -121,10 +140,10 @@ pub(in crate::render) fn lens_at(camera: &Camera, [fraction, turn]: [f64; 2]) ->
 #[inline(always)]
 #[must_use]
 pub(in crate::render) fn lens_point(camera: &Camera, k: u32, rotated: CranleyPatterson) -> Vec3 {
-    let n = lens_samples(&camera.lens);
+    let n = camera.lens_samples;
     if n == 1 && rotated == CranleyPatterson::NONE {
         return camera.eye;
     }
-    let [across, upward] = rotated.vogel(k, n, camera.lens.radius.get(), camera.up.length());
+    let [across, upward] = rotated.vogel(k, n, camera.lens_radius, camera.up.length());
     camera.eye + camera.right * across + camera.up * upward
 }

@@ -37,6 +37,12 @@ impl Default for Counts {
 }
 
 impl Counts {
+    /// The kinds of rays counted.
+    const RAYS: usize = 6;
+
+    /// The number of all counts.
+    const LENGTH: usize = Self::RAYS + Effect::COUNT;
+
     /// All rays.
     #[must_use]
     pub fn rays(&self) -> u64 {
@@ -111,6 +117,36 @@ impl Counts {
             let scaled = u128::from(count) * u128::from(numerator) / u128::from(denominator.max(1));
             u64::try_from(scaled).unwrap_or(u64::MAX)
         })
+    }
+
+    /// All counts, rays by kind before evaluations.
+    pub(super) fn to_array(self) -> [u64; Self::LENGTH] {
+        let rays = [
+            self.camera,
+            self.shadow,
+            self.mirror,
+            self.refracted,
+            self.hits,
+            self.unnumbered,
+        ];
+        std::array::from_fn(|at| match at.checked_sub(Self::RAYS) {
+            None => rays[at],
+            Some(effect) => self.evaluations[effect],
+        })
+    }
+
+    /// The counts of [`Self::to_array`].
+    pub(super) fn from_array(counts: [u64; Self::LENGTH]) -> Self {
+        let [camera, shadow, mirror, refracted, hits, unnumbered, ..] = counts;
+        Self {
+            camera,
+            shadow,
+            mirror,
+            refracted,
+            hits,
+            unnumbered,
+            evaluations: std::array::from_fn(|effect| counts[Self::RAYS + effect]),
+        }
     }
 
     fn by(&self, other: &Self, both: impl Fn(u64, u64) -> u64) -> Self {

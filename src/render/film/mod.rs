@@ -1,7 +1,9 @@
 //! The film: a picture, and the rays it took.
 
+mod bytes;
 mod counts;
 pub(in crate::render) mod heartbeat;
+pub(in crate::render) mod partial;
 pub(in crate::render) mod pixel;
 pub(in crate::render) mod progressive;
 pub(in crate::render) mod tile;
@@ -9,6 +11,7 @@ pub(in crate::render) mod tiled;
 
 pub use counts::Counts;
 
+use crate::color::Tone;
 use crate::image::Image;
 use crate::render::sampler::mix;
 use std::num::NonZeroU32;
@@ -55,12 +58,14 @@ pub struct Seeds {
     pub path: u64,
 }
 
-/// Square tiles strewn over a picture: those whose rank is at most `last`.
+/// Square tiles strewn over a picture: those whose rank is from `first` to `last`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiles {
     /// Which tiles come first.
     pub seed: u64,
-    /// The rank of the last tile.
+    /// The least rank.
+    pub first: u64,
+    /// The greatest rank.
     pub last: u64,
 }
 
@@ -86,7 +91,8 @@ impl Tiles {
     /// Whether a pixel lies in one of the tiles.
     #[must_use]
     pub fn contain(&self, pixel: [u32; 2]) -> bool {
-        Self::rank(self.seed, pixel.map(|at| at / Self::SIDE)) <= self.last
+        let rank = Self::rank(self.seed, pixel.map(|at| at / Self::SIDE));
+        (self.first..=self.last).contains(&rank)
     }
 }
 
@@ -160,6 +166,9 @@ pub enum Values {
     /// The plain mean of the sub-samples.
     Linear,
 }
+
+/// The tone map of [`Values::Display`] where paths are traced.
+pub(in crate::render) const DISPLAY: Tone = Tone::Srgb;
 
 /// The fraction of rays that hit something; 0 of none.
 #[must_use]

@@ -4,9 +4,8 @@
 //! samples, so that a picture is the same bytes however its samples are shared out.
 
 use super::{Seeds, Values, coverage};
-use crate::color::Tone;
 use crate::math::Vec3;
-use std::ops::Range;
+use std::ops::{Add, Range};
 
 /// One sample of a pixel. It is a function of these three alone.
 #[derive(Clone, Copy, Debug)]
@@ -61,71 +60,85 @@ pub(in crate::render) trait Accumulator {
 /// The samples that a pixel is to take: of each stream a range.
 pub(in crate::render) type SampleRanges = arrayvec::ArrayVec<(Stream, Range<u32>), 4>;
 
-/// What a film of a whole picture keeps of a pixel.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::render) struct FinishedPixel {
-    /// The value, linear or as a display shows it.
-    pub(in crate::render) color: [f64; 3],
-    /// The fraction of the camera rays that met a surface.
-    pub(in crate::render) coverage: f32,
+/// The sum of samples of a pixel: what a film keeps of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::render) struct PixelSum {
+    /// The sum of the radiance, clamped sample by sample where a display shows it so; of a depth
+    /// buffer the distance, in each channel.
+    pub(in crate::render) radiance: Vec3,
+    /// How many samples met a surface.
+    pub(in crate::render) hits: u32,
+    /// How many samples there are.
+    pub(in crate::render) samples: u32,
 }
 
-/// The mean of the samples, added one after the other: pictures of the course.
+impl PixelSum {
+    /// The mean of the samples; black without any.
+    pub(in crate::render) fn mean(&self) -> [f64; 3] {
+        (self.radiance / f64::from(self.samples.max(1))).to_array()
+    }
+
+    /// The fraction of the camera rays that met a surface.
+    pub(in crate::render) fn coverage(&self) -> f32 {
+        coverage(self.hits.into(), self.samples.into())
+    }
+}
+
+impl Add for PixelSum {
+    type Output = Self;
+
+    fn add(self, later: Self) -> Self {
+        Self {
+            radiance: self.radiance + later.radiance,
+            hits: self.hits + later.hits,
+            samples: self.samples + later.samples,
+        }
+    }
+}
+
+/// The samples, added one after the other: pictures of the course.
 pub(in crate::render) struct InOrder {
     values: Values,
-    sum: Vec3,
-    hits: u64,
-    count: u64,
+    sum: PixelSum,
 }
 
 impl InOrder {
     pub(in crate::render) fn new(values: Values) -> Self {
-        Self {
-            values,
-            sum: Vec3::ZERO,
-            hits: 0,
-            count: 0,
-        }
+        let sum = PixelSum::default();
+        Self { values, sum }
     }
 }
 
 impl Accumulator for InOrder {
     type Sample = Sample;
-    type Kept = FinishedPixel;
+    type Kept = PixelSum;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
-        self.sum += match self.values {
+        self.sum.radiance += match self.values {
             Values::Display => radiance.clamp(Vec3::ZERO, Vec3::ONE),
             Values::Linear => radiance,
         };
-        self.hits += u64::from(hit);
-        self.count += 1;
+        self.sum.hits += u32::from(hit);
+        self.sum.samples += 1;
     }
 
-    fn close(self) -> FinishedPixel {
-        if self.count == 0 {
-            return FinishedPixel::default();
-        }
-        FinishedPixel {
-            color: (self.sum / self.count as f64).to_array(),
-            coverage: coverage(self.hits, self.count),
-        }
+    fn close(self) -> PixelSum {
+        self.sum
     }
 }
 
 /// Samples of a block, which are added one after the other.
 pub(in crate::render) const BLOCK: u32 = 16;
 
-/// The mean of the samples, added in aligned blocks of [`BLOCK`] along a binary tree over the
-/// blocks: pictures of traced paths. The sum of any 2^k aligned blocks is one node of the tree,
-/// whoever adds it.
+/// The samples, added in aligned blocks of [`BLOCK`] along a binary tree over the blocks: pictures
+/// of traced paths. The sum of any 2^k aligned blocks is one node of the tree, whoever adds it.
+#[derive(Default)]
 pub(in crate::render) struct InBlocks {
-    tone: Option<Tone>,
     block: Vec3,
     tree: SumTree,
-    hits: u64,
-    count: u32,
+    hits: u32,
+    samples: u32,
 }
 
 /// Sums of blocks: of each level of the tree at most one node is open.
@@ -136,42 +149,28 @@ struct SumTree {
     blocks: u32,
 }
 
-impl InBlocks {
-    /// A pixel whose mean is coded by `tone`, if by any.
-    pub(in crate::render) fn new(tone: Option<Tone>) -> Self {
-        let tree = SumTree::default();
-        Self {
-            tone,
-            block: Vec3::ZERO,
-            tree,
-            hits: 0,
-            count: 0,
-        }
-    }
-}
-
 impl Accumulator for InBlocks {
     type Sample = Sample;
-    type Kept = FinishedPixel;
+    type Kept = PixelSum;
 
     #[inline]
     fn add(&mut self, _: &SampleId, Sample { radiance, hit }: Sample) {
         self.block += radiance;
-        self.hits += u64::from(hit);
-        self.count += 1;
-        if self.count.is_multiple_of(BLOCK) {
+        self.hits += u32::from(hit);
+        self.samples += 1;
+        if self.samples.is_multiple_of(BLOCK) {
             self.tree.add(std::mem::take(&mut self.block));
         }
     }
 
-    fn close(mut self) -> FinishedPixel {
-        if !self.count.is_multiple_of(BLOCK) {
+    fn close(mut self) -> PixelSum {
+        if !self.samples.is_multiple_of(BLOCK) {
             self.tree.add(self.block);
         }
-        let mean = (self.tree.sum() / f64::from(self.count.max(1))).to_array();
-        FinishedPixel {
-            color: self.tone.map_or(mean, |tone| tone.display(mean)),
-            coverage: coverage(self.hits, self.count.into()),
+        PixelSum {
+            radiance: self.tree.sum(),
+            hits: self.hits,
+            samples: self.samples,
         }
     }
 }
@@ -226,23 +225,23 @@ mod tests {
     #[test]
     fn blocks_are_added_along_a_binary_tree() {
         for samples in [1, 15, 16, 17, 48, 49, 64, 112, 1000] {
-            let mut sums = InBlocks::new(None);
+            let mut sums = InBlocks::default();
             let sample = |index| Sample {
                 radiance: radiance(index),
                 hit: index % 2 == 0,
             };
             (0..samples).for_each(|index| sums.add(&id(), sample(index)));
             let expected = node(0..samples.div_ceil(BLOCK), samples) / f64::from(samples);
-            let FinishedPixel { color, coverage } = sums.close();
-            assert_eq!(color, expected.to_array(), "{samples}");
-            assert!((f64::from(coverage) - 0.5).abs() <= 0.6 / f64::from(samples));
+            let sum = sums.close();
+            assert_eq!(sum.mean(), expected.to_array(), "{samples}");
+            assert!((f64::from(sum.coverage()) - 0.5).abs() <= 0.6 / f64::from(samples));
         }
     }
 
     #[test]
     fn a_pixel_without_samples_is_black() {
-        assert_eq!(InOrder::new(Values::Display).close().color, [0.0; 3]);
-        assert_eq!(InBlocks::new(None).close().color, [0.0; 3]);
+        assert_eq!(InOrder::new(Values::Display).close().mean(), [0.0; 3]);
+        assert_eq!(InBlocks::default().close().mean(), [0.0; 3]);
     }
 
     #[test]
@@ -258,7 +257,7 @@ mod tests {
                     },
                 );
             }
-            assert_eq!(sums.close().color, [mean; 3]);
+            assert_eq!(sums.close().mean(), [mean; 3]);
         }
     }
 }

@@ -51,27 +51,13 @@ impl<K> Tiled<K> {
     /// All tiles, each with its rectangle of the picture and its values in rows.
     pub(in crate::render) fn tiles_mut(&mut self) -> Vec<(Crop, &mut [K])> {
         let mut rest = self.pixels.as_mut_slice();
-        let mut tiles = Vec::new();
-        let Crop {
-            x,
-            y,
-            width,
-            height,
-        } = self.crop;
-        for rows in cuts(y, height) {
-            for columns in cuts(x, width) {
-                let area = Crop {
-                    x: columns.start,
-                    y: rows.start,
-                    width: columns.end - columns.start,
-                    height: rows.end - rows.start,
-                };
-                let (tile, after) = rest.split_at_mut(area.width as usize * area.height as usize);
-                rest = after;
-                tiles.push((area, tile));
-            }
-        }
-        tiles
+        let cut = |area: Crop| {
+            let length = area.width as usize * area.height as usize;
+            let (tile, after) = std::mem::take(&mut rest).split_at_mut(length);
+            rest = after;
+            (area, tile)
+        };
+        tiles_of(self.crop).map(cut).collect()
     }
 
     /// Where the value of a pixel stands, given by its column and row in the part held.
@@ -81,6 +67,19 @@ impl<K> Tiled<K> {
         let (top, tile_height) = tile_around(self.crop.y, row, height);
         top * width + left * tile_height + (row - top) * tile_width + (column - left)
     }
+}
+
+/// The rectangles of the tiles of a part of the picture, row by row.
+pub(in crate::render) fn tiles_of(crop: Crop) -> impl Iterator<Item = Crop> {
+    let row = move |rows: Range<u32>| {
+        cuts(crop.x, crop.width).map(move |columns| Crop {
+            x: columns.start,
+            y: rows.start,
+            width: columns.end - columns.start,
+            height: rows.end - rows.start,
+        })
+    };
+    cuts(crop.y, crop.height).flat_map(row)
 }
 
 /// The start and the length of the tile around a place, both counted from `first`.

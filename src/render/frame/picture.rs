@@ -3,101 +3,144 @@
 use super::{Selection, run};
 use crate::image::Image;
 use crate::plan::{Features, PixelClass};
-use crate::render::camera::grid::Grid;
 use crate::render::film::heartbeat::OnPixel;
-use crate::render::film::pixel::{FinishedPixel, InBlocks, InOrder, SampleRanges, Stream};
+use crate::render::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
+use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges, Stream};
 use crate::render::film::tiled::Tiled;
-use crate::render::film::{Counts, Crop, Film, Job, Values};
+use crate::render::film::{Counts, Crop, Film, Job};
 use crate::render::integrator::first_hit::{Depth, Distance};
 use crate::render::integrator::path::{PathTracer, Strategy};
 use crate::render::integrator::whitted::Tracer;
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, PathSettings};
+use crate::render::world::settings::Mode;
+use std::ops::Range;
+
+/// The sums of the pixels of a picture, and the rays they took.
+pub(in crate::render) type Sums = (Tiled<PixelSum>, Counts);
 
 impl<S: Geometry> World<S> {
-    /// Renders with the features `F`; `None` if `on_pixel` said stop.
-    pub(in crate::render) fn render_with<const F: u32>(
+    /// Sums all samples of pixels with the features `F`; `None` if `on_pixel` said stop.
+    pub(in crate::render) fn sum_with<const F: u32>(
         &self,
         job: &Job,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<Film> {
-        if let Mode::Zbuffer = self.scene.settings().mode {
-            return self.render_depth(job, on_pixel);
+    ) -> Option<Sums> {
+        if let Mode::Depth = self.settings.mode {
+            return self.sum_distances(job, on_pixel);
         }
         let samples = if Features(F).contains(Features::CAMERA) {
-            Grid::of(&self.scene).samples()
+            self.settings.grid.samples()
         } else {
             1
         };
-        let open = |pixel: [u32; 2], _: usize, _: &FinishedPixel| {
+        let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
             let samples = if is_blank { 0 } else { samples };
-            (InOrder::new(job.values), whole(job, samples))
+            (
+                InOrder::new(job.values),
+                asked(job, 0..limited(job, samples)),
+            )
         };
-        let mut film = Tiled::new(self.crop(job), FinishedPixel::default());
         let worker = || Tracer::<S, F>::new(self, on_pixel);
+        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
-        Some(developed(&film, counts))
+        Some((film, counts))
     }
 
-    /// Renders by tracing paths with the features `F`; `None` if `on_pixel` said stop.
-    pub(in crate::render) fn render_paths_with<const F: u32>(
+    /// Sums samples of pixels by tracing paths with the features `F`; `None` if `on_pixel` said
+    /// stop.
+    pub(in crate::render) fn sum_paths_with<const F: u32>(
         &self,
-        path: PathSettings,
         strategy: Strategy,
+        samples: &Range<u32>,
         job: &Job,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<Film> {
+    ) -> Option<Sums> {
         let lights = Lights::new(self, strategy);
-        let tone = (job.values == Values::Display).then(|| self.scene.settings().mode.tone());
-        let open = |_: [u32; 2], _: usize, _: &FinishedPixel| {
-            (InBlocks::new(tone), whole(job, path.samples.get()))
+        let open = |_: [u32; 2], _: usize, _: &PixelSum| {
+            (InBlocks::default(), asked(job, samples.clone()))
         };
-        let mut film = Tiled::new(self.crop(job), FinishedPixel::default());
-        let worker = || {
-            PathTracer::<S, F>::new(self, &lights, path, strategy, on_pixel).before(job.background)
-        };
+        let worker =
+            || PathTracer::<S, F>::new(self, &lights, strategy, on_pixel).before(job.background);
+        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
         let counts = run(&mut film, Selection::of(job), worker, &open)?;
-        Some(developed(&film, counts))
+        Some((film, counts))
     }
 
-    /// Renders distances, the nearest of all pixels white, the farthest black.
-    fn render_depth(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        let open = |pixel: [u32; 2], _: usize, _: &Option<f64>| {
+    /// Distances of the whole picture: those of all pixels decide how bright one is.
+    fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
+        let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
-            (Distance::default(), whole(job, u32::from(!is_blank)))
+            (Distance::default(), asked(job, 0..u32::from(!is_blank)))
         };
-        let crop = self.crop(job);
-        let mut film = Tiled::new(self.crop(&Job::default()), None);
-        let selection = Selection {
-            tiles: None,
-            stride: job.stride,
+        let mut film = Tiled::new(self.layout(job).crop, PixelSum::default());
+        let counts = run(
+            &mut film,
+            Selection::of(job),
+            || Depth::new(self, on_pixel),
+            &open,
+        )?;
+        Some((film, counts))
+    }
+
+    /// Renders a whole picture from the sums that `sum` makes of all samples.
+    pub(in crate::render) fn whole(
+        &self,
+        job: &Job,
+        sum: impl FnOnce(&Range<u32>, &Job) -> Option<Sums>,
+    ) -> Option<Film> {
+        let layout = self.layout(job);
+        let tiles = match layout.summation {
+            // How bright a distance is depends on all others.
+            Summation::Distance => None,
+            Summation::InOrder | Summation::InBlocks(_) => job.tiles,
         };
-        let counts = run(&mut film, selection, || Depth::new(self, on_pixel), &open)?;
-        let brightness = brightness_of(film.iter().copied());
-        let of_crop = || part(&film, crop);
-        let pixels = of_crop().map(|t| [t.map_or(0.0, &brightness); 3]).collect();
-        let coverage = of_crop()
-            .map(|t| f32::from(u8::from(t.is_some())))
-            .collect();
-        let image = Image {
-            width: crop.width,
-            height: crop.height,
-            pixels,
+        let (film, counts) = sum(&layout.all_samples(), &Job { tiles, ..*job })?;
+        Some(cut(layout.develop(&film, counts), self.crop(job)))
+    }
+
+    /// Renders some samples of a picture, or all, from the sums that `sum` makes of a range of
+    /// them.
+    pub(in crate::render) fn part(
+        &self,
+        job: &Job,
+        samples: Option<Range<u32>>,
+        sum: impl Fn(&Range<u32>, &Job) -> Option<Sums>,
+    ) -> Result<Option<PartialFilm>, FilmError> {
+        let layout = self.layout(job);
+        let mut part = PartialFilm::new(layout);
+        for blocks in layout.nodes_of(samples)? {
+            let Some((film, counts)) = sum(&layout.samples_of(&blocks), job) else {
+                return Ok(None);
+            };
+            part.add(PartialFilm::of(layout, &blocks, film, job.tiles, counts))?;
+        }
+        Ok(Some(part))
+    }
+
+    /// Which pixels a job asks for, and how their samples are summed.
+    fn layout(&self, job: &Job) -> FilmLayout {
+        let (crop, summation) = match self.settings.mode {
+            Mode::Path(samples) => {
+                let samples = limited(job, samples);
+                (self.crop(job), Summation::InBlocks(samples))
+            }
+            Mode::Depth => (self.crop(&Job::default()), Summation::Distance),
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) => (self.crop(job), Summation::InOrder),
         };
-        Some(Film {
-            image,
-            coverage,
-            counts,
-        })
+        let values = job.values;
+        FilmLayout {
+            crop,
+            values,
+            summation,
+        }
     }
 
     /// The part of the picture that a job asks for.
     pub(in crate::render) fn crop(&self, job: &Job) -> Crop {
-        let camera = self.scene.camera();
-        let (width, height) = (camera.width.get(), camera.height.get());
+        let [width, height] = self.camera.size;
         let whole = Crop {
             x: 0,
             y: 0,
@@ -117,42 +160,50 @@ impl Selection {
     }
 }
 
-/// The samples of a pixel that a job asks for, from the first on.
-pub(in crate::render) fn whole(job: &Job, samples: u32) -> SampleRanges {
+/// The number of samples of a pixel, so far as a job wants them.
+fn limited(job: &Job, samples: u32) -> u32 {
+    job.samples.map_or(samples, |most| samples.min(most.get()))
+}
+
+/// The samples of a pixel that a job asks for.
+pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
     let mut asked = SampleRanges::new();
-    let samples = job.samples.map_or(samples, |most| samples.min(most.get()));
-    asked.push((Stream::Picture(job.seeds), 0..samples));
+    asked.push((Stream::Picture(job.seeds), samples));
     asked
 }
 
-/// The picture of a film.
-fn developed(film: &Tiled<FinishedPixel>, counts: Counts) -> Film {
-    let Crop { width, height, .. } = film.crop();
+/// The pixels of `crop`, out of those of the whole picture; a film of `crop` already stays as it
+/// is.
+fn cut(film: Film, crop: Crop) -> Film {
+    let Film {
+        image,
+        coverage,
+        counts,
+    } = film;
+    if (image.width, image.height) == (crop.width, crop.height) {
+        return Film {
+            image,
+            coverage,
+            counts,
+        };
+    }
+    let width = image.width as usize;
+    let rows = (crop.y..crop.y + crop.height).map(|y| y as usize * width + crop.x as usize);
+    let row = |start: usize| start..start + crop.width as usize;
+    let image = Image {
+        width: crop.width,
+        height: crop.height,
+        pixels: rows
+            .clone()
+            .flat_map(|start| image.pixels[row(start)].to_vec())
+            .collect(),
+    };
+    let coverage = rows
+        .flat_map(|start| coverage[row(start)].to_vec())
+        .collect();
     Film {
-        image: Image {
-            width,
-            height,
-            pixels: film.iter().map(|pixel| pixel.color).collect(),
-        },
-        coverage: film.iter().map(|pixel| pixel.coverage).collect(),
+        image,
+        coverage,
         counts,
     }
-}
-
-/// How bright a distance is: `(t_max − t)/(t_max − t_min)` over all of them.
-fn brightness_of(distances: impl Iterator<Item = Option<f64>>) -> impl Fn(f64) -> f64 {
-    let (near, far) = distances
-        .flatten()
-        .fold((f64::INFINITY, 0.0_f64), |(near, far), t| {
-            (near.min(t), far.max(t))
-        });
-    let range = far - near;
-    move |t| if range > 0.0 { (far - t) / range } else { 1.0 }
-}
-
-/// The values of the pixels of `crop`, out of those of the whole picture.
-fn part<K>(film: &Tiled<K>, crop: Crop) -> impl Iterator<Item = &K> {
-    let width = film.crop().width as usize;
-    let rows = (crop.y..crop.y + crop.height).map(move |y| y as usize * width);
-    rows.flat_map(move |row| (crop.x..crop.x + crop.width).map(move |x| film.at(row + x as usize)))
 }

@@ -2,6 +2,7 @@
 
 use super::{Selection, run};
 use crate::color::Tone;
+use crate::render::film::DISPLAY;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Sample;
 use crate::render::film::progressive::{ProgressiveFilm, Replicates};
@@ -12,7 +13,7 @@ use crate::render::kernel::{choose_of_few, dispatch, dispatch_paths};
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::{Mode, PathSettings};
+use crate::render::world::settings::Mode;
 
 /// Of each pixel, counted row by row, how many samples each replicate of its halves is to have.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
@@ -25,8 +26,8 @@ impl<S: Geometry> World<S> {
         wanted: &Wanted<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
-        if let Mode::Path(path) = self.scene.settings().mode {
-            return dispatch_paths!(self.grow_paths(path, film, wanted, on_pixel));
+        if let Mode::Path(_) = self.settings.mode {
+            return dispatch_paths!(self.grow_paths(film, wanted, on_pixel));
         }
         dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, on_pixel))
     }
@@ -34,15 +35,13 @@ impl<S: Geometry> World<S> {
     /// Grows by tracing paths with the features `F`.
     fn grow_paths<const F: u32>(
         &self,
-        path: PathSettings,
         film: &mut ProgressiveFilm,
         wanted: &Wanted<'_>,
         on_pixel: &OnPixel<'_>,
     ) -> bool {
         let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
-        let tracer = || PathTracer::<S, F>::new(self, &lights, path, Strategy::Mis, on_pixel);
-        let tone = self.scene.settings().mode.tone();
-        add_samples(film, wanted, Some(tone), || tracer().before(background))
+        let tracer = || PathTracer::<S, F>::new(self, &lights, Strategy::Mis, on_pixel);
+        add_samples(film, wanted, Some(DISPLAY), || tracer().before(background))
     }
 
     /// Grows with the features `F`.

@@ -4,10 +4,10 @@
 
 use super::Integrator;
 use crate::math::Vec3;
+use crate::render::camera::Camera;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::Heartbeat;
 use crate::render::film::pixel::{Accumulator, SampleId};
-use crate::valid::Camera;
 
 /// A layer. All are zero where nothing is met, but for the depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,10 +2,11 @@
 //! meets first.
 
 use super::Integrator;
+use crate::math::Vec3;
 use crate::plan::Effect;
 use crate::render::camera::grid::Grid;
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
-use crate::render::film::pixel::{Accumulator, SampleId};
+use crate::render::film::pixel::{Accumulator, PixelSum, SampleId};
 use crate::render::film::{Counts, Seeds};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
@@ -31,7 +32,7 @@ impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
     type Sample = Option<f64>;
 
     fn sample(&mut self, id: &SampleId) -> Option<f64> {
-        let camera = self.world.scene.camera();
+        let camera = &self.world.camera;
         let middle = Grid::MIDDLE.cell(camera, id.pixel, [0; 2], Seeds::NONE);
         self.counts.camera += 1;
         self.counts.add(Effect::DepthBuffer);
@@ -56,17 +57,21 @@ impl<'run, S: Geometry> Integrator<'run> for Depth<'run, S> {
 
 /// Keeps the one distance of a pixel.
 #[derive(Default)]
-pub(in crate::render) struct Distance(Option<f64>);
+pub(in crate::render) struct Distance(PixelSum);
 
 impl Accumulator for Distance {
     type Sample = Option<f64>;
-    type Kept = Option<f64>;
+    type Kept = PixelSum;
 
     fn add(&mut self, _: &SampleId, distance: Option<f64>) {
-        self.0 = distance;
+        self.0 = PixelSum {
+            radiance: Vec3::splat(distance.unwrap_or(0.0)),
+            hits: distance.is_some().into(),
+            samples: 1,
+        };
     }
 
-    fn close(self) -> Option<f64> {
+    fn close(self) -> PixelSum {
         self.0
     }
 }

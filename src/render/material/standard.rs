@@ -84,12 +84,12 @@ pub(in crate::render) enum Reflection {
 
 /// The values of a map: a constant, or an image.
 #[derive(Clone, Debug)]
-pub(in crate::render) enum Source {
+pub(in crate::render) enum MapSource {
     Value([f64; 4]),
     Map(Map),
 }
 
-impl Source {
+impl MapSource {
     /// Looks the map up; `None` on a surface without texture coordinates.
     pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
         match self {
@@ -102,7 +102,7 @@ impl Source {
 /// A normal map, and the scale of its slopes.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct NormalMap {
-    pub(in crate::render) map: Source,
+    pub(in crate::render) map: MapSource,
     pub(in crate::render) scale: f64,
 }
 
@@ -128,7 +128,7 @@ pub(in crate::render) struct AnisotropyLayer {
     /// Cosine and sine of the rotation of the direction.
     pub(in crate::render) turn: [f64; 2],
     /// The direction in red and green, the strength in blue.
-    pub(in crate::render) map: Option<Source>,
+    pub(in crate::render) map: Option<MapSource>,
 }
 
 /// The thin film.

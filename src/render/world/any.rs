@@ -3,6 +3,7 @@
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
 use crate::render::film::heartbeat::OnPixel;
+use crate::render::film::partial::{FilmError, PartialFilm};
 use crate::render::film::progressive::ProgressiveFilm;
 use crate::render::film::{Crop, Film, Job};
 use crate::render::integrator::aov::Aov;
@@ -11,6 +12,7 @@ use crate::render::shape::basic::Basic;
 use crate::render::shape::plain::PlainShape;
 use crate::render::world::World;
 use crate::valid::Proof;
+use std::ops::Range;
 
 /// A scene prepared as planned. All is rendered on the threads of the current pool.
 pub enum AnyWorld {
@@ -51,7 +53,7 @@ impl AnyWorld {
     /// The scene it shows.
     #[must_use]
     pub fn scene(&self) -> &Proof {
-        each!(self, world => &world.scene)
+        each!(self, world => world.scene())
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
@@ -63,7 +65,7 @@ impl AnyWorld {
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
             == (old.shapes, &old.surfaces, &old.constants, &old.paths);
         if is_same {
-            each!(self, world => (world.scene, world.plan) = (scene, plan));
+            each!(self, world => world.show(scene, plan));
         } else {
             *self = Self::prepare(&scene, &plan);
         }
@@ -82,12 +84,36 @@ impl AnyWorld {
         }
     }
 
+    /// Renders a part of a picture: some tiles of the job, of traced paths some samples as well:
+    /// whole blocks of 16 of those that the scene asks for. `None` if `on_pixel` said stop, which is
+    /// called as by [`Self::render`].
+    ///
+    /// # Errors
+    /// If the samples are not whole blocks, or no paths are traced.
+    pub fn render_part(
+        &self,
+        job: &Job,
+        samples: Option<Range<u32>>,
+        on_pixel: &OnPixel<'_>,
+    ) -> Result<Option<PartialFilm>, FilmError> {
+        match self {
+            Self::Basic(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
+            Self::All(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
+            Self::Plain(world) => {
+                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
+            }
+            Self::F32(world) => {
+                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
+            }
+        }
+    }
+
     /// Renders layers of a part of the picture; `None` if `on_pixel` said stop.
     ///
     /// `on_pixel` is called from all threads after each pixel.
     #[must_use]
     pub fn layers(&self, wanted: &[Aov], crop: Crop, on_pixel: &OnPixel<'_>) -> Option<Layers> {
-        let (scene, plan) = each!(self, world => (&world.scene, &world.plan));
+        let (scene, plan) = each!(self, world => (world.scene(), &world.plan));
         if plan.rules == Rules::NONE {
             return each!(self, world => world.layers(wanted, crop, on_pixel));
         }

@@ -3,37 +3,17 @@
 
 use super::texture::Textures;
 use crate::math::{UnitInterval, Vec3, cos, ln, sin};
-use crate::plan::{Effect, PathPlan, Plan, Rule, facts};
+use crate::plan::{Effect, PathPlan, Plan, Rule};
 use crate::render::bsdf::dispersed;
 use crate::render::material::phong::{PhongMaps, PhongMaterial};
 use crate::render::material::standard::{
-    Alpha, AnisotropyLayer, ClearcoatLayer, IridescenceLayer, NormalMap, Number, Reflection, Rgba,
-    SheenLayer, Source, StandardMaterial, Tint,
+    Alpha, AnisotropyLayer, ClearcoatLayer, IridescenceLayer, MapSource, NormalMap, Number,
+    Reflection, Rgba, SheenLayer, StandardMaterial, Tint,
 };
 use crate::render::shape::instance::Asked;
 use crate::render::texture::bilinear::Bump;
 use crate::render::texture::sampled::{ColorSpace, UvSets};
-use crate::valid::{self, Maps, Mode, Phong, Proof, Standard};
-
-/// The materials of a scene as its integrator sees them, one for each.
-pub(super) enum MaterialsFor {
-    Whitted(Vec<Phong>),
-    Paths(Vec<Standard>),
-}
-
-/// What the materials of a scene are to the integrator that is planned.
-pub(super) fn materials_for(scene: &Proof, plan: &Plan) -> MaterialsFor {
-    let materials = scene.materials().iter();
-    if let Some(paths) = &plan.paths {
-        return MaterialsFor::Paths(paths.materials.clone());
-    }
-    match scene.settings().mode {
-        Mode::Path(_) => MaterialsFor::Paths(materials.map(facts::material::standard).collect()),
-        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => {
-            MaterialsFor::Whitted(materials.map(facts::material::phong).collect())
-        }
-    }
-}
+use crate::valid::{self, Maps, Phong, Standard};
 
 /// Materials of Phong's model, and after them those of surfaces whose maps gave way: a map that
 /// shows one value gives way to the value, where the surface has uv to look it up by.
@@ -156,7 +136,7 @@ pub(super) fn standard(
     index: usize,
     material: &Standard,
     textures: &Textures,
-    plan: Option<&PathPlan>,
+    plan: &PathPlan,
 ) -> StandardMaterial {
     let m = material;
     let slots = Slots {
@@ -249,7 +229,7 @@ struct Slots<'world> {
     /// Which material of the scene.
     index: usize,
     textures: &'world Textures,
-    plan: Option<&'world PathPlan>,
+    plan: &'world PathPlan,
 }
 
 impl Slots<'_> {
@@ -272,20 +252,19 @@ impl Slots<'_> {
 
     /// Whether a map is looked up at each hit.
     fn is_looked_up(&self, map: &valid::Map) -> bool {
-        self.plan
-            .is_none_or(|plan| !plan.is_folded(self.index, map))
+        !self.plan.is_folded(self.index, map)
     }
 
     /// What a map shows.
-    fn source(&self, map: Option<&valid::Map>, color_space: ColorSpace) -> Option<Source> {
+    fn source(&self, map: Option<&valid::Map>, color_space: ColorSpace) -> Option<MapSource> {
         /// Anywhere: a map that is folded shows the same everywhere.
         const ANYWHERE: UvSets = [Some([0.5; 2]); 2];
         let map = map?;
         let prepared = self.textures.map(map, color_space);
         if self.is_looked_up(map) {
-            return Some(Source::Map(prepared));
+            return Some(MapSource::Map(prepared));
         }
-        prepared.look_up(&ANYWHERE).map(Source::Value)
+        prepared.look_up(&ANYWHERE).map(MapSource::Value)
     }
 
     fn number(&self, factor: UnitInterval, map: Option<&valid::Map>, channel: usize) -> Number {
@@ -295,8 +274,8 @@ impl Slots<'_> {
     fn scaled(&self, factor: f64, map: Option<&valid::Map>, channel: usize) -> Number {
         let (factor, map) = match self.source(map, ColorSpace::Linear) {
             None => (factor, None),
-            Some(Source::Value(value)) => (factor * value[channel], None),
-            Some(Source::Map(map)) => (factor, Some((map, channel))),
+            Some(MapSource::Value(value)) => (factor * value[channel], None),
+            Some(MapSource::Map(map)) => (factor, Some((map, channel))),
         };
         Number { factor, map }
     }
@@ -304,8 +283,8 @@ impl Slots<'_> {
     fn tint(&self, factor: Vec3, map: Option<&valid::Map>) -> Tint {
         let (factor, map) = match self.source(map, ColorSpace::Srgb) {
             None => (factor, None),
-            Some(Source::Value([r, g, b, _])) => (factor * Vec3::new(r, g, b), None),
-            Some(Source::Map(map)) => (factor, Some(map)),
+            Some(MapSource::Value([r, g, b, _])) => (factor * Vec3::new(r, g, b), None),
+            Some(MapSource::Map(map)) => (factor, Some(map)),
         };
         Tint { factor, map }
     }
@@ -314,8 +293,8 @@ impl Slots<'_> {
         let factor = factor.map(UnitInterval::get);
         let (factor, map) = match self.source(map, ColorSpace::Srgb) {
             None => (factor, None),
-            Some(Source::Value(value)) => ([0, 1, 2, 3].map(|k| factor[k] * value[k]), None),
-            Some(Source::Map(map)) => (factor, Some(map)),
+            Some(MapSource::Value(value)) => ([0, 1, 2, 3].map(|k| factor[k] * value[k]), None),
+            Some(MapSource::Map(map)) => (factor, Some(map)),
         };
         Rgba { factor, map }
     }
@@ -333,8 +312,8 @@ impl Slots<'_> {
         let source = self.source(m.metallic_roughness_map.as_ref(), ColorSpace::Linear);
         let (roughness, metallic, map) = match source {
             None => (roughness, metallic, None),
-            Some(Source::Value([_, g, b, _])) => (roughness * g, metallic * b, None),
-            Some(Source::Map(map)) => (roughness, metallic, Some(map)),
+            Some(MapSource::Value([_, g, b, _])) => (roughness * g, metallic * b, None),
+            Some(MapSource::Map(map)) => (roughness, metallic, Some(map)),
         };
         Reflection::Metallic {
             roughness,

@@ -1,18 +1,22 @@
 //! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of
 //! it.
 
+pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
 mod flattened;
 mod light;
 mod material;
 mod plain;
 mod prepare;
+pub(in crate::render) mod settings;
 pub(in crate::render) mod shape;
 mod texture;
+pub(in crate::render) mod verify;
 
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::render::accel::bvh::Bvh;
+use crate::render::camera::Camera;
 use crate::render::frame::verify::Verify;
 use crate::render::material::phong::PhongMaterial;
 use crate::render::material::standard::StandardMaterial;
@@ -22,8 +26,10 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
 use crate::valid::Proof;
+use alpha::AlphaTested;
 use flattened::Flattened;
 use light::LightList;
+use settings::Settings;
 
 /// The first hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +55,12 @@ pub struct Surface<S = Shape> {
 
 /// A scene prepared for tracing, of shapes `S`.
 pub struct World<S = Shape> {
-    /// The camera and the settings as proven, and all that a change of them may need again.
-    pub scene: Proof,
+    /// The scene as proven, for what a change of its camera and settings may need again.
+    scene: Proof,
+    /// The camera.
+    pub camera: Camera,
+    /// The settings.
+    pub(in crate::render) settings: Settings,
     /// What the picture needs of it.
     pub plan: Plan,
     /// The materials that Whitted's integrator asks for, without maps that show one value.
@@ -63,6 +73,8 @@ pub struct World<S = Shape> {
     pub surfaces: Vec<Surface<S>>,
     /// The plan to be validated by a naive render.
     pub(in crate::render) verify: Option<Verify>,
+    /// The surfaces that shadow rays of paths test for alpha.
+    pub(in crate::render) alpha_tested: AlphaTested,
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
     bvh: Bvh,

@@ -1,11 +1,14 @@
 //! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
 
+use super::alpha::AlphaTested;
 use super::flattened::{Flattened, flattened_surfaces};
-use super::material::{MaterialsFor, PhongList, materials_for, standard};
+use super::material::{PhongList, standard};
+use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Surface, World, light};
 use crate::plan::Plan;
+use crate::plan::facts::material;
 use crate::render::accel::bvh::Bvh;
 use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
@@ -18,15 +21,15 @@ impl<S: Prepare> World<S> {
     pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, &textures);
-        let (surfaces, phongs, standards) = match materials_for(scene, plan) {
-            MaterialsFor::Whitted(materials) => {
+        let (surfaces, phongs, standards) = match &plan.paths {
+            None => {
+                let materials = scene.materials().iter().map(material::phong).collect();
                 let mut list = PhongList::new(materials, plan);
                 let surfaces = surfaces(scene, plan, |material, has_uv| list.of(material, has_uv));
                 (surfaces, list.prepared(&textures), Vec::new())
             }
-            MaterialsFor::Paths(materials) => {
-                let paths = plan.paths.as_ref();
-                let materials = materials.iter().enumerate();
+            Some(paths) => {
+                let materials = paths.materials.iter().enumerate();
                 let prepared =
                     materials.map(|(index, material)| standard(index, material, &textures, paths));
                 let surfaces = surfaces(scene, plan, |material, _| material);
@@ -39,19 +42,26 @@ impl<S: Prepare> World<S> {
             bvh,
             flattened,
         } = Lookup::of(scene, &surfaces);
-        Self {
+        let mut world = Self {
             scene: scene.clone(),
+            camera: camera(scene.camera()),
+            settings: settings(scene),
             plan: plan.clone(),
             phongs,
             standards,
             lights,
             surfaces,
             verify: None,
+            alpha_tested: AlphaTested::None,
             unbounded,
             bounded,
             bvh,
             flattened,
+        };
+        if plan.paths.is_some() {
+            world.alpha_tested = AlphaTested::of(&world, scene);
         }
+        world
     }
 }
 

@@ -14,7 +14,7 @@ pub mod yaml;
 
 use super::{FileId, Span};
 use keys::Keys;
-use pointer::Step;
+use pointer::PointerStep;
 use std::ops::Range;
 
 /// Names a node of a [`Tree`].
@@ -54,7 +54,7 @@ struct Node {
 
 /// What a node is, aliases followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum NodeKind {
     /// `null` in JSON.
     Null,
     /// `true` or `false` in JSON.
@@ -71,7 +71,7 @@ pub enum Kind {
     Map,
 }
 
-impl Kind {
+impl NodeKind {
     /// As messages call it.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -89,7 +89,7 @@ impl Kind {
 
 /// What a node is, with its text, aliases followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape<'t> {
+pub enum NodeContent<'t> {
     /// A plain word: a number, a truth value, nothing, or text.
     Word(&'t str),
     /// Text in quotes or a block.
@@ -109,7 +109,7 @@ pub struct Tree<'s> {
     file: FileId,
     nodes: Vec<Node>,
     /// The step that leads to each node of JSON; none of YAML.
-    steps: Vec<Step>,
+    steps: Vec<PointerStep>,
     /// Texts that differ from how they are written, one after the other, and where each lies.
     cooked: String,
     places: Vec<(u32, u32)>,
@@ -213,28 +213,30 @@ impl<'s> Tree<'s> {
 
     /// What the node is, aliases followed.
     #[must_use]
-    pub fn kind(&self, id: NodeId) -> Kind {
+    pub fn kind(&self, id: NodeId) -> NodeKind {
         match self.meant(id).form {
-            Form::Null => Kind::Null,
-            Form::Bool => Kind::Bool,
-            Form::Number => Kind::Number,
-            Form::Word => Kind::Word,
-            Form::Quoted | Form::Cooked => Kind::Text,
-            Form::List => Kind::List,
-            Form::Map => Kind::Map,
+            Form::Null => NodeKind::Null,
+            Form::Bool => NodeKind::Bool,
+            Form::Number => NodeKind::Number,
+            Form::Word => NodeKind::Word,
+            Form::Quoted | Form::Cooked => NodeKind::Text,
+            Form::List => NodeKind::List,
+            Form::Map => NodeKind::Map,
             Form::Alias => unreachable!("an alias never stands for another"),
         }
     }
 
     /// What the node is, with its text, aliases followed.
     #[must_use]
-    pub fn shape(&self, id: NodeId) -> Shape<'_> {
+    pub fn shape(&self, id: NodeId) -> NodeContent<'_> {
         let node = self.meant(id);
         match node.form {
-            Form::Null | Form::Bool | Form::Number | Form::Word => Shape::Word(self.word(node)),
-            Form::Quoted | Form::Cooked => Shape::Text(self.quoted(node)),
-            Form::List => Shape::List,
-            Form::Map => Shape::Map,
+            Form::Null | Form::Bool | Form::Number | Form::Word => {
+                NodeContent::Word(self.word(node))
+            }
+            Form::Quoted | Form::Cooked => NodeContent::Text(self.quoted(node)),
+            Form::List => NodeContent::List,
+            Form::Map => NodeContent::Map,
             Form::Alias => unreachable!("an alias never stands for another"),
         }
     }
@@ -283,7 +285,8 @@ impl<'s> Tree<'s> {
     /// The number of a number in JSON; infinite if a 64-bit float can't hold it.
     #[must_use]
     pub fn number(&self, id: NodeId) -> Option<f64> {
-        (self.kind(id) == Kind::Number).then(|| self.written(id).parse().unwrap_or(f64::INFINITY))
+        (self.kind(id) == NodeKind::Number)
+            .then(|| self.written(id).parse().unwrap_or(f64::INFINITY))
     }
 
     /// The number of a number in JSON that is whole, not negative and below 2^53, however it is
@@ -305,7 +308,7 @@ impl<'s> Tree<'s> {
     /// The truth of a truth value in JSON.
     #[must_use]
     pub fn boolean(&self, id: NodeId) -> Option<bool> {
-        (self.kind(id) == Kind::Bool).then(|| self.written(id) == "true")
+        (self.kind(id) == NodeKind::Bool).then(|| self.written(id) == "true")
     }
 
     /// The items of a list; of a map, its keys and values in turn; of a word, nothing.

@@ -1,10 +1,10 @@
 //! The way from the root of a tree of JSON to each of its nodes, as findings name it.
 
-use super::{Kind, NodeId, Tree};
+use super::{NodeId, NodeKind, Tree};
 
 /// The last step of the way to a node.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct PointerStep {
     /// The list or map the node lies in; the root lies in itself.
     pub(super) parent: u32,
     /// The index in a list; of no meaning elsewhere.
@@ -17,8 +17,8 @@ const LONG_STEP: usize = 256;
 const LONG_POINTER: usize = 512;
 
 impl Tree<'_> {
-    fn step(&self, id: NodeId) -> Step {
-        let root = Step { parent: 0, slot: 0 };
+    fn step(&self, id: NodeId) -> PointerStep {
+        let root = PointerStep { parent: 0, slot: 0 };
         self.steps.get(id.0 as usize).copied().unwrap_or(root)
     }
 
@@ -35,8 +35,8 @@ impl Tree<'_> {
         let mut steps = Vec::new();
         let (mut at, mut length) = (id, 0);
         while at != self.root() && length <= LONG_POINTER {
-            let Step { parent, slot } = self.step(at);
-            let step = if self.kind(NodeId(parent)) == Kind::List {
+            let PointerStep { parent, slot } = self.step(at);
+            let step = if self.kind(NodeId(parent)) == NodeKind::List {
                 slot.to_string()
             } else {
                 self.key(at)

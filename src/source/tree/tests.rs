@@ -23,7 +23,11 @@ fn aliases_are_links_and_spans_are_bytes_of_the_file() {
         let words: Vec<_> = tree.items(pairs[1].1).map(|id| tree.shape(id)).collect();
         assert_eq!(
             words,
-            [Shape::Word("1"), Shape::Text("q"), Shape::Text("A")]
+            [
+                NodeContent::Word("1"),
+                NodeContent::Text("q"),
+                NodeContent::Text("A")
+            ]
         );
         assert_eq!(tree.target(pairs[1].1), pairs[0].1);
         let (list, alias) = (tree.span(pairs[0].1), tree.span(pairs[1].1));
@@ -45,7 +49,7 @@ fn a_block_is_text_whatever_it_begins_with() {
     ] {
         with(text, |tree| {
             let (_, value) = tree.pairs(tree.root()).next().unwrap();
-            let Shape::Text(found) = tree.shape(value) else {
+            let NodeContent::Text(found) = tree.shape(value) else {
                 panic!("{text:?} is no text")
             };
             // Whether a last line that does not end gets an end is the parser's affair.
@@ -58,7 +62,7 @@ fn a_block_is_text_whatever_it_begins_with() {
 fn nothing_written_is_the_empty_word_after_its_key() {
     with("Objects:\nLights: []\n", |tree| {
         let (_, nothing) = tree.pairs(tree.root()).next().unwrap();
-        assert_eq!(tree.shape(nothing), Shape::Word(""));
+        assert_eq!(tree.shape(nothing), NodeContent::Word(""));
         assert_eq!((tree.span(nothing).start, tree.span(nothing).end), (7, 7));
     });
 }

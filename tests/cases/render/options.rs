@@ -6,7 +6,7 @@
 use libtest_mimic::Failed;
 use rtc::color::Tone;
 use rtc::image::BackgroundFill;
-use rtc::passes::{Integrator, Overrides, Sun, View};
+use rtc::passes::{IntegratorChoice, Overrides, Sun, View};
 use rtc::plan::Arithmetic;
 use rtc::render::Aov;
 use std::fs;
@@ -22,13 +22,13 @@ pub(super) struct Options {
     /// The layer shown, and the values that are black and white in it.
     pub(super) aov: Option<(Aov, [f64; 2])>,
     pub(super) arithmetic: Arithmetic,
-    pub(super) integrator: Option<Integrator>,
+    pub(super) integrator: Option<IntegratorChoice>,
     pub(super) view: View,
     pub(super) suns: Vec<Sun>,
     pub(super) env_color: Option<[f64; 3]>,
     /// A file beside the case.
     pub(super) env: Option<String>,
-    pub(super) front: rtc::front::Options,
+    pub(super) front: rtc::front::FrontOptions,
     /// The codes of all that is found in it.
     pub(super) finds: Vec<String>,
 }
@@ -51,7 +51,7 @@ impl Options {
             suns: Vec::new(),
             env_color: None,
             env: None,
-            front: rtc::front::Options::default(),
+            front: rtc::front::FrontOptions::default(),
             finds: Vec::new(),
         };
         for word in said(case)?.split_whitespace() {
@@ -163,10 +163,10 @@ fn arithmetic(text: &str) -> Option<Arithmetic> {
     })
 }
 
-fn integrator(text: &str) -> Option<Integrator> {
+fn integrator(text: &str) -> Option<IntegratorChoice> {
     Some(match text {
-        "whitted" => Integrator::Whitted,
-        "path" => Integrator::Path,
+        "whitted" => IntegratorChoice::Whitted,
+        "path" => IntegratorChoice::Path,
         _ => return None,
     })
 }

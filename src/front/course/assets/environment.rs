@@ -4,13 +4,13 @@ use super::{Porter, Wanted, Without};
 use crate::front::pixels;
 use crate::image::is_radiance;
 use crate::ir::{ImageId, Lowered};
-use crate::source::Kind;
+use crate::source::FileKind;
 
 /// The largest file read, in bytes: every pixel allowed, in 32-bit floats.
 const MAX_BYTES: u64 = 1 << 29;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: FileKind = FileKind {
     extensions: &["hdr", "pic", "exr"],
     begins: is_radiance,
 };

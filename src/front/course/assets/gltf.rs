@@ -3,17 +3,17 @@
 
 use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
-use crate::front::{Options, gltf, over_limit};
+use crate::front::{FrontOptions, gltf, over_limit};
 use crate::ir::{
     Emitter, Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual,
     Scene, Shape, Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
-use crate::source::{Budget, Exceeded, FileId, Found, Kind, Resource};
+use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
 use glam::DAffine3;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: FileKind = FileKind {
     extensions: &["gltf", "glb"],
     begins: gltf::begins,
 };
@@ -57,7 +57,7 @@ impl Assets {
                 porter.unreadable(&found, &error.to_string(), wish.span, Without::Object)
             });
             let file = add_asset(&found, bytes.ok()?, wish, porter)?;
-            let options = Options {
+            let options = FrontOptions {
                 camera: None,
                 ..porter.options.clone()
             };

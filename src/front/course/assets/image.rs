@@ -5,7 +5,7 @@ use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{Opacity, Pixels, is_picture};
 use crate::ir::{Bump, Field, ImageId, Lowered, Material, Noun, Place, Scene, Texture, TextureId};
-use crate::source::{Found, Kind};
+use crate::source::{FileKind, Found};
 use std::collections::BTreeMap;
 
 /// The largest pixel file read, in bytes: as large as the largest picture with every pixel stored
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: FileKind = FileKind {
     extensions: &["png", "jpg", "jpeg", "webp"],
     begins: is_picture,
 };

@@ -2,17 +2,17 @@
 
 use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
-use crate::front::mesh::{Geometry, MAX_FAULTS, Parsed, Unread, is_mesh, parse};
+use crate::front::mesh::{MAX_FAULTS, Parsed, ParsedMesh, Unread, is_mesh, parse};
 use crate::front::over_limit;
 use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
-use crate::source::{FileId, Found, Kind};
+use crate::source::{FileId, FileKind, Found};
 use std::collections::BTreeMap;
 
 /// The largest mesh file read, in bytes: some two million triangles.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// Such files.
-pub(super) const KIND: Kind = Kind {
+pub(super) const KIND: FileKind = FileKind {
     extensions: &["obj", "off"],
     begins: is_mesh,
 };
@@ -30,7 +30,7 @@ pub(super) fn bring(
         return id;
     };
     let mesh = known.of(&found, || {
-        let Geometry {
+        let ParsedMesh {
             positions,
             normals,
             uvs,
@@ -64,7 +64,7 @@ pub(super) fn settle(mesh_of: &BTreeMap<u32, MeshId>, scene: &mut Scene) {
 }
 
 /// The mesh in a file, if there is a sound one.
-fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Geometry> {
+fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<ParsedMesh> {
     let file = read(found, wish, porter)?;
     match parse(porter.map.bytes(file), porter.map.budget()) {
         Ok(Parsed { mesh, not_drawn }) => {

@@ -9,9 +9,9 @@ mod image;
 mod mesh;
 
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
-use crate::front::Options;
+use crate::front::FrontOptions;
 use crate::ir::{ImageId, Lowered, MeshId};
-use crate::source::{FileId, Found, Identity, Kind, Loader, Missing, Search, SourceMap, Span};
+use crate::source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -46,7 +46,7 @@ pub fn bring(
     lowered: &mut Lowered,
     wanted: Vec<Wanted>,
     scene: FileId,
-    options: &Options,
+    options: &FrontOptions,
     map: &mut SourceMap,
     sink: &mut Sink,
 ) {
@@ -116,7 +116,7 @@ impl<T> Known<T> {
 /// Finds files, reads them, and reports on them.
 struct Porter<'run> {
     search: Search,
-    options: &'run Options,
+    options: &'run FrontOptions,
     loader: Loader,
     map: &'run mut SourceMap,
     sink: &'run mut Sink,
@@ -200,7 +200,7 @@ impl Porter<'_> {
 }
 
 /// The kind of file that an asset is in.
-fn kind_of(asset: &Asset) -> &'static Kind {
+fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
         Asset::Image(_) => &image::KIND,
         Asset::Mesh(_) => &mesh::KIND,

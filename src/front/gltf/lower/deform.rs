@@ -4,7 +4,7 @@ use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::primitive::Primitive;
-use super::shape::Shape;
+use super::shape::Deformation;
 use crate::ir::{self, Column};
 use crate::math::Vec3;
 use glam::{DAffine3, DMat3};
@@ -13,7 +13,7 @@ use glam::{DAffine3, DMat3};
 pub(super) fn deform(
     doc: &Document<'_>,
     primitive: &Primitive,
-    shape: Shape<'_>,
+    shape: Deformation<'_>,
     mesh: &mut ir::Mesh,
 ) {
     let targets = primitive

@@ -3,9 +3,9 @@
 use super::super::document::Document;
 use super::super::field::Fields;
 use super::super::primitive::Primitive;
-use super::super::report::Report;
+use super::super::report::AssetReport;
 use super::mesh::to_u32;
-use super::texture::Textures;
+use super::texture::LoweredTextures;
 use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
 use crate::source::tree::Tree;
 
@@ -14,7 +14,7 @@ pub(super) struct Materials {
     made: Vec<Option<MaterialId>>,
     /// That of primitives without one.
     default: Option<MaterialId>,
-    textures: Textures,
+    textures: LoweredTextures,
 }
 
 /// The material that a primitive has in a variant.
@@ -36,7 +36,7 @@ impl Materials {
         Self {
             made: vec![None; doc.materials.len()],
             default: None,
-            textures: Textures::new(doc),
+            textures: LoweredTextures::new(doc),
         }
     }
 
@@ -60,7 +60,7 @@ impl Materials {
         material: Option<usize>,
         scene: &mut Scene,
         origins: &mut Origins,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> MaterialId {
         let known = material.map_or(self.default, |material| self.made[material]);
         if let Some(known) = known {
@@ -99,10 +99,10 @@ impl Materials {
 /// Reads materials, bringing the textures they name.
 struct Reader<'m, 'd, 'r, 's> {
     doc: &'m Document<'d>,
-    textures: &'m mut Textures,
+    textures: &'m mut LoweredTextures,
     scene: &'m mut Scene,
     origins: &'m mut Origins,
-    report: &'m mut Report<'r, 's>,
+    report: &'m mut AssetReport<'r, 's>,
 }
 
 impl Reader<'_, '_, '_, '_> {

@@ -4,8 +4,8 @@ use super::super::attribute::Attribute;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::primitive::{Primitive, TRIANGLES};
-use super::super::report::Report;
-use super::shape::{Shape, ShapeId};
+use super::super::report::AssetReport;
+use super::shape::{Deformation, ShapeId};
 use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
@@ -43,10 +43,10 @@ struct Parts<'d> {
 }
 
 /// A mesh that is wanted.
-pub(super) struct Wanted<'d, 'w> {
+pub(super) struct WantedMesh<'d, 'w> {
     pub(super) primitive: &'d Primitive,
     pub(super) name: &'d str,
-    pub(super) shape: (ShapeId, Shape<'w>),
+    pub(super) shape: (ShapeId, Deformation<'w>),
     pub(super) needs_tangents: bool,
 }
 
@@ -63,10 +63,10 @@ impl<'d> Meshes<'d> {
     pub(super) fn make(
         &mut self,
         doc: &'d Document<'_>,
-        wanted: &Wanted<'d, '_>,
+        wanted: &WantedMesh<'d, '_>,
         scene: &mut Scene,
         origins: &mut Origins,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<MeshId> {
         let primitive = wanted.primitive;
         let key = (self.parts(primitive), wanted.shape.0, wanted.needs_tangents);
@@ -125,8 +125,12 @@ impl<'d> Parts<'d> {
 
 /// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target
 /// and set of joints that moves them. False if that is too much.
-fn charge(doc: &Document<'_>, wanted: &Wanted<'_, '_>, report: &mut Report<'_, '_>) -> bool {
-    let Wanted {
+fn charge(
+    doc: &Document<'_>,
+    wanted: &WantedMesh<'_, '_>,
+    report: &mut AssetReport<'_, '_>,
+) -> bool {
+    let WantedMesh {
         primitive,
         name,
         shape: (_, shape),
@@ -189,8 +193,8 @@ fn charge(doc: &Document<'_>, wanted: &Wanted<'_, '_>, report: &mut Report<'_, '
 }
 
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them.
-fn read(doc: &Document<'_>, wanted: &Wanted<'_, '_>) -> Option<Mesh> {
-    let Wanted {
+fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
+    let WantedMesh {
         primitive,
         name,
         shape: (_, shape),

@@ -15,9 +15,9 @@ mod topology;
 
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
-use crate::front::Options;
+use crate::front::FrontOptions;
 use crate::ir::{self, Field, Lowered, MaterialId, Mode, Noun, Origins, Place, Scene};
 use crate::math::Vec3;
 use crate::source::Resource;
@@ -26,7 +26,7 @@ use glam::DAffine3;
 use material::Materials;
 use mesh::Meshes;
 use place::Places;
-use shape::Shapes;
+use shape::Deformations;
 use std::collections::BTreeMap;
 
 /// Bounces of a path, paths a pixel.
@@ -40,12 +40,12 @@ pub(in crate::front) const SURFACE: u64 = 768;
 /// What an asset is lowered with.
 struct Lowering<'l, 'r, 's> {
     doc: &'l Document<'s>,
-    report: &'l mut Report<'r, 's>,
+    report: &'l mut AssetReport<'r, 's>,
     scene: Scene,
     origins: Origins,
     materials: Materials,
     meshes: Meshes<'l>,
-    shapes: Shapes,
+    shapes: Deformations,
     /// The material of each primitive that was met, in the variant.
     chosen: BTreeMap<NodeId, MaterialId>,
     /// The variant of the materials that was asked for.
@@ -57,8 +57,8 @@ struct Lowering<'l, 'r, 's> {
 /// Lowers an asset without errors.
 pub(super) fn lower<'s>(
     doc: &Document<'s>,
-    options: &Options,
-    report: &mut Report<'_, 's>,
+    options: &FrontOptions,
+    report: &mut AssetReport<'_, 's>,
 ) -> Lowered {
     let variant = options
         .variant
@@ -72,7 +72,7 @@ pub(super) fn lower<'s>(
         origins: Origins::default(),
         materials: Materials::new(doc),
         meshes: Meshes::new(),
-        shapes: Shapes::default(),
+        shapes: Deformations::default(),
         chosen: BTreeMap::new(),
         variant,
         cameras: Vec::new(),
@@ -117,7 +117,7 @@ fn empty() -> Scene {
 }
 
 /// The index of the variant of this name.
-fn find_variant(name: &str, report: &mut Report<'_, '_>) -> Option<usize> {
+fn find_variant(name: &str, report: &mut AssetReport<'_, '_>) -> Option<usize> {
     let root = Fields::new(report.json, report.json.root());
     let variants = root.extension("KHR_materials_variants");
     let names: Vec<String> = variants
@@ -133,7 +133,7 @@ fn find_variant(name: &str, report: &mut Report<'_, '_>) -> Option<usize> {
 }
 
 /// Reports that the command line names what there isn't.
-fn missing(noun: &str, name: &str, names: &[String], report: &mut Report<'_, '_>) {
+fn missing(noun: &str, name: &str, names: &[String], report: &mut AssetReport<'_, '_>) {
     let names: Vec<String> = names
         .iter()
         .map(|name| format!("`{}`", super::report::shown(name)))
@@ -201,7 +201,7 @@ impl Lowering<'_, '_, '_> {
             let material = self.material(primitive);
             let needs_tangents = self.materials.needs_tangents(material, &self.scene);
             let shape = (shape, self.shapes.get(shape));
-            let made = mesh::Wanted {
+            let made = mesh::WantedMesh {
                 primitive,
                 name: &mesh.name,
                 shape,

@@ -1,15 +1,15 @@
 //! The pose: how each node stands in its parent and which weights its mesh has, at rest or at a
 //! moment of an animation.
 
-use super::super::animation::{Animation, Interpolation, Sampler};
+use super::super::animation::{Animation, Interpolation, Keyframes};
 use super::super::channel::Path;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::node::Transform;
-use super::super::report::Report;
+use super::super::report::AssetReport;
 use super::place::compose;
 use crate::diag::codes;
-use crate::front::Options;
+use crate::front::FrontOptions;
 use crate::math::{acos, sin};
 use crate::source::Resource;
 use glam::{DAffine3, DMat4};
@@ -45,7 +45,11 @@ impl Pose {
 }
 
 /// The pose that the options ask for.
-pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_, '_>) -> Pose {
+pub(super) fn pose(
+    doc: &Document<'_>,
+    options: &FrontOptions,
+    report: &mut AssetReport<'_, '_>,
+) -> Pose {
     let nodes = doc.nodes.iter().enumerate();
     let own = nodes
         .filter(|(_, node)| !node.weights.is_empty())
@@ -83,8 +87,8 @@ pub(super) fn pose(doc: &Document<'_>, options: &Options, report: &mut Report<'_
 /// The animation that was asked for: by name, or else the first if there is a time.
 fn chosen<'d>(
     doc: &'d Document<'_>,
-    options: &Options,
-    report: &mut Report<'_, '_>,
+    options: &FrontOptions,
+    report: &mut AssetReport<'_, '_>,
 ) -> Option<&'d Animation> {
     let Some(name) = &options.animation else {
         options.time?;
@@ -142,7 +146,7 @@ struct Keys<'d> {
 }
 
 impl<'d> Keys<'d> {
-    fn of(doc: &'d Document<'_>, sampler: &Sampler) -> Option<Self> {
+    fn of(doc: &'d Document<'_>, sampler: &Keyframes) -> Option<Self> {
         let elements = |accessor: Option<usize>| Elements::of(doc, doc.accessors.get(accessor?)?);
         let (times, output) = (elements(sampler.input)?, elements(sampler.output)?);
         Some(Self {

@@ -3,7 +3,7 @@
 
 use super::super::document::Document;
 use super::super::elements::Elements;
-use super::super::report::Report;
+use super::super::report::AssetReport;
 use super::super::skin::Skin;
 use super::pose::Pose;
 use crate::source::Resource;
@@ -22,7 +22,7 @@ pub(super) struct ShapeId {
 
 /// What moves the vertices of a mesh.
 #[derive(Clone, Copy)]
-pub(super) struct Shape<'s> {
+pub(super) struct Deformation<'s> {
     /// The weight of each morph target; those that are left out are zero.
     pub(super) weights: &'s [f64],
     /// From the mesh to the world, for each joint.
@@ -31,7 +31,7 @@ pub(super) struct Shape<'s> {
 
 /// The shapes met so far.
 #[derive(Default)]
-pub(super) struct Shapes {
+pub(super) struct Deformations {
     weights: Different<f64>,
     joints: Different<DAffine3>,
     /// The weights of nodes that have none of their own, by the mesh.
@@ -70,7 +70,7 @@ impl<T> Different<T> {
     }
 }
 
-impl Shapes {
+impl Deformations {
     /// The shape that a node gives to its mesh, with its skin if it follows one; none if that asks
     /// for too much.
     pub(super) fn of_node(
@@ -78,7 +78,7 @@ impl Shapes {
         doc: &Document<'_>,
         (node, skin): (usize, Option<usize>),
         (pose, worlds): (&Pose, &[DAffine3]),
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<ShapeId> {
         let joints = match skin {
             Some(skin) => Some(self.of_skin(doc, skin, worlds, report)?),
@@ -115,7 +115,7 @@ impl Shapes {
         doc: &Document<'_>,
         of: usize,
         worlds: &[DAffine3],
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<usize> {
         if let Some(known) = self.of_skin.get(&of) {
             return Some(*known);
@@ -137,9 +137,9 @@ impl Shapes {
     }
 
     /// The shape of a name.
-    pub(super) fn get(&self, id: ShapeId) -> Shape<'_> {
+    pub(super) fn get(&self, id: ShapeId) -> Deformation<'_> {
         let joints = id.joints.map(|joints| self.joints.lists[joints].as_slice());
-        Shape {
+        Deformation {
             weights: &self.weights.lists[id.weights],
             joints,
         }

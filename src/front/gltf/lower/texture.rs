@@ -2,7 +2,7 @@
 
 use super::super::document::Document;
 use super::super::field::Fields;
-use super::super::report::Report;
+use super::super::report::AssetReport;
 use crate::diag::codes;
 use crate::ir::{
     self, Field, Filter, ImageId, Map, Noun, Origins, Place, Sampled, Scene, TextureId, Wrap,
@@ -11,7 +11,7 @@ use crate::math::{cos, sin};
 use std::collections::BTreeMap;
 
 /// What became of the textures and images of the asset.
-pub(super) struct Textures {
+pub(super) struct LoweredTextures {
     textures: Vec<Option<Option<TextureId>>>,
     /// The image that each picture of the document became.
     images: BTreeMap<usize, ImageId>,
@@ -22,7 +22,7 @@ const CLAMP: u64 = 33071;
 const MIRROR: u64 = 33648;
 const NEAREST: u64 = 9728;
 
-impl Textures {
+impl LoweredTextures {
     pub(super) fn new(doc: &Document<'_>) -> Self {
         Self {
             textures: vec![None; doc.textures.len()],
@@ -38,7 +38,7 @@ impl Textures {
         info: Fields<'_, '_>,
         scene: &mut Scene,
         origins: &mut Origins,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<Map> {
         let texture = self.texture(doc, info.index("index")?, scene, origins, report)?;
         let transform = info.extension("KHR_texture_transform");
@@ -68,7 +68,7 @@ impl Textures {
         index: usize,
         scene: &mut Scene,
         origins: &mut Origins,
-        report: &mut Report<'_, '_>,
+        report: &mut AssetReport<'_, '_>,
     ) -> Option<TextureId> {
         if let Some(known) = self.textures.get(index)? {
             return *known;
@@ -119,7 +119,7 @@ impl Textures {
         index: usize,
         scene: &mut Scene,
         origins: &mut Origins,
-        report: &Report<'_, '_>,
+        report: &AssetReport<'_, '_>,
     ) -> Option<ImageId> {
         let image = doc.images.get(index)?;
         let picture = image.picture?;

@@ -12,7 +12,7 @@ mod vertex;
 use super::buffer::{Bytes, Stretch, stretch};
 use super::document::Document;
 use super::field::Fields;
-use super::report::Report;
+use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::Resource;
 use crate::source::tree::NodeId;
@@ -103,7 +103,7 @@ impl Claim {
 }
 
 /// Decompresses the views that are compressed, those of the same bytes and claims once.
-pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
+pub(super) fn expand(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
     let mut made: BTreeMap<Claim, Result<Bytes<'static>, Fault>> = BTreeMap::new();
     for index in 0..doc.views.len() {
         let fields = Fields::new(report.json, doc.views[index].at);
@@ -137,7 +137,7 @@ pub(super) fn expand(doc: &mut Document<'_>, report: &mut Report<'_, '_>) {
     }
 }
 
-fn say(at: NodeId, fault: Fault, report: &mut Report<'_, '_>) {
+fn say(at: NodeId, fault: Fault, report: &mut AssetReport<'_, '_>) {
     report.say(
         &codes::GLTF_COMPRESSED,
         "",

@@ -3,15 +3,15 @@
 use super::walk::Walk;
 use super::{Bounds, Pool, Value};
 use crate::diag::codes;
-use crate::source::tree::{Kind, NodeId};
+use crate::source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
 impl Walk<'_, '_, '_> {
     /// Checks the value of the property `name`; what lies in it is put off.
     pub(super) fn value(&mut self, node: NodeId, value: &'static Value, name: &str) {
         match value {
-            Value::Truth => drop(self.expect(node, Kind::Bool, name)),
-            Value::Text => drop(self.expect(node, Kind::Text, name)),
+            Value::Truth => drop(self.expect(node, NodeKind::Bool, name)),
+            Value::Text => drop(self.expect(node, NodeKind::Text, name)),
             Value::Word(words) => self.word(node, words, name),
             Value::Version => self.pattern(node, is_version, "a version, as `2.0`", name),
             Value::Pointer => self.pattern(node, is_pointer, "a JSON pointer, as `/nodes/0`", name),
@@ -31,13 +31,13 @@ impl Walk<'_, '_, '_> {
             Value::Attributes => self.attributes(node, name),
             Value::Targets => {
                 for item in self.items(node, name) {
-                    if self.element(item, Kind::Map, name) {
+                    if self.element(item, NodeKind::Map, name) {
                         self.attributes(item, name);
                     }
                 }
             }
             Value::One(object) => {
-                if self.expect(node, Kind::Map, name) {
+                if self.expect(node, NodeKind::Map, name) {
                     self.open.push((node, object));
                 }
             }
@@ -45,9 +45,9 @@ impl Walk<'_, '_, '_> {
                 let is_root = self.report.json.parent(node) == self.report.json.root();
                 for item in self.items(node, name) {
                     let is_object = if is_root {
-                        self.expect(item, Kind::Map, name)
+                        self.expect(item, NodeKind::Map, name)
                     } else {
-                        self.element(item, Kind::Map, name)
+                        self.element(item, NodeKind::Map, name)
                     };
                     if is_object {
                         self.open.push((item, object));
@@ -75,7 +75,7 @@ impl Walk<'_, '_, '_> {
 
     /// The items of a list.
     fn list(&mut self, node: NodeId, name: &str) -> Vec<NodeId> {
-        if self.expect(node, Kind::List, name) {
+        if self.expect(node, NodeKind::List, name) {
             self.report.json.items(node).collect()
         } else {
             Vec::new()
@@ -85,7 +85,7 @@ impl Walk<'_, '_, '_> {
     /// The items of a list that is not empty.
     fn items(&mut self, node: NodeId, name: &str) -> Vec<NodeId> {
         let items = self.list(node, name);
-        if self.report.json.kind(node) == Kind::List {
+        if self.report.json.kind(node) == NodeKind::List {
             self.not_empty(node, items.len(), name);
         }
         items
@@ -103,7 +103,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn word(&mut self, node: NodeId, words: &[&str], name: &str) {
-        if self.expect(node, Kind::Text, name)
+        if self.expect(node, NodeKind::Text, name)
             && !words.iter().any(|word| self.report.json.is(node, word))
         {
             let message = format!(
@@ -117,7 +117,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn pattern(&mut self, node: NodeId, fits: fn(&str) -> bool, what: &str, name: &str) {
-        if self.expect(node, Kind::Text, name)
+        if self.expect(node, NodeKind::Text, name)
             && !fits(self.report.json.text(node).unwrap_or_default())
         {
             let message = format!("`{name}` is {}, not {what}", self.report.shown(node));
@@ -128,7 +128,7 @@ impl Walk<'_, '_, '_> {
 
     /// The whole number at `node`, if it is one; negative ones are not.
     fn integer(&mut self, node: NodeId, name: &str) -> Option<Option<u64>> {
-        if !self.expect(node, Kind::Number, name) {
+        if !self.expect(node, NodeKind::Number, name) {
             return None;
         }
         let number = self.report.json.number(node)?;
@@ -201,7 +201,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn number(&mut self, node: NodeId, bounds: Bounds, name: &str) {
-        if self.expect(node, Kind::Number, name) {
+        if self.expect(node, NodeKind::Number, name) {
             self.bounded(node, bounds, name);
         }
     }
@@ -227,7 +227,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn numbers(&mut self, node: NodeId, lengths: &[usize], bounds: Bounds, name: &str) {
-        if !self.expect(node, Kind::List, name) {
+        if !self.expect(node, NodeKind::List, name) {
             return;
         }
         let items: Vec<NodeId> = self.report.json.items(node).collect();
@@ -248,14 +248,14 @@ impl Walk<'_, '_, '_> {
             );
         }
         for item in items {
-            if self.element(item, Kind::Number, name) {
+            if self.element(item, NodeKind::Number, name) {
                 self.bounded(item, bounds, name);
             }
         }
     }
 
     /// True if an element of a list is of the kind; else that is reported.
-    fn element(&mut self, node: NodeId, kind: Kind, name: &str) -> bool {
+    fn element(&mut self, node: NodeId, kind: NodeKind, name: &str) -> bool {
         let found = self.report.json.kind(node);
         if found != kind {
             let message = format!(
@@ -272,7 +272,7 @@ impl Walk<'_, '_, '_> {
     fn texts(&mut self, node: NodeId, name: &str) {
         let mut seen = BTreeSet::new();
         for item in self.items(node, name) {
-            if self.element(item, Kind::Text, name)
+            if self.element(item, NodeKind::Text, name)
                 && let Some(text) = self.report.json.text(item)
                 && !seen.insert(text)
             {
@@ -284,7 +284,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn attributes(&mut self, node: NodeId, name: &str) {
-        if !self.expect(node, Kind::Map, name) {
+        if !self.expect(node, NodeKind::Map, name) {
             return;
         }
         let json = self.report.json;

@@ -4,8 +4,8 @@
 use super::core::ROOT;
 use super::{Key, Object, POOLS, Pool, extension};
 use crate::diag::codes;
-use crate::front::gltf::report::{Report, shown};
-use crate::source::tree::{Kind, NodeId};
+use crate::front::gltf::report::{AssetReport, shown};
+use crate::source::tree::{NodeId, NodeKind};
 use std::collections::BTreeSet;
 
 /// The properties of an asset that say what the others are.
@@ -13,9 +13,9 @@ const HEADER: [&str; 3] = ["asset", "extensionsUsed", "extensionsRequired"];
 
 /// Checks the shape of the whole asset, and that its references lead somewhere; only of its header
 /// if the rest `is_known` not.
-pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
+pub(in super::super) fn walk(is_known: bool, report: &mut AssetReport<'_, '_>) {
     let root = report.json.root();
-    if report.json.kind(root) != Kind::Map {
+    if report.json.kind(root) != NodeKind::Map {
         let kind = report.json.kind(root).name();
         let message = format!("an asset is an object, and this is {kind}");
         return report.say(&codes::GLTF_TYPE, "TYPE_MISMATCH", root, message);
@@ -26,7 +26,7 @@ pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
         .filter_map(|item| json.text(item));
     let declared = declared.map(str::to_owned).collect();
     let slot = |item| {
-        if json.kind(item) == Kind::Map {
+        if json.kind(item) == NodeKind::Map {
             Slot::Unused
         } else {
             Slot::NoPart
@@ -35,7 +35,7 @@ pub(in super::super) fn walk(is_known: bool, report: &mut Report<'_, '_>) {
     let slots = POOLS.map(|(_, way)| {
         let list = json
             .at(root, way)
-            .filter(|list| json.kind(*list) == Kind::List);
+            .filter(|list| json.kind(*list) == NodeKind::List);
         list.map_or_else(Vec::new, |list| json.items(list).map(slot).collect())
     });
     let present = POOLS.map(|(_, way)| way.len() == 1 || json.at(root, &way[..2]).is_some());
@@ -65,7 +65,7 @@ enum Slot {
 }
 
 pub(super) struct Walk<'w, 'r, 's> {
-    pub(super) report: &'w mut Report<'r, 's>,
+    pub(super) report: &'w mut AssetReport<'r, 's>,
     /// The extensions in `extensionsUsed`.
     declared: BTreeSet<String>,
     /// What is in each pool.
@@ -97,7 +97,7 @@ impl Walk<'_, '_, '_> {
             } else if json.is(name, "extras") {
                 self.extras(value);
             } else if let Some(at) = known {
-                seen |= u32::from(json.kind(value) != Kind::Null) << at;
+                seen |= u32::from(json.kind(value) != NodeKind::Null) << at;
                 self.value(value, &object.keys[at].value, object.keys[at].name);
             } else {
                 self.unknown(name, object);
@@ -134,7 +134,7 @@ impl Walk<'_, '_, '_> {
     }
 
     fn extras(&mut self, value: NodeId) {
-        if ![Kind::Map, Kind::Null].contains(&self.report.json.kind(value)) {
+        if ![NodeKind::Map, NodeKind::Null].contains(&self.report.json.kind(value)) {
             let message = "extras are best an object".to_owned();
             self.report
                 .say(&codes::GLTF_REMARK, "NON_OBJECT_EXTRAS", value, message);
@@ -143,12 +143,12 @@ impl Walk<'_, '_, '_> {
 
     fn extensions(&mut self, node: NodeId, owner: &'static Object) {
         let json = self.report.json;
-        if !self.expect(node, Kind::Map, "extensions") {
+        if !self.expect(node, NodeKind::Map, "extensions") {
             return;
         }
         for (key, value) in json.pairs(node) {
             let name = json.text(key).unwrap_or_default();
-            let is_object = self.expect(value, Kind::Map, name);
+            let is_object = self.expect(value, NodeKind::Map, name);
             if !self.declared.contains(name) {
                 let message = format!(
                     "the extension `{}` is not listed in `extensionsUsed`",
@@ -207,7 +207,7 @@ impl Walk<'_, '_, '_> {
     }
 
     /// True if the node is of the kind; else that is reported.
-    pub(super) fn expect(&mut self, node: NodeId, kind: Kind, name: &str) -> bool {
+    pub(super) fn expect(&mut self, node: NodeId, kind: NodeKind, name: &str) -> bool {
         let found = self.report.json.kind(node);
         if found != kind {
             let message = format!("`{}` is {}, not {}", shown(name), found.name(), kind.name());

@@ -4,20 +4,20 @@
 //!
 //! The terms are those of the WebP Lossless Bitstream Specification.
 
-use super::prefix::{Bits, CODE, Code};
-use super::{DecodeError, Size};
+use super::prefix::{BitReader, CODE, PrefixCode};
+use super::{DecodeError, ImageSize};
 
 /// Bytes that the decoder takes for the prefix codes of a picture; a plane of opacity has no
 /// header.
-pub(super) fn codes(stream: &[u8], size: Size, has_header: bool) -> Result<u64, DecodeError> {
+pub(super) fn codes(stream: &[u8], size: ImageSize, has_header: bool) -> Result<u64, DecodeError> {
     let header = if has_header { 40 } else { 0 };
-    picture(&mut Bits::of(stream, header), size).ok_or_else(|| {
+    picture(&mut BitReader::of(stream, header), size).ok_or_else(|| {
         let words = "it ends before its pixels, or has prefix codes that are none";
         DecodeError::Damaged(words.to_owned())
     })
 }
 
-fn picture(bits: &mut Bits<'_>, size: Size) -> Option<u64> {
+fn picture(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u64> {
     let width = transforms(bits, size)?;
     let alphabets = alphabets(bits)?;
     let groups = if bits.flag()? {
@@ -29,14 +29,14 @@ fn picture(bits: &mut Bits<'_>, size: Size) -> Option<u64> {
     let list = u64::from(groups.max(4).next_power_of_two()) * 5 * CODE * 3 / 2;
     (0..groups).try_fold(list, |sum, _| {
         let group = alphabets.iter().try_fold(0, |sum, alphabet| {
-            Some(sum + Code::read(bits, *alphabet)?.memory())
+            Some(sum + PrefixCode::read(bits, *alphabet)?.memory())
         })?;
         Some(sum + group)
     })
 }
 
 /// Passes over the transforms; tells how wide the picture is before they are undone.
-fn transforms(bits: &mut Bits<'_>, size: Size) -> Option<u32> {
+fn transforms(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u32> {
     let mut width = size.width;
     let mut is_known = [false; 4];
     while bits.flag()? {
@@ -75,7 +75,7 @@ fn blocks(side: u32, bits: u32) -> u32 {
 }
 
 /// Passes over an image of a pixel for each block of another; the rest as [`pixels`].
-fn sub_image(bits: &mut Bits<'_>, of: [u32; 2]) -> Option<u32> {
+fn sub_image(bits: &mut BitReader<'_>, of: [u32; 2]) -> Option<u32> {
     let block = bits.read(3)? + 2;
     let [width, height] = of.map(|side| blocks(side, block));
     pixels(bits, width.saturating_mul(height))
@@ -83,11 +83,11 @@ fn sub_image(bits: &mut Bits<'_>, of: [u32; 2]) -> Option<u32> {
 
 /// Passes over the pixels of an image within the picture, which has one group of codes. Tells the
 /// largest number that red and green are together: the groups are numbered so.
-fn pixels(bits: &mut Bits<'_>, count: u32) -> Option<u32> {
+fn pixels(bits: &mut BitReader<'_>, count: u32) -> Option<u32> {
     let alphabets = alphabets(bits)?;
     let mut group = Vec::with_capacity(alphabets.len());
     for alphabet in alphabets {
-        group.push(Code::read(bits, alphabet)?);
+        group.push(PrefixCode::read(bits, alphabet)?);
     }
     let [green, red, blue, alpha, distance] = group.as_slice() else {
         return None;
@@ -128,7 +128,7 @@ const LENGTHS: u32 = 256;
 const COLORS: u32 = LENGTHS + 24;
 
 /// A length or a distance, of which the symbol tells how many bits more it has.
-fn extended(bits: &mut Bits<'_>, symbol: u32) -> Option<u32> {
+fn extended(bits: &mut BitReader<'_>, symbol: u32) -> Option<u32> {
     if symbol < 4 {
         return Some(symbol + 1);
     }
@@ -138,7 +138,7 @@ fn extended(bits: &mut Bits<'_>, symbol: u32) -> Option<u32> {
 
 /// Reads how large the cache of colours is. Tells how many symbols the codes of a group then have:
 /// green with lengths and colours of the cache, red, blue, alpha, distance.
-fn alphabets(bits: &mut Bits<'_>) -> Option<[u16; 5]> {
+fn alphabets(bits: &mut BitReader<'_>) -> Option<[u16; 5]> {
     let cache = if bits.flag()? {
         let count = bits.read(4)?;
         (1..=11).contains(&count).then_some(1 << count)?

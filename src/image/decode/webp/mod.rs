@@ -4,16 +4,16 @@ mod lossless;
 mod parts;
 mod prefix;
 
-use super::layout::Layout;
-use super::{DecodeError, Size};
+use super::layout::PixelLayout;
+use super::{DecodeError, ImageSize};
 use ::image::ImageDecoder;
 use ::image::codecs::webp::WebPDecoder;
-use parts::Parts;
+use parts::CodedStreams;
 use std::io::Cursor;
 
 pub(super) struct WebP<'a> {
     decoder: WebPDecoder<Cursor<&'a [u8]>>,
-    pub(super) layout: Layout,
+    pub(super) layout: PixelLayout,
     /// Bytes that the decoder takes for each pixel.
     pixel: u64,
     /// Bytes that it takes for the prefix codes.
@@ -23,11 +23,11 @@ pub(super) struct WebP<'a> {
 }
 
 /// Reads all that stands before the pixels.
-pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, WebP<'_>), DecodeError> {
+pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_>), DecodeError> {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
-    let size = Size::within(most_pixels, width, height)?;
-    let layout = Layout {
+    let size = ImageSize::within(most_pixels, width, height)?;
+    let layout = PixelLayout {
         channels: usize::from(decoder.color_type().channel_count()),
         is_wide: false,
     };
@@ -40,10 +40,11 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, WebP<'_>), D
         _ if decoder.has_animation() => 16,
         _ => 8,
     };
-    let (codes, fault) = match Parts::of(bytes, size, decoder.has_animation()).and_then(codes) {
-        Ok(codes) => (codes, None),
-        Err(fault) => (0, Some(fault)),
-    };
+    let (codes, fault) =
+        match CodedStreams::of(bytes, size, decoder.has_animation()).and_then(codes) {
+            Ok(codes) => (codes, None),
+            Err(fault) => (0, Some(fault)),
+        };
     let webp = WebP {
         decoder,
         layout,
@@ -55,8 +56,8 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(Size, WebP<'_>), D
 }
 
 /// What the prefix codes of the parts take, each of which must be as large as the picture is.
-fn codes(parts: Parts<'_>) -> Result<u64, DecodeError> {
-    let Parts {
+fn codes(parts: CodedStreams<'_>) -> Result<u64, DecodeError> {
+    let CodedStreams {
         size,
         lossy,
         lossless,
@@ -80,7 +81,7 @@ fn codes(parts: Parts<'_>) -> Result<u64, DecodeError> {
 }
 
 impl WebP<'_> {
-    pub(super) fn scratch(&self, size: Size) -> u64 {
+    pub(super) fn scratch(&self, size: ImageSize) -> u64 {
         size.pixels()
             .saturating_mul(self.pixel)
             .saturating_add(self.codes)

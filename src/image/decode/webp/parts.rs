@@ -1,12 +1,12 @@
 //! The parts of a WebP file that its decoder will decode, found as it finds them: of a kind the
 //! first, at the top or in the first picture of an animation.
 
-use super::{DecodeError, Size};
+use super::{DecodeError, ImageSize};
 
 /// The coded streams of one picture.
-pub(super) struct Parts<'a> {
+pub(super) struct CodedStreams<'a> {
     /// How large it is: smaller than its canvas where it moves.
-    pub(super) size: Size,
+    pub(super) size: ImageSize,
     pub(super) lossy: Option<&'a [u8]>,
     pub(super) lossless: Option<&'a [u8]>,
     pub(super) opacity: Option<&'a [u8]>,
@@ -40,11 +40,11 @@ impl<'a> Chunk<'a> {
     }
 }
 
-impl<'a> Parts<'a> {
+impl<'a> CodedStreams<'a> {
     /// The parts of a file with a canvas of this size.
     pub(super) fn of(
         bytes: &'a [u8],
-        canvas: Size,
+        canvas: ImageSize,
         is_animation: bool,
     ) -> Result<Self, DecodeError> {
         let chunks = chunks(bytes);
@@ -82,7 +82,7 @@ impl<'a> Parts<'a> {
     }
 
     /// Those of a picture of an animation.
-    fn moving(size: Size, chunks: &[Chunk<'a>]) -> Self {
+    fn moving(size: ImageSize, chunks: &[Chunk<'a>]) -> Self {
         let part = |index: usize, kind: &[u8; 4]| {
             let chunk = chunks.get(index).filter(|chunk| chunk.kind == kind);
             chunk.map(|chunk| chunk.contents)
@@ -120,12 +120,12 @@ fn chunks(bytes: &[u8]) -> Vec<Chunk<'_>> {
 }
 
 /// The size that the header of a picture of an animation tells.
-fn frame_size(contents: &[u8]) -> Option<Size> {
+fn frame_size(contents: &[u8]) -> Option<ImageSize> {
     let side = |at: usize| {
         let [low, middle, high] = *contents.get(at..)?.first_chunk::<3>()?;
         Some(u32::from_le_bytes([low, middle, high, 0]) + 1)
     };
-    Some(Size {
+    Some(ImageSize {
         width: side(6)?,
         height: side(9)?,
     })

@@ -17,12 +17,12 @@ const LONGEST: usize = 15;
 const TABLE: usize = 10;
 
 /// A stream of bits, the lowest of a byte first.
-pub(super) struct Bits<'a> {
+pub(super) struct BitReader<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
-impl<'a> Bits<'a> {
+impl<'a> BitReader<'a> {
     /// The bits of these bytes but the first so many.
     pub(super) fn of(bytes: &'a [u8], at: usize) -> Self {
         Self { bytes, at }
@@ -62,7 +62,7 @@ impl<'a> Bits<'a> {
 }
 
 /// A complete prefix code, or one symbol, which takes no bits.
-pub(super) struct Code {
+pub(super) struct PrefixCode {
     /// How many symbols have a code of each length.
     counts: [u16; LONGEST + 1],
     /// The symbols, in the order of their codes.
@@ -71,9 +71,9 @@ pub(super) struct Code {
     memory: u64,
 }
 
-impl Code {
+impl PrefixCode {
     /// Reads a code of so many symbols.
-    pub(super) fn read(bits: &mut Bits<'_>, alphabet: u16) -> Option<Self> {
+    pub(super) fn read(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Self> {
         if bits.flag()? {
             Self::simple(bits, alphabet)
         } else {
@@ -82,7 +82,7 @@ impl Code {
     }
 
     /// Reads one or two symbols.
-    fn simple(bits: &mut Bits<'_>, alphabet: u16) -> Option<Self> {
+    fn simple(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Self> {
         let is_pair = bits.flag()?;
         let width = if bits.flag()? { 8 } else { 1 };
         let mut symbols = vec![u16::try_from(bits.read(width)?).ok()?];
@@ -123,7 +123,7 @@ impl Code {
     }
 
     /// Reads a symbol.
-    pub(super) fn symbol(&self, bits: &mut Bits<'_>) -> Option<u16> {
+    pub(super) fn symbol(&self, bits: &mut BitReader<'_>) -> Option<u16> {
         if let [symbol] = self.symbols.as_slice() {
             return Some(*symbol);
         }
@@ -176,7 +176,7 @@ fn tables(counts: &[u16; LONGEST + 1]) -> u64 {
 }
 
 /// Reads the lengths of the codes of so many symbols, which have a code of their own.
-fn lengths(bits: &mut Bits<'_>, alphabet: u16) -> Option<Vec<u8>> {
+fn lengths(bits: &mut BitReader<'_>, alphabet: u16) -> Option<Vec<u8>> {
     /// The lengths of the codes of lengths are told in this order.
     const ORDER: [usize; 19] = [
         17, 18, 0, 1, 2, 3, 4, 5, 16, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,
@@ -186,7 +186,7 @@ fn lengths(bits: &mut Bits<'_>, alphabet: u16) -> Option<Vec<u8>> {
     for at in ORDER.get(..told)? {
         of_lengths[*at] = u8::try_from(bits.read(3)?).ok()?;
     }
-    let code = Code::of(&of_lengths)?;
+    let code = PrefixCode::of(&of_lengths)?;
     let alphabet = usize::from(alphabet);
     let mut left = if bits.flag()? {
         let width = 2 + 2 * bits.read(3)?;

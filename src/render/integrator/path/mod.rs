@@ -22,9 +22,7 @@ use crate::render::ray::Ray;
 use crate::render::sampler::sobol::{FILM, LENS, Sobol};
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
-use crate::valid::PathSettings;
 use state::PathState;
-use visibility::AlphaTested;
 
 /// The sampling strategy. All strategies have the same expected value; only the noise differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,9 +40,9 @@ pub enum Strategy {
 pub(in crate::render) struct PathTracer<'world, S, const F: u32> {
     world: &'world World<S>,
     lights: &'world Lights<'world, S>,
-    path: PathSettings,
+    /// Whether rough surfaces keep the light that bounces between their facets.
+    multiple_scattering: bool,
     strategy: Strategy,
-    alpha_tested: AlphaTested,
     /// Whether vertices have all details, not only those that their materials need.
     knows_all: bool,
     /// The background for camera rays that hit nothing.
@@ -64,7 +62,6 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(in crate::render) fn new(
         world: &'world World<S>,
         lights: &'world Lights<'world, S>,
-        path: PathSettings,
         strategy: Strategy,
         on_pixel: &'world OnPixel<'world>,
     ) -> Self {
@@ -73,9 +70,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         Self {
             world,
             lights,
-            path,
+            multiple_scattering: world.settings.multiple_scattering,
             strategy,
-            alpha_tested: AlphaTested::of(world),
             knows_all: false,
             background: Background::default(),
             has_environment: plan.is_none_or(|plan| plan.environment),
@@ -113,9 +109,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
 
     /// The ray from the camera that a path of a pixel begins with.
     fn camera_ray(&mut self, pixel: [u32; 2], sobol: &Sobol) -> Ray {
-        let camera = self.world.scene.camera();
+        let camera = &self.world.camera;
         let target = image_point(camera, pixel, sobol.pair(FILM));
-        if camera.lens.radius.get() == 0.0 {
+        if camera.lens_radius == 0.0 {
             return ray_through(camera, camera.eye, target);
         }
         self.counts.add(Effect::Lens);

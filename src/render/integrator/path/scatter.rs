@@ -130,7 +130,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             state.pick_wavelength();
         }
         let (frame, coat) = point.frame(at, details, wo);
-        let standard = point.standard(&frame, coat, state.channel, self.path.multiple_scattering);
+        let standard = point.standard(&frame, coat, state.channel, self.multiple_scattering);
         let wo = frame.to_local(wo);
         let bsdf = Lobes::<F>::new(&standard, wo);
         self.count_shading(vertex, &standard, &bsdf);

@@ -7,31 +7,8 @@ use crate::plan::PathFeatures;
 use crate::render::material::standard::Alpha;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
-use crate::render::world::{Hit, World, segment};
-
-/// The alpha-tested surfaces of a world.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum AlphaTested {
-    None,
-    /// Only flattened triangles.
-    Triangles,
-    /// Other surfaces as well.
-    Solids,
-}
-
-impl AlphaTested {
-    pub(super) fn of<S: Geometry>(world: &World<S>) -> Self {
-        let is_tested = |surface: &usize| {
-            let material = world.surfaces[*surface].material;
-            world.standards[material].alpha != Alpha::Opaque
-        };
-        let tested = (0..world.surfaces.len()).filter(is_tested);
-        tested.fold(Self::None, |all, surface| match all {
-            Self::None | Self::Triangles if world.is_flattened(surface) => Self::Triangles,
-            Self::None | Self::Triangles | Self::Solids => Self::Solids,
-        })
-    }
-}
+use crate::render::world::alpha::AlphaTested;
+use crate::render::world::{Hit, segment};
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     /// The transmittance to a point, or to infinity.
@@ -48,7 +25,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         let ray = vertex.at.ray(wi);
         let from = (vertex.hit.surface, vertex.hit.prim_id);
         let is_tested = Self::can(PathFeatures::ALPHA);
-        if is_tested && self.alpha_tested == AlphaTested::Solids {
+        if is_tested && self.world.alpha_tested == AlphaTested::Solids {
             return self.transmittance_one_by_one(ray, from, wi, place);
         }
         let to_place = |place| segment(ray.origin, place);
@@ -56,7 +33,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return 1.0;
         };
         let world = self.world;
-        if is_tested && self.alpha_tested == AlphaTested::Triangles {
+        if is_tested && self.world.alpha_tested == AlphaTested::Triangles {
             world.transmittance(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
         } else {
             world.transmittance(&ray, t_max, from, |_| 0.0)

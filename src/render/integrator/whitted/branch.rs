@@ -55,7 +55,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             return;
         }
         let direction = path.ray.direction;
-        let refracted = transmit(direction, shading_point, self.scene().settings().shadows);
+        let refracted = transmit(direction, shading_point, self.world.settings.shadows);
         let mirror_weight = match refracted {
             Some(_) => shading_point.ks,
             None => shading_point.ks + shading_point.material.kt.get(),
@@ -95,7 +95,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         }
         let lobe = PhongLobeSampler::new(mirror, *n, glossy_samples.get(), path.key);
         // With shadows no light comes through a surface that mirrors.
-        let geometric = if self.scene().settings().shadows {
+        let geometric = if self.world.settings.shadows {
             shading_point.geometric()
         } else {
             shading_point.normal

@@ -17,8 +17,8 @@ use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::instance::{Asked, Details};
 use crate::render::texture::bilinear::{TextureFrame, look_up};
+use crate::render::world::settings::Mode;
 use crate::render::world::{Hit, World};
-use crate::valid::{Mode, Proof};
 use branch::{Branch, BranchKind, Pending};
 use pixel::PixelState;
 use shade::ShadingPoint;
@@ -55,7 +55,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             heartbeat,
             weightless: false,
             spread: false,
-            grid: Grid::of(&world.scene),
+            grid: world.settings.grid,
             pixel: PixelState::default(),
             counts,
         }
@@ -67,12 +67,6 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             spread: true,
             ..self
         }
-    }
-
-    /// The scene traced.
-    #[must_use]
-    pub(in crate::render) fn scene(&self) -> &'world Proof {
-        &self.world.scene
     }
 
     /// Whether this tracer can do it: known at compile time.
@@ -225,12 +219,12 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     fn local(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
-        match &self.scene().settings().mode {
+        match &self.world.settings.mode {
             Mode::Gooch(parameters) if Self::can(Features::GOOCH) => {
                 self.gooch(shading_point, parameters)
             }
             Mode::Phong | Mode::Gooch(_) | Mode::Path(_) => self.phong(shading_point),
-            Mode::Normal | Mode::Zbuffer => {
+            Mode::Normal | Mode::Depth => {
                 self.counts.add(Effect::NormalBuffer);
                 (shading_point.normal + Vec3::ONE) * 0.5
             }

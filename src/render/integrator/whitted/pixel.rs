@@ -86,7 +86,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     /// The ray of the next sample of the grid of cells and points of the lens.
     #[inline(always)]
     fn ray_of_picture(&mut self, pixel: [u32; 2], seeds: Seeds) -> Ray {
-        let camera = self.scene().camera();
+        let camera = &self.world.camera;
         if !Self::can(Features::CAMERA) {
             return Grid::MIDDLE
                 .cell(camera, pixel, [0; 2], seeds)
@@ -112,7 +112,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
 
     /// The ray of a sample of a sequence without end.
     fn ray_of_replicate(&self, id: &SampleId, number: u64) -> Ray {
-        let camera = self.scene().camera();
+        let camera = &self.world.camera;
         let sequence = Sequence::new(Key::new(id.pixel, number).child(REPLICATE));
         let [x, y, u, v] = sequence.point(id.index);
         camera_ray(

@@ -10,7 +10,7 @@ use crate::render::material::phong::PhongMaterial;
 use crate::render::ray::Interaction;
 use crate::render::sampler::{DiscPoints, Key};
 use crate::render::shape::geometry::Geometry;
-use crate::valid::Gooch;
+use crate::render::world::settings::Gooch;
 
 /// A point seen from one side.
 pub(in crate::render) struct ShadingPoint<'world> {
@@ -91,7 +91,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
     #[must_use]
     pub(in crate::render) fn phong(&mut self, shading_point: &ShadingPoint<'_>) -> Vec3 {
         let world = self.world;
-        let samples = world.scene.settings().light_samples.get();
+        let samples = world.settings.light_samples;
         let mut sum = Vec3::ZERO;
         for (index, (light, plan)) in world
             .lights
@@ -150,7 +150,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         let Some(incidence) = shading_point.incidence(light) else {
             return Vec3::ZERO;
         };
-        if self.scene().settings().shadows
+        if self.world.settings.shadows
             && !self.is_lit(shading_point, light, incidence.n_dot_l, shadowed)
         {
             return Vec3::ZERO;

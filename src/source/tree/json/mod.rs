@@ -2,7 +2,7 @@
 
 mod text;
 
-use super::pointer::Step;
+use super::pointer::PointerStep;
 use super::{Form, Node, NodeId, Tree, keys, to_u32};
 use crate::source::FileId;
 
@@ -11,14 +11,14 @@ const MAX_DEPTH: usize = 512;
 
 /// Why a text is no tree, and where.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct JsonFault {
     /// The offset in the text of the first byte that can't be.
     pub at: usize,
     /// What is wrong.
     pub what: &'static str,
 }
 
-impl From<(usize, &'static str)> for Fault {
+impl From<(usize, &'static str)> for JsonFault {
     fn from((at, what): (usize, &'static str)) -> Self {
         Self { at, what }
     }
@@ -28,7 +28,7 @@ impl From<(usize, &'static str)> for Fault {
 ///
 /// # Errors
 /// The first fault.
-pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
+pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, JsonFault> {
     match begin(file, base, text) {
         (tree, None) => Ok(tree),
         (_, Some(fault)) => Err(fault),
@@ -37,7 +37,7 @@ pub fn parse(file: FileId, base: u32, text: &str) -> Result<Tree<'_>, Fault> {
 
 /// Parses `text` up to the first fault; what is open there ends there.
 #[must_use]
-pub fn begin(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<Fault>) {
+pub fn begin(file: FileId, base: u32, text: &str) -> (Tree<'_>, Option<JsonFault>) {
     let mut scan = Scan {
         bytes: text.as_bytes(),
         at: 0,
@@ -63,7 +63,7 @@ struct Scan<'s> {
 }
 
 impl Scan<'_> {
-    fn document(&mut self) -> Result<(), Fault> {
+    fn document(&mut self) -> Result<(), JsonFault> {
         loop {
             self.value()?;
             if self.close_all()? {
@@ -84,12 +84,12 @@ impl Scan<'_> {
         self.bytes.get(self.at).copied()
     }
 
-    fn fault(&self, what: &'static str) -> Fault {
-        Fault::from((self.at, what))
+    fn fault(&self, what: &'static str) -> JsonFault {
+        JsonFault::from((self.at, what))
     }
 
     /// Reads a value up to its end, or a list or map up to its first value.
-    fn value(&mut self) -> Result<(), Fault> {
+    fn value(&mut self) -> Result<(), JsonFault> {
         loop {
             match self.peek() {
                 None => return Err(self.fault("the text ends too early")),
@@ -114,7 +114,7 @@ impl Scan<'_> {
     }
 
     /// Closes what ends here, and goes to the next value. True if the document has ended.
-    fn close_all(&mut self) -> Result<bool, Fault> {
+    fn close_all(&mut self) -> Result<bool, JsonFault> {
         loop {
             let Some(&(parent, _)) = self.open.last() else {
                 return Ok(true);
@@ -145,7 +145,7 @@ impl Scan<'_> {
             }
             None => (0, 0),
         };
-        self.tree.steps.push(Step { parent, slot });
+        self.tree.steps.push(PointerStep { parent, slot });
         self.tree.nodes.push(Node {
             start: to_u32(self.at),
             end: to_u32(end),
@@ -155,7 +155,7 @@ impl Scan<'_> {
         self.at = end;
     }
 
-    fn open(&mut self, form: Form) -> Result<(), Fault> {
+    fn open(&mut self, form: Form) -> Result<(), JsonFault> {
         if self.open.len() == MAX_DEPTH {
             return Err(self.fault("lists and objects lie too deep in each other"));
         }
@@ -178,7 +178,7 @@ impl Scan<'_> {
         }
     }
 
-    fn key(&mut self) -> Result<(), Fault> {
+    fn key(&mut self) -> Result<(), JsonFault> {
         if self.bytes.get(self.at) != Some(&b'"') {
             return Err(self.fault("expected a key in quotes"));
         }
@@ -191,7 +191,7 @@ impl Scan<'_> {
     }
 
     /// Reads a text in quotes.
-    fn quoted(&mut self, is_key: bool) -> Result<(), Fault> {
+    fn quoted(&mut self, is_key: bool) -> Result<(), JsonFault> {
         let (end, has_escapes) = text::end(self.bytes, self.at)?;
         if has_escapes {
             let Tree { source, .. } = self.tree;
@@ -205,7 +205,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn word(&mut self) -> Result<(), Fault> {
+    fn word(&mut self) -> Result<(), JsonFault> {
         let words = [
             ("null", Form::Null),
             ("true", Form::Bool),
@@ -222,7 +222,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn number(&mut self) -> Result<(), Fault> {
+    fn number(&mut self) -> Result<(), JsonFault> {
         let start = self.at;
         self.at += usize::from(self.bytes[self.at] == b'-');
         if self.bytes.get(self.at) == Some(&b'0') {
@@ -247,7 +247,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn digits(&mut self) -> Result<(), Fault> {
+    fn digits(&mut self) -> Result<(), JsonFault> {
         let count = self.bytes[self.at..]
             .iter()
             .take_while(|byte| byte.is_ascii_digit())

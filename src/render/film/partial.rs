@@ -1,0 +1,327 @@
+//! A film of a part of a picture: some of its tiles, some of its samples, as sums. Parts can be
+//! saved, loaded and added, on any machine and in any order; together they are, bit for bit, the
+//! picture made at once.
+
+use super::pixel::{BLOCK, PixelSum};
+use super::tiled::{Tiled, tiles_of};
+use super::{Counts, Crop, DISPLAY, Film, Tiles, Values};
+use crate::image::Image;
+use std::fmt;
+use std::ops::Range;
+
+/// How the samples of a pixel are summed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) enum Summation {
+    /// One after the other: all of them are one part.
+    InOrder,
+    /// So many samples in aligned blocks along a binary tree.
+    InBlocks(u32),
+    /// The one sample is a distance.
+    Distance,
+}
+
+/// What the films of one picture have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) struct FilmLayout {
+    /// The rectangle of pixels.
+    pub(in crate::render) crop: Crop,
+    /// What the pixels show in the end.
+    pub(in crate::render) values: Values,
+    /// How their samples are summed.
+    pub(in crate::render) summation: Summation,
+}
+
+/// A film of a part of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartialFilm {
+    pub(super) layout: FilmLayout,
+    pub(super) counts: Counts,
+    /// Of each tile of the picture the nodes that are there, in order, those of a whole subtree
+    /// joined.
+    pub(super) tiles: Vec<Vec<SumNode>>,
+}
+
+/// A node of the tree over the blocks of samples, with its sums of the pixels of a tile.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SumNode {
+    /// Its leaves.
+    pub(super) blocks: Range<u32>,
+    /// One for each pixel, row by row.
+    pub(super) sums: Vec<PixelSum>,
+}
+
+/// Why a part of a picture cannot be made, loaded, added or developed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FilmError {
+    /// Parts by samples of a picture whose samples are summed one after the other.
+    Inseparable,
+    /// Samples that are not whole blocks of the picture's.
+    Misaligned(Range<u32>),
+    /// Two parts of different pictures.
+    OtherPicture,
+    /// Two parts with the same block of samples of the tile whose upper left pixel is given.
+    Overlap([u32; 2]),
+    /// Samples of the tile whose upper left pixel is given are missing.
+    Missing([u32; 2]),
+    /// More pixels than are allowed.
+    TooLarge(u64),
+    /// Bytes of something else.
+    NotAFilm,
+    /// Bytes of another version of the format.
+    Version(u32),
+    /// Bytes that are damaged, and what is wrong with them.
+    Corrupt(&'static str),
+}
+
+impl fmt::Display for FilmError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Inseparable => {
+                write!(f, "only pictures of traced paths have parts by samples")
+            }
+            Self::Misaligned(Range { start, end }) => write!(
+                f,
+                "samples {start} to {end} are not whole blocks of {BLOCK}"
+            ),
+            Self::OtherPicture => write!(f, "the parts are of different pictures"),
+            Self::Overlap([x, y]) => write!(f, "the tile at ({x}, {y}) is in both parts"),
+            Self::Missing([x, y]) => write!(f, "samples of the tile at ({x}, {y}) are missing"),
+            Self::TooLarge(pixels) => write!(f, "a film of {pixels} pixels is too large"),
+            Self::NotAFilm => write!(f, "the bytes are not a film"),
+            Self::Version(version) => write!(f, "version {version} of films is unknown"),
+            Self::Corrupt(what) => write!(f, "the film is damaged: {what}"),
+        }
+    }
+}
+
+impl std::error::Error for FilmError {}
+
+impl FilmLayout {
+    /// How many leaves the tree of sums has.
+    pub(super) fn blocks(&self) -> u32 {
+        match self.summation {
+            Summation::InOrder | Summation::Distance => 1,
+            Summation::InBlocks(samples) => samples.div_ceil(BLOCK),
+        }
+    }
+
+    /// The samples of a node; of a picture of one node, as many as there are.
+    pub(in crate::render) fn samples_of(&self, blocks: &Range<u32>) -> Range<u32> {
+        let Summation::InBlocks(samples) = self.summation else {
+            return 0..u32::MAX;
+        };
+        let sample = |block: u32| block.saturating_mul(BLOCK).min(samples);
+        sample(blocks.start)..sample(blocks.end)
+    }
+
+    /// All samples.
+    pub(in crate::render) fn all_samples(&self) -> Range<u32> {
+        self.samples_of(&(0..self.blocks()))
+    }
+
+    /// The largest nodes of the tree that a range of samples consists of, or all of them.
+    ///
+    /// # Errors
+    /// If the range is not of whole blocks, or the samples are not summed in blocks.
+    pub(in crate::render) fn nodes_of(
+        &self,
+        samples: Option<Range<u32>>,
+    ) -> Result<Vec<Range<u32>>, FilmError> {
+        let blocks = match samples {
+            None => 0..self.blocks(),
+            Some(samples) => self.blocks_of(samples)?,
+        };
+        let (mut nodes, mut start) = (Vec::new(), blocks.start);
+        while start < blocks.end {
+            // The largest node that begins here and ends in time; a leaf always does.
+            let ends = (0..=start.trailing_zeros().min(31)).rev();
+            let mut ends = ends.map(|level| self.clipped(start, level));
+            let end = ends.find(|end| *end <= blocks.end).unwrap_or(blocks.end);
+            nodes.push(start..end);
+            start = end;
+        }
+        Ok(nodes)
+    }
+
+    /// The blocks that a range of samples is.
+    fn blocks_of(&self, samples: Range<u32>) -> Result<Range<u32>, FilmError> {
+        let Summation::InBlocks(_) = self.summation else {
+            return Err(FilmError::Inseparable);
+        };
+        let blocks = samples.start / BLOCK..samples.end.div_ceil(BLOCK);
+        let is_whole = !samples.is_empty() && self.samples_of(&blocks) == samples;
+        is_whole
+            .then_some(blocks)
+            .ok_or(FilmError::Misaligned(samples))
+    }
+
+    /// The end of the node of `2^level` blocks from `start` on, so far as there are blocks.
+    fn clipped(&self, start: u32, level: u32) -> u32 {
+        let end = u64::from(start) + (1 << level);
+        end.try_into().unwrap_or(u32::MAX).min(self.blocks())
+    }
+
+    /// Whether a range of blocks is a node of the tree.
+    pub(super) fn is_node(&self, blocks: &Range<u32>) -> bool {
+        let Range { start, end } = *blocks;
+        start < end && end <= self.blocks() && {
+            let level = (end - start).next_power_of_two().trailing_zeros();
+            start.trailing_zeros() >= level && self.clipped(start, level) == end
+        }
+    }
+
+    /// Whether two nodes are the children of one node.
+    fn are_siblings(&self, left: &Range<u32>, right: &Range<u32>) -> bool {
+        left.end == right.start
+            && (left.end - left.start).is_power_of_two()
+            && self.is_node(&(left.start..right.end))
+    }
+
+    /// The picture of all sums.
+    pub(in crate::render) fn develop(&self, film: &Tiled<PixelSum>, counts: Counts) -> Film {
+        let pixels = match (self.summation, self.values) {
+            (Summation::Distance, _) => depths(film),
+            (Summation::InBlocks(_), Values::Display) => {
+                let shown = |sum: &PixelSum| DISPLAY.display(sum.mean());
+                film.iter().map(shown).collect()
+            }
+            (Summation::InBlocks(_) | Summation::InOrder, _) => {
+                film.iter().map(PixelSum::mean).collect()
+            }
+        };
+        let Crop { width, height, .. } = self.crop;
+        let image = Image {
+            width,
+            height,
+            pixels,
+        };
+        let coverage = film.iter().map(PixelSum::coverage).collect();
+        Film {
+            image,
+            coverage,
+            counts,
+        }
+    }
+}
+
+/// Distances as greys, the nearest of all white, the farthest black: `(t_max − t)/(t_max − t_min)`.
+fn depths(film: &Tiled<PixelSum>) -> Vec<[f64; 3]> {
+    let hits = film.iter().filter(|sum| sum.hits > 0);
+    let (near, far) = hits.fold((f64::INFINITY, 0.0_f64), |(near, far), sum| {
+        (near.min(sum.radiance.x), far.max(sum.radiance.x))
+    });
+    let grey = |sum: &PixelSum| match far - near {
+        _ if sum.hits == 0 => 0.0,
+        range if range > 0.0 => (far - sum.radiance.x) / range,
+        _ => 1.0,
+    };
+    film.iter().map(|sum| [grey(sum); 3]).collect()
+}
+
+impl PartialFilm {
+    /// A film without samples.
+    pub(in crate::render) fn new(layout: FilmLayout) -> Self {
+        Self {
+            layout,
+            counts: Counts::default(),
+            tiles: vec![Vec::new(); tiles_of(layout.crop).count()],
+        }
+    }
+
+    /// A node of the tiles selected, as rendered.
+    pub(in crate::render) fn of(
+        layout: FilmLayout,
+        blocks: &Range<u32>,
+        mut film: Tiled<PixelSum>,
+        tiles: Option<Tiles>,
+        counts: Counts,
+    ) -> Self {
+        let mut part = Self::new(layout);
+        part.counts = counts;
+        for ((area, sums), nodes) in film.tiles_mut().into_iter().zip(&mut part.tiles) {
+            if tiles.is_none_or(|tiles| tiles.contain([area.x, area.y])) {
+                let (blocks, sums) = (blocks.clone(), sums.to_vec());
+                nodes.push(SumNode { blocks, sums });
+            }
+        }
+        part
+    }
+
+    /// Adds the samples and the rays of another part.
+    ///
+    /// # Errors
+    /// If it is of another picture, or has samples that are here already; this part is then as
+    /// before.
+    pub fn add(&mut self, other: Self) -> Result<(), FilmError> {
+        if self.layout != other.layout {
+            return Err(FilmError::OtherPicture);
+        }
+        let both = self.tiles.iter().zip(&other.tiles);
+        for (area, (nodes, others)) in tiles_of(self.layout.crop).zip(both) {
+            if others.iter().any(|other| position(nodes, other).is_none()) {
+                return Err(FilmError::Overlap([area.x, area.y]));
+            }
+        }
+        for (nodes, others) in self.tiles.iter_mut().zip(other.tiles) {
+            for node in others {
+                insert(&self.layout, nodes, node);
+            }
+        }
+        self.counts = self.counts.plus(other.counts);
+        Ok(())
+    }
+
+    /// The picture, once all samples of all tiles are there.
+    ///
+    /// # Errors
+    /// If samples are missing.
+    pub fn develop(&self) -> Result<Film, FilmError> {
+        let mut film = Tiled::new(self.layout.crop, PixelSum::default());
+        let all = 0..self.layout.blocks();
+        for ((area, sums), nodes) in film.tiles_mut().into_iter().zip(&self.tiles) {
+            match nodes.as_slice() {
+                [node] if node.blocks == all => sums.copy_from_slice(&node.sums),
+                _ => return Err(FilmError::Missing([area.x, area.y])),
+            }
+        }
+        Ok(self.layout.develop(&film, self.counts))
+    }
+}
+
+/// Where a node belongs among others; `None` if it shares a block with one of them.
+pub(super) fn position(nodes: &[SumNode], node: &SumNode) -> Option<usize> {
+    let at = nodes.partition_point(|other| other.blocks.end <= node.blocks.start);
+    let is_free = |next: &SumNode| next.blocks.start >= node.blocks.end;
+    nodes.get(at).is_none_or(is_free).then_some(at)
+}
+
+/// Adds a node that shares no block with the others, and joins siblings.
+pub(super) fn insert(layout: &FilmLayout, nodes: &mut Vec<SumNode>, node: SumNode) {
+    let Some(mut at) = position(nodes, &node) else {
+        return;
+    };
+    nodes.insert(at, node);
+    loop {
+        let joins = |left: usize| {
+            let pair = nodes.get(left..left + 2);
+            pair.is_some_and(|pair| layout.are_siblings(&pair[0].blocks, &pair[1].blocks))
+        };
+        if at > 0 && joins(at - 1) {
+            at -= 1;
+        } else if !joins(at) {
+            return;
+        }
+        let right = nodes.remove(at + 1);
+        nodes[at].join(right);
+    }
+}
+
+impl SumNode {
+    /// Adds the sibling to the right: each sum is left plus right, whichever came first.
+    fn join(&mut self, right: Self) {
+        self.blocks.end = right.blocks.end;
+        for (left, right) in self.sums.iter_mut().zip(right.sums) {
+            *left = *left + right;
+        }
+    }
+}

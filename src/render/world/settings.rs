@@ -1,0 +1,141 @@
+//! The settings and the camera of a world.
+
+use super::World;
+use crate::plan::Plan;
+use crate::render::camera::grid::{Grid, Pattern};
+use crate::render::camera::{Camera, Projection};
+use crate::valid::{self, Proof};
+
+/// By which rules the picture is made.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Settings {
+    /// What a pixel shows.
+    pub(in crate::render) mode: Mode,
+    /// Whether surfaces hide lights from each other.
+    pub(in crate::render) shadows: bool,
+    /// Whether rough surfaces keep the light that bounces between their facets, where paths are
+    /// traced.
+    pub(in crate::render) multiple_scattering: bool,
+    /// The points of each soft light.
+    pub(in crate::render) light_samples: u32,
+    /// How the samples of a pixel are laid out, where no paths are traced.
+    pub(in crate::render) grid: Grid,
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) enum Mode {
+    /// Phong's model.
+    Phong,
+    /// The distance of the first hit.
+    Depth,
+    /// The normal of the first hit.
+    Normal,
+    /// Gooch's cool-to-warm shading.
+    Gooch(Gooch),
+    /// The light along all paths, of which a pixel has so many.
+    Path(u32),
+}
+
+/// The parameters of Gooch shading.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Gooch {
+    /// The blue of the cool colour.
+    pub(in crate::render) b: f64,
+    /// The yellow of the warm colour.
+    pub(in crate::render) y: f64,
+    /// The fraction of the surface's colour in the cool tone.
+    pub(in crate::render) alpha: f64,
+    /// The fraction of the surface's colour in the warm tone.
+    pub(in crate::render) beta: f64,
+}
+
+impl<S> World<S> {
+    /// The scene that is shown.
+    pub(super) fn scene(&self) -> &Proof {
+        &self.scene
+    }
+
+    /// Shows another scene, which differs from the one before in its camera and settings alone, by
+    /// a plan for it.
+    pub(super) fn show(&mut self, scene: Proof, plan: Plan) {
+        self.camera = camera(scene.camera());
+        self.settings = settings(&scene);
+        (self.scene, self.plan) = (scene, plan);
+    }
+}
+
+pub(super) fn camera(camera: &valid::Camera) -> Camera {
+    let valid::Camera {
+        eye,
+        center,
+        right,
+        up,
+        width,
+        height,
+        lens,
+        projection,
+    } = *camera;
+    let lens_radius = lens.radius.get();
+    Camera {
+        eye,
+        center,
+        right,
+        up,
+        size: [width.get(), height.get()],
+        lens_radius,
+        lens_samples: if lens_radius == 0.0 {
+            1
+        } else {
+            lens.samples.get()
+        },
+        projection: match projection {
+            valid::Projection::Perspective => Projection::Perspective,
+            valid::Projection::Orthographic => Projection::Orthographic,
+        },
+    }
+}
+
+pub(super) fn settings(scene: &Proof) -> Settings {
+    let valid::Settings {
+        mode,
+        shadows,
+        max_depth: _,
+        supersampling,
+        pattern,
+        light_samples,
+    } = *scene.settings();
+    let pattern = match pattern {
+        valid::Pattern::Grid => Pattern::Grid,
+        valid::Pattern::Jitter => Pattern::Jitter,
+        valid::Pattern::Random => Pattern::Random,
+    };
+    let points = camera(scene.camera()).lens_samples;
+    let multiple_scattering = matches!(mode, valid::Mode::Path(path) if path.multiple_scattering);
+    let mode = prepared_mode(mode);
+    Settings {
+        mode,
+        shadows,
+        multiple_scattering,
+        light_samples: light_samples.get(),
+        grid: match mode {
+            // A depth buffer has one ray through the middle of each pixel.
+            Mode::Depth => Grid::MIDDLE,
+            Mode::Phong | Mode::Normal | Mode::Gooch(_) | Mode::Path(_) => {
+                Grid::new(supersampling.get(), points, pattern)
+            }
+        },
+    }
+}
+
+fn prepared_mode(mode: valid::Mode) -> Mode {
+    match mode {
+        valid::Mode::Phong => Mode::Phong,
+        valid::Mode::Zbuffer => Mode::Depth,
+        valid::Mode::Normal => Mode::Normal,
+        valid::Mode::Gooch(valid::Gooch { b, y, alpha, beta }) => {
+            Mode::Gooch(Gooch { b, y, alpha, beta })
+        }
+        valid::Mode::Path(path) => Mode::Path(path.samples.get()),
+    }
+}

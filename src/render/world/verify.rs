@@ -1,0 +1,87 @@
+//! Validation of a plan: the picture is made once more with everything that was left out.
+
+use super::World;
+use super::any::render;
+use super::shape::Prepare;
+use crate::plan::{Arithmetic, Effect, Plan, Rule, Rules};
+use crate::render::film::heartbeat::OnPixel;
+use crate::render::film::{Crop, Film, Job};
+use crate::render::frame::verify::{Mismatch, Verify, first_difference};
+use crate::render::shape::Shape;
+use crate::render::shape::plain::PlainShape;
+use crate::valid::Proof;
+
+/// Renders as planned and without rules, and compares: `None` if `on_pixel` said stop, else the
+/// film as planned, or the first fault.
+///
+/// # Errors
+/// If something that was left out adds something.
+pub fn verify(
+    scene: &Proof,
+    plan: &Plan,
+    job: &Job,
+    on_pixel: &OnPixel<'_>,
+) -> Option<Result<Film, Mismatch>> {
+    let planned = render(scene, plan, job, on_pixel)?;
+    let (naive, verify) = match plan.arithmetic {
+        Arithmetic::Robust => naively::<Shape>(scene, plan, job, on_pixel)?,
+        Arithmetic::Plain => naively::<PlainShape<f64>>(scene, plan, job, on_pixel)?,
+        Arithmetic::F32 => naively::<PlainShape<f32>>(scene, plan, job, on_pixel)?,
+    };
+    if !plan.rules.contains(Rule::Cut)
+        && let Some((pixel, color)) = first_difference(&planned, &naive, job)
+    {
+        verify.keep(blame(scene, plan, job, pixel, color, on_pixel)?);
+    }
+    Some(verify.into_first().map_or(Ok(planned), Err))
+}
+
+/// The film without rules, and what it shows of a plan.
+fn naively<S: Prepare>(
+    scene: &Proof,
+    plan: &Plan,
+    job: &Job,
+    on_pixel: &OnPixel<'_>,
+) -> Option<(Film, Verify)> {
+    let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
+    world.verify = Some(Verify::new(plan.clone()));
+    let naive = world.render_by_few(job, on_pixel)?;
+    Some((naive, world.verify?))
+}
+
+/// The rule without which a pixel has the value it has without all rules; `None` if `on_pixel` said
+/// stop.
+fn blame(
+    scene: &Proof,
+    plan: &Plan,
+    job: &Job,
+    pixel: [u32; 2],
+    color: [f64; 3],
+    on_pixel: &OnPixel<'_>,
+) -> Option<Mismatch> {
+    let [x, y] = pixel;
+    let crop = Some(Crop {
+        x,
+        y,
+        width: 1,
+        height: 1,
+    });
+    let mut mismatch = Mismatch {
+        pixel,
+        effect: Effect::Surfaces,
+        rule: None,
+        what: "the pixel is another without the rules",
+    };
+    for verdict in &plan.verdicts {
+        let Some(rule) = verdict.rule.filter(|rule| plan.rules.contains(*rule)) else {
+            continue;
+        };
+        let without = Plan::by(plan.arithmetic, scene, plan.rules.without(rule));
+        let film = render(scene, &without, &Job { crop, ..*job }, on_pixel)?;
+        if film.image.pixels.first() == Some(&color) {
+            (mismatch.effect, mismatch.rule) = (verdict.effect, Some(rule));
+            break;
+        }
+    }
+    Some(mismatch)
+}
