@@ -57,8 +57,34 @@ pub(in crate::render) trait Accumulator {
     fn close(self) -> Self::Kept;
 }
 
-/// The samples that a pixel is to take: of each stream a range.
-pub(in crate::render) type SampleRanges = arrayvec::ArrayVec<(Stream, Range<u32>), 4>;
+/// The samples that a pixel is to take.
+#[derive(Clone, Debug)]
+pub(in crate::render) enum SampleRanges {
+    /// A range of those that the scene asks for.
+    Picture(Seeds, Range<u32>),
+    /// A range of each of the four replicates, one for those of each half; keyed by a seed.
+    Replicates(u64, [Range<u32>; 2]),
+}
+
+impl SampleRanges {
+    /// The k-th stream that samples are taken of, and which of them; `None` after the last.
+    #[inline]
+    pub(in crate::render) fn stream(&self, k: usize) -> Option<(Stream, Range<u32>)> {
+        match self {
+            Self::Picture(seeds, samples) => {
+                (k == 0).then(|| (Stream::Picture(*seeds), samples.clone()))
+            }
+            Self::Replicates(seed, halves) => {
+                let number = (seed << 2 | k as u64).wrapping_add(1);
+                let stream = Stream::Replicate {
+                    replicate: k,
+                    number,
+                };
+                halves.get(k / 2).map(|samples| (stream, samples.clone()))
+            }
+        }
+    }
+}
 
 /// The sum of samples of a pixel: what a film keeps of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

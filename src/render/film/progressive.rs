@@ -84,12 +84,8 @@ impl ProgressiveFilm {
         pixel: &Replicates,
         wanted: [u32; 2],
     ) -> SampleRanges {
-        let replicate = |replicate: usize| {
-            let number = (seed << 2 | replicate as u64).wrapping_add(1);
-            let samples = pixel.counts[replicate / 2]..wanted[replicate / 2];
-            (Stream::Replicate { replicate, number }, samples)
-        };
-        (0..4).map(replicate).collect()
+        let samples = |half: usize| pixel.counts[half]..wanted[half];
+        SampleRanges::Replicates(seed, [0, 1].map(samples))
     }
 
     /// The number that the samples are keyed by.

@@ -45,7 +45,21 @@ impl<K> Tiled<K> {
 
     /// The values row by row.
     pub(in crate::render) fn iter(&self) -> impl Iterator<Item = &K> {
-        (0..self.pixels.len()).map(|index| self.at(index))
+        (0..self.crop.height).flat_map(|row| self.row(row))
+    }
+
+    /// The values of a row of the part held: its pieces of one row of tiles.
+    fn row(&self, row: u32) -> impl Iterator<Item = &K> {
+        let Crop {
+            x, width, height, ..
+        } = self.crop;
+        let (row, height) = (row as usize, height as usize);
+        let (top, tile_height) = tile_around(self.crop.y, row, height);
+        cuts(x, width).flat_map(move |columns| {
+            let (left, piece) = ((columns.start - x) as usize, columns.len());
+            let start = top * width as usize + left * tile_height + (row - top) * piece;
+            &self.pixels[start..start + piece]
+        })
     }
 
     /// All tiles, each with its rectangle of the picture and its values in rows.

@@ -5,7 +5,7 @@ use crate::image::Image;
 use crate::plan::{Features, PixelClass};
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, FilmLayout, PartialFilm, Summation};
-use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges, Stream};
+use crate::render::film::pixel::{InBlocks, InOrder, PixelSum, SampleRanges};
 use crate::render::film::tiled::Tiled;
 use crate::render::film::{Counts, Crop, Film, Job};
 use crate::render::integrator::first_hit::{Depth, Distance};
@@ -167,9 +167,7 @@ fn limited(job: &Job, samples: u32) -> u32 {
 
 /// The samples of a pixel that a job asks for.
 pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
-    let mut asked = SampleRanges::new();
-    asked.push((Stream::Picture(job.seeds), samples));
-    asked
+    SampleRanges::Picture(job.seeds, samples)
 }
 
 /// The pixels of `crop`, out of those of the whole picture; a film of `crop` already stays as it

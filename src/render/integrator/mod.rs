@@ -36,7 +36,7 @@ pub(in crate::render) trait Integrator<'run>: Sized {
     fn render<A: Accumulator<Sample = Self::Sample>>(&mut self, tile: &mut Tile<'_, A>) -> bool {
         while let Some(mut pixel) = tile.next_pixel() {
             self.heartbeat().begin(pixel.at);
-            for (stream, samples) in pixel.asked.take() {
+            for (stream, samples) in (0..).map_while(|k| pixel.asked.stream(k)) {
                 let mut id = SampleId {
                     pixel: pixel.at,
                     stream,
