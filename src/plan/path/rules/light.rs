@@ -9,7 +9,7 @@ use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
 use crate::plan::space::{MARGIN, Sides, Space};
-use crate::valid::{Falloff, Punctual};
+use crate::valid::{Alpha, Falloff, Punctual};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -124,7 +124,9 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
     let mut places = draft.punctual.iter().filter_map(position);
-    let is_plain = material.transmission == UnitInterval::ZERO && material.emissive == Vec3::ZERO;
+    let keeps_rays_out =
+        material.transmission == UnitInterval::ZERO && material.alpha == Alpha::Opaque;
+    let is_dark = material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
         Hull::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
@@ -133,7 +135,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         }
         Hull::Other => false,
     };
-    is_plain && is_perspective && spares
+    keeps_rays_out && is_dark && is_perspective && spares
 }
 
 /// Whether all texels are black.
