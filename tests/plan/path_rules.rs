@@ -2,9 +2,11 @@
 //! does not. The first is told so, the second is not, and the picture of neither changes a bit.
 
 use super::proven;
-use super::stage::{ball, stage};
+use super::stage::{ball, disc, stage};
 use super::told::{difference, film};
-use rtc::ir::{Alpha, Material, MaterialId, Mode, PathSettings, Scene, Shape, Standard, Surface};
+use rtc::ir::{
+    self, Alpha, Material, MaterialId, Mode, PathSettings, Scene, Shape, Standard, Surface,
+};
 use rtc::plan::{Plan, Rule, Rules};
 
 /// White without reflection, seen from both sides.
@@ -33,6 +35,26 @@ fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
         });
     }
     scene
+}
+
+/// Adds a mesh, and returns an instance of it.
+fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
+    scene.meshes.push(mesh);
+    Shape::Instance(ir::Instance {
+        mesh: ir::MeshId(scene.meshes.len() as u32 - 1),
+        world_from_object: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
+    })
+}
+
+/// A triangle across the view.
+fn across() -> ir::Mesh {
+    ir::Mesh {
+        name: "across".to_owned(),
+        positions: vec![[-2.0, -2.0, 1.0], [2.0, -2.0, 1.1], [0.0, 2.0, 1.3]].into(),
+        uvs: vec![[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]].into(),
+        triangles: vec![[0, 1, 2]].into(),
+        ..ir::Mesh::default()
+    }
 }
 
 /// Whether a rule removes an effect from a scene. The picture by it, and by all rules, keeps its
@@ -69,4 +91,27 @@ fn a_solid_alone_casts_no_shadow_unless_rays_get_inside() {
         alpha: opaque,
         ..white()
     }));
+}
+
+#[test]
+fn alpha_of_corners_is_not_taken_for_1_where_it_is_interpolated() {
+    let masked = Standard {
+        alpha: Alpha::Mask(1.0),
+        ..white()
+    };
+    let cover = |colors: Vec<[f64; 4]>| {
+        let mut scene = traced(&[(disc([0.0; 3], 4.0), white())]);
+        let mut mesh = across();
+        mesh.colors = colors.into();
+        let shape = placed(&mut scene, mesh);
+        let material = MaterialId(scene.materials.len() as u32);
+        scene.surfaces.push(Surface { shape, material });
+        scene
+            .materials
+            .push(Material::Standard(Box::new(masked.clone())));
+        scene
+    };
+    assert!(fires(Rule::PathOpaque, &cover(Vec::new())));
+    // The weights of some points add up to a little less than 1.
+    assert!(!fires(Rule::PathOpaque, &cover(vec![[1.0; 4]; 3])));
 }

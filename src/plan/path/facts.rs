@@ -14,8 +14,9 @@ pub(super) struct Uses {
     pub(super) sets: [Presence; 2],
     /// Per set, the bounding rectangle of all coordinates.
     areas: [Area; 2],
-    /// The minimum alpha of the vertex colours.
-    pub(super) least_alpha: f64,
+    /// Whether any surface has vertex colours. Rounding of their interpolation may leave an alpha
+    /// just below those of the corners.
+    pub(super) has_colors: bool,
 }
 
 /// Whether all, some or none of a material's surfaces have a property.
@@ -45,7 +46,7 @@ impl Uses {
             surfaces: Vec::new(),
             sets: [Presence::Never; 2],
             areas: [Area::NONE; 2],
-            least_alpha: 1.0,
+            has_colors: false,
         };
         let mut uses = vec![unused; scene.materials().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
@@ -61,9 +62,7 @@ impl Uses {
             self.areas[set] = self.areas[set].around(area.unwrap_or(Area::NONE));
         }
         if let Shape::Instance(instance) = shape {
-            let colors = scene.meshes()[instance.mesh].colors.iter();
-            let alpha = colors.map(|[_, _, _, alpha]| alpha);
-            self.least_alpha = alpha.fold(self.least_alpha, f64::min);
+            self.has_colors |= !scene.meshes()[instance.mesh].colors.is_empty();
         }
         self.surfaces.push(surface);
     }

@@ -97,7 +97,8 @@ pub(super) const OPAQUE: PathRule = PathRule {
     rule: Rule::PathOpaque,
     name: "P-ALPHA",
     text: "A material whose alpha is 1 wherever a surface lies on its texture, or that is masked and \
-           whose alpha is above the cutoff there, covers what is behind it: it is opaque.",
+           whose alpha is above the cutoff there, covers what is behind it: it is opaque. Not where \
+           surfaces have colours at their corners, whose alpha is interpolated.",
     because: "alpha is 1, or above the cutoff, wherever a surface lies",
     apply: |draft| {
         simplify(draft, |draft, index, material| {
@@ -120,11 +121,11 @@ fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
     /// A margin above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
     let [min, max] = draft.channel(index, material.base_color_map.as_ref(), 3);
-    let corners = draft.uses[index].least_alpha;
-    let alpha = material.base_color[3].get() * min * corners;
-    let is_exact = min == max && corners == 1.0;
+    let alpha = material.base_color[3].get() * min;
+    let is_exact = min == max;
     match material.alpha {
         Alpha::Opaque => true,
+        Alpha::Mask(_) | Alpha::Blend if draft.uses[index].has_colors => false,
         Alpha::Mask(cutoff) => alpha > cutoff.get() + MARGIN || (is_exact && alpha >= cutoff.get()),
         Alpha::Blend => is_exact && alpha >= 1.0,
     }
