@@ -3,13 +3,14 @@
 
 use super::facts::{Presence, Uses};
 use super::rules::PathRule;
-use super::texture::is_even;
+use super::texture::TextureValues;
 use crate::ir::Place;
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
 use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard};
+use std::ops::Range;
 
 /// The part of a scene that is still in the plan.
 #[derive(Clone)]
@@ -20,6 +21,8 @@ pub(super) struct Draft<'scene> {
     pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.
     pub(super) uses: &'scene [Uses],
+    /// What its textures show.
+    pub(super) textures: &'scene TextureValues<'scene>,
     /// Per surface, its bounds.
     pub(super) bodies: &'scene [Body],
     /// Per surface, its footprint in the picture.
@@ -188,20 +191,28 @@ impl Draft<'_> {
 
     /// Whether a map of a material is folded into a constant.
     pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
-        has_places && self.folded[map.texture]
+        let presence = self.uses[material].presence(map);
+        presence == Presence::Everywhere && self.folded[map.texture]
     }
 
     /// Whether a map is constant, so that it could be folded.
     pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
-        has_places && is_even(map, self.scene)
+        let presence = self.uses[material].presence(map);
+        presence == Presence::Everywhere && self.textures.is_even(map)
     }
 
-    /// The minimum and maximum of a channel of a map; ones without a map.
-    pub(super) fn channel(&self, material: usize, map: Option<&Map>, channel: usize) -> [f64; 2] {
-        map.map_or([1.0; 2], |map| {
-            self.uses[material].range(map, self.scene)[channel]
+    /// Whether a map is 0 in some channels on all surfaces of a material; not without a map.
+    pub(super) fn is_zero(
+        &self,
+        material: usize,
+        map: Option<&Map>,
+        channels: Range<usize>,
+    ) -> bool {
+        map.is_some_and(|map| {
+            let value = |channel| self.uses[material].value(map, channel, self.textures);
+            channels
+                .into_iter()
+                .all(|channel| value(channel) == Some(0.0))
         })
     }
 

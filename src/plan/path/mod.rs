@@ -22,6 +22,7 @@ use crate::math::Vec3;
 use crate::valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
 use draft::{Applied, Draft};
 use facts::Uses;
+use texture::TextureValues;
 
 /// The work that traced paths need.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +63,7 @@ pub(super) struct Planned {
 
 /// Plans the paths of a scene.
 pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
-    let (uses, bodies) = (Uses::of(scene), bodies(scene));
+    let (uses, bodies, textures) = (Uses::of(scene), bodies(scene), TextureValues::new(scene));
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
     let is_pinhole = camera.lens.radius.get() == 0.0;
@@ -77,6 +78,7 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
         scene,
         path,
         uses: &uses,
+        textures: &textures,
         bodies: &bodies,
         shown: &shown,
         punctual: &punctual,

@@ -31,7 +31,6 @@ pub(super) const UNSEEN: PathRule = PathRule {
 
 fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
     let mut new = draft.materials[index].clone();
-    let sets = draft.uses[index].sets;
     let m = &draft.materials[index];
     let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_shaded = draft.max_depth > 0 && !m.unlit;
@@ -82,7 +81,7 @@ fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
         ),
     ];
     for (map, shows) in conditions {
-        let has_places = |map: &Map| sets[map.set.index()] != Presence::Never;
+        let has_places = |map: &Map| draft.uses[index].presence(map) != Presence::Never;
         if !(shows && map.as_ref().is_some_and(has_places)) {
             *map = None;
         }
