@@ -4,12 +4,12 @@
 use super::facts::{Presence, Uses};
 use super::rules::PathRule;
 use super::texture::TextureValues;
-use crate::ir::Place;
+use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard};
+use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
 use std::ops::Range;
 
 /// The part of a scene that is still in the plan.
@@ -89,6 +89,21 @@ impl Draft<'_> {
         })
     }
 
+    /// Simplifies the materials that are in use; returns the places of the changed ones.
+    pub(super) fn simplify(
+        &mut self,
+        simplified: impl Fn(&Self, usize, &Standard) -> Standard,
+    ) -> Vec<Place> {
+        let new = |(index, material)| (index, simplified(self, index, material));
+        let is_new = |(index, new): &(usize, Standard)| *new != self.materials[*index];
+        let changed: Vec<_> = self.used().map(new).filter(is_new).collect();
+        let put = |(index, new): (usize, Standard)| {
+            self.materials[index] = new;
+            Place::new(Noun::Material, index, Field::Whole)
+        };
+        changed.into_iter().map(put).collect()
+    }
+
     /// The materials with a surface in the world, each with its index.
     pub(super) fn used(&self) -> impl Iterator<Item = (usize, &Standard)> {
         let is_used = |material: &usize| {
@@ -155,17 +170,20 @@ impl Draft<'_> {
         }
     }
 
-    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+    /// The surfaces in the world.
+    fn used_surfaces(&self) -> impl Iterator<Item = &Surface> {
         let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
-        surfaces
-            .filter(|(_, is_left)| **is_left)
-            .filter_map(|(surface, _)| {
-                if let Shape::Instance(instance) = &surface.shape {
-                    Some(&*self.scene.meshes()[instance.mesh])
-                } else {
-                    None
-                }
-            })
+        surfaces.filter_map(|(surface, is_left)| is_left.then_some(surface))
+    }
+
+    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+        self.used_surfaces().filter_map(|surface| {
+            if let Shape::Instance(instance) = &surface.shape {
+                Some(&*self.scene.meshes()[instance.mesh])
+            } else {
+                None
+            }
+        })
     }
 
     fn any_mesh(&self, has: impl Fn(&Mesh) -> bool) -> bool {
@@ -191,14 +209,17 @@ impl Draft<'_> {
 
     /// Whether a map of a material is folded into a constant.
     pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
-        let presence = self.uses[material].presence(map);
-        presence == Presence::Everywhere && self.folded[map.texture]
+        self.is_everywhere(material, map) && self.folded[map.texture]
     }
 
     /// Whether a map is constant, so that it could be folded.
     pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
-        let presence = self.uses[material].presence(map);
-        presence == Presence::Everywhere && self.textures.is_even(map)
+        self.is_everywhere(material, map) && self.textures.is_even(map)
+    }
+
+    /// Whether all surfaces of a material have the texture coordinates of a map.
+    fn is_everywhere(&self, material: usize, map: &Map) -> bool {
+        self.uses[material].presence(map) == Presence::Everywhere
     }
 
     /// Whether a map is 0 in some channels on all surfaces of a material; not without a map.
@@ -239,11 +260,7 @@ impl Draft<'_> {
             let material = &self.materials[material];
             !material.unlit && material.emissive != Vec3::ZERO
         };
-        let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
-        let mut left = surfaces
-            .filter(|(_, is_left)| **is_left)
-            .map(|(surface, _)| surface);
-        left.any(|surface| {
+        self.used_surfaces().any(|surface| {
             let has_triangles = matches!(surface.shape, Shape::Instance(_) | Shape::Triangle(_));
             shines(surface.material) && has_triangles
         })

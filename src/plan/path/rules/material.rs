@@ -1,33 +1,11 @@
 //! Rules on materials: layers of weight 0, alpha of 1, what an unlit material ignores.
 
 use super::PathRule;
-use crate::ir::{Field, Noun, Place};
 use crate::math::{NonNegative, UnitInterval, Vec3};
 use crate::plan::facts;
 use crate::plan::path::draft::Draft;
 use crate::plan::rules::Rule;
 use crate::valid::{Alpha, Map, Standard};
-
-fn place(material: usize) -> Place {
-    Place::new(Noun::Material, material, Field::Whole)
-}
-
-/// Simplifies the materials that are in use; returns the places of the changed ones.
-fn simplify(
-    draft: &mut Draft<'_>,
-    simplified: impl Fn(&Draft<'_>, usize, &Standard) -> Standard,
-) -> Vec<Place> {
-    let used: Vec<_> = draft.used().map(|(index, _)| index).collect();
-    let mut changed = Vec::new();
-    for index in used {
-        let new = simplified(draft, index, &draft.materials[index]);
-        if new != draft.materials[index] {
-            draft.materials[index] = new;
-            changed.push(place(index));
-        }
-    }
-    changed
-}
 
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,
@@ -36,7 +14,7 @@ pub(super) const ZERO: PathRule = PathRule {
            iridescence, specular reflection or emission whose factor is 0, or whose texture is 0 in \
            the channel that counts, wherever a surface lies on it.",
     because: "its textures are 0 wherever a surface lies on them",
-    apply: |draft| simplify(draft, without_zeros),
+    apply: |draft| draft.simplify(without_zeros),
 };
 
 fn without_zeros(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
@@ -78,7 +56,7 @@ pub(super) const UNLIT: PathRule = PathRule {
     text: "An unlit material shows its base colour and ends the path: nothing else of it counts.",
     because: "the materials that have it are unlit",
     apply: |draft| {
-        simplify(draft, |_, _, material| {
+        draft.simplify(|_, _, material| {
             if !material.unlit {
                 return material.clone();
             }
@@ -102,7 +80,7 @@ pub(super) const OPAQUE: PathRule = PathRule {
            surfaces have colours at their corners, whose alpha is interpolated.",
     because: "alpha is 1, or above the cutoff, wherever a surface lies",
     apply: |draft| {
-        simplify(draft, |draft, index, material| {
+        draft.simplify(|draft, index, material| {
             let is_opaque = covers(draft, index, material);
             let alpha = if is_opaque {
                 Alpha::Opaque
