@@ -5,9 +5,10 @@ use super::proven;
 use super::stage::{ball, disc, stage};
 use super::told::{difference, film};
 use rtc::ir::{
-    self, Alpha, Material, MaterialId, Mode, PathSettings, Scene, Shape, Standard, Surface,
+    self, Alpha, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels, Scene,
+    Shape, Standard, Surface,
 };
-use rtc::plan::{Plan, Rule, Rules};
+use rtc::plan::{Effect, Plan, Rule, Rules};
 
 /// White without reflection, seen from both sides.
 fn white() -> Standard {
@@ -114,4 +115,34 @@ fn alpha_of_corners_is_not_taken_for_1_where_it_is_interpolated() {
     assert!(fires(Rule::PathOpaque, &cover(Vec::new())));
     // The weights of some points add up to a little less than 1.
     assert!(!fires(Rule::PathOpaque, &cover(vec![[1.0; 4]; 3])));
+}
+
+#[test]
+fn an_environment_of_one_value_is_looked_up_once_and_one_of_two_in_every_direction() {
+    let around = |last: [u8; 4]| {
+        let mut scene = traced(&[(ball([0.0; 3], 1.0), white())]);
+        let texel = [200, 150, 100, 255];
+        scene.images.push(ir::Image {
+            name: "sky".to_owned(),
+            width: 2,
+            height: 2,
+            kind: Pixels::Rgba8,
+            pixels: [texel, texel, texel, last].concat().into(),
+        });
+        scene.environment = Some(Environment {
+            radiance: [0.5, 1.0, 2.0],
+            image: Some(ImageId(0)),
+            image_from_world: None,
+        });
+        scene
+    };
+    let (even, uneven) = (around([200, 150, 100, 255]), around([200, 150, 101, 255]));
+    assert!(fires(Rule::PathEvenSky, &even) && !fires(Rule::PathEvenSky, &uneven));
+    let looked_up = |scene| {
+        film(&proven(scene), Rules::ALL)
+            .counts
+            .of(Effect::EnvironmentMap)
+    };
+    assert_eq!(looked_up(&even), 0);
+    assert!(looked_up(&uneven) > 0);
 }

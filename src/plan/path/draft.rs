@@ -33,8 +33,7 @@ pub(super) struct Draft<'scene> {
     pub(super) folded: Vec<bool>,
     /// Per punctual light.
     pub(super) lights: Vec<LightLeft>,
-    /// Whether the environment emits light.
-    pub(super) environment: bool,
+    pub(super) environment: EnvironmentLeft,
     /// Per surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
@@ -54,6 +53,17 @@ pub enum LightLeft {
     Nothing,
     /// Its index in the light distribution; it reaches no surface.
     Place,
+    /// All of it.
+    All,
+}
+
+/// The part of the environment that is still in the plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvironmentLeft {
+    /// Nothing: it emits no light.
+    Nothing,
+    /// The value of its image, which is the same in all directions, and the choice of directions.
+    Constant,
     /// All of it.
     All,
 }
@@ -136,7 +146,10 @@ impl Draft<'_> {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
             Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
-            Effect::Environment => self.environment,
+            Effect::Environment => self.environment != EnvironmentLeft::Nothing,
+            Effect::EnvironmentMap => {
+                self.environment == EnvironmentLeft::All && self.has_environment_image()
+            }
             Effect::Emission | Effect::Unlit | Effect::Alpha => self
                 .used()
                 .any(|(_, material)| is_asked_by(material, effect)),
@@ -250,8 +263,12 @@ impl Draft<'_> {
     /// Whether there is a light that both light sampling and BSDF sampling find: an environment
     /// image, or emissive triangles.
     fn has_extended_light(&self) -> bool {
-        let has_image = self.scene.environment().image.is_some();
-        (self.environment && has_image) || self.shines_somewhere()
+        let shines = self.environment != EnvironmentLeft::Nothing;
+        (shines && self.has_environment_image()) || self.shines_somewhere()
+    }
+
+    fn has_environment_image(&self) -> bool {
+        self.scene.environment().image.is_some()
     }
 
     /// Whether a mesh has an emissive material.
@@ -304,6 +321,7 @@ pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
         | Effect::Lens
         | Effect::Supersampling
         | Effect::Environment
+        | Effect::EnvironmentMap
         | Effect::Mis
         | Effect::Compensation
         | Effect::VertexColors => false,

@@ -10,7 +10,7 @@ pub(in crate::plan) mod rules;
 mod texture;
 mod verdicts;
 
-pub use draft::LightLeft;
+pub use draft::{EnvironmentLeft, LightLeft};
 
 use super::body::bodies;
 use super::effect::{Effect, Verdict};
@@ -34,8 +34,8 @@ pub struct PathPlan {
     folded: Vec<Vec<(usize, UvSet)>>,
     /// Per punctual light.
     pub lights: Vec<LightLeft>,
-    /// Whether the environment emits light.
-    pub environment: bool,
+    /// What is left of the environment.
+    pub environment: EnvironmentLeft,
     /// Whether the last ray of a path may still find light.
     pub last_ray: bool,
     /// The features that the integrator needs.
@@ -89,7 +89,11 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
             .collect(),
         folded: vec![false; scene.textures().len()],
         lights: vec![LightLeft::All; punctual.len()],
-        environment: scene.environment().radiance != Vec3::ZERO,
+        environment: if scene.environment().radiance == Vec3::ZERO {
+            EnvironmentLeft::Nothing
+        } else {
+            EnvironmentLeft::All
+        },
         surfaces: vec![true; bodies.len()],
         max_depth: scene.settings().max_depth,
         last_ray: true,

@@ -70,10 +70,13 @@ impl<'scene> TextureValues<'scene> {
     /// Whether a map is constant.
     pub(super) fn is_even(&self, map: &Map) -> bool {
         let texture = &self.scene.textures()[map.texture];
-        image_of(texture).is_some_and(|image| {
-            let is_even = || self.scene.images()[image].texels.are_even();
-            *self.even[image].get_or_init(is_even)
-        })
+        image_of(texture).is_some_and(|image| self.is_even_image(image))
+    }
+
+    /// Whether all texels of an image are equal.
+    pub(super) fn is_even_image(&self, image: usize) -> bool {
+        let is_even = || self.scene.images()[image].texels.are_even();
+        *self.even[image].get_or_init(is_even)
     }
 
     /// The value of a channel (red, green, blue, alpha) that a map shows everywhere on an area, if

@@ -53,6 +53,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Supersampling => "one path a pixel",
         Effect::Lens => "a pinhole: the lens has radius 0",
         Effect::Environment => "the scene has no environment",
+        Effect::EnvironmentMap => "the environment has no image",
         Effect::Emission => "no material emits light",
         Effect::Unlit => "no material is unlit",
         Effect::Alpha => "all materials are opaque",
@@ -121,6 +122,7 @@ impl Draft<'_> {
                 (because.to_owned(), at(Noun::Settings, Field::Mode))
             }
             Effect::Environment => says("paths that leave the scene find light", Noun::Environment),
+            Effect::EnvironmentMap => says("the environment has an image", Noun::Environment),
             Effect::DirectLight => says(
                 "a surface is lit by a light that can be aimed at",
                 Noun::Light,

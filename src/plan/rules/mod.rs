@@ -47,11 +47,12 @@ pub enum Rule {
     PathDelta,
     PathShadowAlone,
     PathCull,
+    PathEvenSky,
 }
 
 impl Rule {
     /// All rules, those by light first.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 41] = [
         Self::Mode,
         Self::LightBlack,
         Self::LightUnreached,
@@ -92,6 +93,7 @@ impl Rule {
         Self::PathDelta,
         Self::PathShadowAlone,
         Self::PathCull,
+        Self::PathEvenSky,
     ];
 
     /// The name, as `E-SPEC`.
@@ -237,7 +239,8 @@ impl Rule {
             | Self::PathLast
             | Self::PathDelta
             | Self::PathShadowAlone
-            | Self::PathCull => unreachable!("rules for paths are items of `plan::path::rules`"),
+            | Self::PathCull
+            | Self::PathEvenSky => unreachable!("rules for paths are items of `plan::path::rules`"),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::{Body, Hull};
-use crate::plan::path::draft::{Draft, LightLeft};
+use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
 use crate::plan::space::{MARGIN, Sides, Space};
@@ -33,17 +33,42 @@ pub(super) const DARK_SKY: PathRule = PathRule {
     text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
     because: "the environment is black",
     apply: |draft| {
-        let around = draft.scene.environment();
-        let is_dark = around
-            .image
-            .is_some_and(|image| is_black(&draft.scene.images()[image].texels));
-        if !draft.environment || !is_dark {
-            return Vec::new();
-        }
-        draft.environment = false;
-        vec![Place::new(Noun::Environment, 0, Field::Whole)]
+        reduce_environment(draft, EnvironmentLeft::Nothing, |draft, image| {
+            is_black(&draft.scene.images()[image].texels)
+        })
     },
 };
+
+pub(super) const EVEN_SKY: PathRule = PathRule {
+    rule: Rule::PathEvenSky,
+    name: "P-ENV-CONST",
+    text: "An environment image whose texels are all equal shows that value in every direction: what \
+           filtering blends of equal texels is that texel. It is read once, when the scene is \
+           prepared. Directions to it are chosen by its table as before, so that no random number \
+           changes its meaning.",
+    because: "all texels of the environment's image are equal",
+    apply: |draft| {
+        reduce_environment(draft, EnvironmentLeft::Constant, |draft, image| {
+            draft.textures.is_even_image(image)
+        })
+    },
+};
+
+/// Reduces an environment with an image that has a property to `rest`; returns its place if that
+/// changed it.
+fn reduce_environment(
+    draft: &mut Draft<'_>,
+    rest: EnvironmentLeft,
+    has: impl Fn(&Draft<'_>, usize) -> bool,
+) -> Vec<Place> {
+    let image = draft.scene.environment().image;
+    let is_all = draft.environment == EnvironmentLeft::All;
+    if !(is_all && image.is_some_and(|image| has(draft, image))) {
+        return Vec::new();
+    }
+    draft.environment = rest;
+    vec![Place::new(Noun::Environment, 0, Field::Whole)]
+}
 
 pub(super) const OUT_OF_REACH: PathRule = PathRule {
     rule: Rule::PathLightReach,

@@ -26,9 +26,10 @@ pub(in crate::plan) struct PathRule {
 }
 
 /// All rules for paths.
-pub(in crate::plan) const ALL: [&PathRule; 14] = [
+pub(in crate::plan) const ALL: [&PathRule; 15] = [
     &light::BLACK,
     &light::DARK_SKY,
+    &light::EVEN_SKY,
     &material::ZERO,
     &material::UNLIT,
     &texture::UNSEEN,

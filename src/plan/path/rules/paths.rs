@@ -2,6 +2,7 @@
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
+use crate::plan::effect::Effect;
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::rules::Rule;
 use crate::plan::window::Shown;
@@ -15,7 +16,7 @@ fn finds_light(draft: &Draft<'_>) -> bool {
     let glows = |material: &crate::valid::Standard| {
         material.unlit || material.emissive != crate::math::Vec3::ZERO
     };
-    draft.environment || draft.used().any(|(_, material)| glows(material))
+    draft.asks(Effect::Environment) || draft.used().any(|(_, material)| glows(material))
 }
 
 pub(super) const NO_LIGHT: PathRule = PathRule {
@@ -63,7 +64,7 @@ pub(super) const CULL: PathRule = PathRule {
            is met by no ray.",
     because: "no ray of the camera meets it",
     apply: |draft| {
-        if draft.bounces() || draft.asks(crate::plan::Effect::Shadows) {
+        if draft.bounces() || draft.asks(Effect::Shadows) {
             return Vec::new();
         }
         let is_out =
