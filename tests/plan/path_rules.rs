@@ -5,9 +5,10 @@ use super::proven;
 use super::stage::{ball, disc, stage};
 use super::told::{difference, film};
 use rtc::ir::{
-    self, Alpha, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels, Scene,
-    Shape, Standard, Surface,
+    self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
+    Punctual, Scene, Shape, Standard, Surface,
 };
+use rtc::math::Vec3;
 use rtc::plan::{Effect, Plan, Rule, Rules};
 
 /// White without reflection, seen from both sides.
@@ -145,4 +146,34 @@ fn an_environment_of_one_value_is_looked_up_once_and_one_of_two_in_every_directi
     };
     assert_eq!(looked_up(&even), 0);
     assert!(looked_up(&uneven) > 0);
+}
+
+#[test]
+fn a_flat_surface_alone_may_stand_in_the_light_of_a_sun_in_its_plane() {
+    let lit_from = |normal: Vec3, direction: Vec3| {
+        let shape = Shape::Disc(ir::Disc {
+            center: [0.0; 3],
+            normal: normal.to_array(),
+            radius: 2.5,
+        });
+        let mut scene = traced(&[(shape, white())]);
+        // Where coordinates are small, rays start close above the disc.
+        (scene.camera.right, scene.camera.up) = ([1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]);
+        scene.lights = vec![ir::Light::Punctual(Punctual {
+            emitter: Emitter::Sun {
+                direction: direction.to_array(),
+            },
+            intensity: [1.0; 3],
+        })];
+        scene
+    };
+    for k in 0..16 {
+        let normal = Vec3::new(0.3 + 0.01 * f64::from(k), 0.7, 1.0);
+        let along = normal.cross(Vec3::new(0.2, 0.9, 0.1));
+        assert!(!fires(Rule::PathShadowAlone, &lit_from(normal, along)));
+        assert!(fires(
+            Rule::PathShadowAlone,
+            &lit_from(normal, along + normal * 1e-3)
+        ));
+    }
 }

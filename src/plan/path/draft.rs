@@ -262,7 +262,7 @@ impl Draft<'_> {
 
     /// Whether there is a light that both light sampling and BSDF sampling find: an environment
     /// image, or emissive triangles.
-    fn has_extended_light(&self) -> bool {
+    pub(super) fn has_extended_light(&self) -> bool {
         let shines = self.environment != EnvironmentLeft::Nothing;
         (shines && self.has_environment_image()) || self.shines_somewhere()
     }

@@ -8,8 +8,8 @@ use crate::plan::body::{Body, Hull};
 use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
-use crate::plan::space::{MARGIN, Sides, Space};
-use crate::valid::{Alpha, Falloff, Punctual};
+use crate::plan::space::{Flat, MARGIN, Sides, Space};
+use crate::valid::{Alpha, Falloff, PointLight, Punctual, SpotLight};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -114,7 +114,8 @@ pub(super) const ALONE: PathRule = PathRule {
     name: "P-SHADOW-ALONE",
     text: "A convex opaque solid that stands alone, looked at from outside, lies behind the plane that \
            touches it at any of its points, and a light before that plane is not hidden by it. A flat \
-           surface that stands alone hides no light that is off its plane.",
+           surface that stands alone hides no light that is off its plane; of an environment with an image \
+           some directions are not.",
     because: "one convex surface stands alone and does not hide its lights",
     apply: |draft| {
         let mut left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
@@ -148,19 +149,33 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         draft.scene.camera().eye,
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
-    let mut places = draft.punctual.iter().filter_map(position);
     let keeps_rays_out =
         material.transmission == UnitInterval::ZERO && material.alpha == Alpha::Opaque;
     let is_dark = material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
-        Hull::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
+        Hull::Flat(flat) => {
+            let mut lights = draft.punctual.iter();
+            !draft.has_extended_light() && lights.all(|light| is_off(light, &flat))
+        }
         Hull::Ball(..) | Hull::Convex => {
+            let mut places = draft.punctual.iter().filter_map(position);
             body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
         }
         Hull::Other => false,
     };
     keeps_rays_out && is_dark && is_perspective && spares
+}
+
+/// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
+fn is_off(light: &Punctual, flat: &Flat) -> bool {
+    match light {
+        Punctual::Sun(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
+        Punctual::Point(PointLight { position, .. })
+        | Punctual::Spot(SpotLight { position, .. }) => {
+            flat.sides(&point(*position)) != Sides::BOTH
+        }
+    }
 }
 
 /// Whether all texels are black.
