@@ -39,6 +39,26 @@ fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
     scene
 }
 
+/// A white sun.
+fn sun(direction: Vec3) -> ir::Light {
+    let direction = direction.to_array();
+    ir::Light::Punctual(Punctual {
+        emitter: Emitter::Sun { direction },
+        intensity: [1.0; 3],
+    })
+}
+
+/// A white light at a point, which falls off with the square of the distance.
+fn lamp(position: [f64; 3]) -> ir::Light {
+    ir::Light::Punctual(Punctual {
+        emitter: Emitter::Point {
+            position,
+            range: None,
+        },
+        intensity: [40.0; 3],
+    })
+}
+
 /// Adds a mesh, and returns an instance of it.
 fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
     scene.meshes.push(mesh);
@@ -159,12 +179,7 @@ fn a_flat_surface_alone_may_stand_in_the_light_of_a_sun_in_its_plane() {
         let mut scene = traced(&[(shape, white())]);
         // Where coordinates are small, rays start close above the disc.
         (scene.camera.right, scene.camera.up) = ([1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]);
-        scene.lights = vec![ir::Light::Punctual(Punctual {
-            emitter: Emitter::Sun {
-                direction: direction.to_array(),
-            },
-            intensity: [1.0; 3],
-        })];
+        scene.lights = vec![sun(direction)];
         scene
     };
     for k in 0..16 {
@@ -176,4 +191,43 @@ fn a_flat_surface_alone_may_stand_in_the_light_of_a_sun_in_its_plane() {
             &lit_from(normal, along + normal * 1e-3)
         ));
     }
+}
+
+#[test]
+fn what_is_out_of_view_is_left_out_unless_it_may_hide_a_light() {
+    let beside = |center: [f64; 3], depth: u32| {
+        let mirror = Standard {
+            metallic: 1.0,
+            ..white()
+        };
+        let mut scene = traced(&[(ball([0.0; 3], 1.0), white()), (ball(center, 0.2), mirror)]);
+        scene.settings.max_depth = depth;
+        scene
+    };
+    // The light is behind the camera, at (3, 4, 12).
+    let (apart, between) = ([-3.0, -4.0, 12.0], [2.8, 3.7, 11.2]);
+    assert!(fires(Rule::PathCullShadow, &beside(apart, 1)));
+    assert!(!fires(Rule::PathCullShadow, &beside(between, 1)));
+    assert!(
+        !fires(Rule::PathCullShadow, &beside(apart, 2)),
+        "a mirrored ray may meet it"
+    );
+    let by_sun = |center| {
+        let mut scene = beside(center, 1);
+        scene.lights = vec![sun(Vec3::new(3.0, 4.0, 12.0))];
+        scene
+    };
+    assert!(fires(Rule::PathCullShadow, &by_sun(apart)));
+    assert!(!fires(Rule::PathCullShadow, &by_sun(between)));
+    let by_two = |light: ir::Light| {
+        let mut scene = beside(apart, 1);
+        scene.lights = vec![lamp([3.0, 4.0, 12.0]), light];
+        scene
+    };
+    assert!(fires(Rule::PathCullShadow, &by_two(lamp([9.0, 0.0, 9.0]))));
+    let choice = by_two(sun(Vec3::Z));
+    assert!(
+        !fires(Rule::PathCullShadow, &choice),
+        "the scene decides how often the sun is chosen"
+    );
 }

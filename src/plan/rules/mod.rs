@@ -48,11 +48,12 @@ pub enum Rule {
     PathShadowAlone,
     PathCull,
     PathEvenSky,
+    PathCullShadow,
 }
 
 impl Rule {
     /// All rules, those by light first.
-    pub const ALL: [Self; 41] = [
+    pub const ALL: [Self; 42] = [
         Self::Mode,
         Self::LightBlack,
         Self::LightUnreached,
@@ -94,6 +95,7 @@ impl Rule {
         Self::PathShadowAlone,
         Self::PathCull,
         Self::PathEvenSky,
+        Self::PathCullShadow,
     ];
 
     /// The name, as `E-SPEC`.
@@ -240,7 +242,10 @@ impl Rule {
             | Self::PathDelta
             | Self::PathShadowAlone
             | Self::PathCull
-            | Self::PathEvenSky => unreachable!("rules for paths are items of `plan::path::rules`"),
+            | Self::PathEvenSky
+            | Self::PathCullShadow => {
+                unreachable!("rules for paths are items of `plan::path::rules`")
+            }
         }
     }
 }
