@@ -139,10 +139,9 @@ fn alpha_of_corners_is_not_taken_for_1_where_it_is_interpolated() {
 }
 
 #[test]
-fn an_environment_of_one_value_is_looked_up_once_and_one_of_two_in_every_direction() {
-    let around = |last: [u8; 4]| {
+fn an_environment_of_one_value_is_looked_up_once_and_a_black_one_never() {
+    let around = |texel: [u8; 4], last: [u8; 4]| {
         let mut scene = traced(&[(ball([0.0; 3], 1.0), white())]);
-        let texel = [200, 150, 100, 255];
         scene.images.push(ir::Image {
             name: "sky".to_owned(),
             width: 2,
@@ -157,7 +156,8 @@ fn an_environment_of_one_value_is_looked_up_once_and_one_of_two_in_every_directi
         });
         scene
     };
-    let (even, uneven) = (around([200, 150, 100, 255]), around([200, 150, 101, 255]));
+    let color = [200, 150, 100, 255];
+    let (even, uneven) = (around(color, color), around(color, [200, 150, 101, 255]));
     assert!(fires(Rule::PathEvenSky, &even) && !fires(Rule::PathEvenSky, &uneven));
     let looked_up = |scene| {
         film(&proven(scene), Rules::ALL)
@@ -166,6 +166,9 @@ fn an_environment_of_one_value_is_looked_up_once_and_one_of_two_in_every_directi
     };
     assert_eq!(looked_up(&even), 0);
     assert!(looked_up(&uneven) > 0);
+    // The alpha of an environment's image has no meaning.
+    assert!(fires(Rule::PathDarkSky, &around([0; 4], [0, 0, 0, 255])));
+    assert!(!fires(Rule::PathDarkSky, &around([0; 4], [0, 0, 1, 0])));
 }
 
 #[test]
@@ -230,4 +233,20 @@ fn what_is_out_of_view_is_left_out_unless_it_may_hide_a_light() {
         !fires(Rule::PathCullShadow, &choice),
         "the scene decides how often the sun is chosen"
     );
+}
+
+#[test]
+fn light_comes_through_glass_where_no_ray_goes_on() {
+    let frosted = Standard {
+        transmission: 1.0,
+        specular: 1.0,
+        roughness: 0.8,
+        ..white()
+    };
+    let mut scene = traced(&[(disc([0.0; 3], 1.0), frosted)]);
+    scene.settings.max_depth = 1;
+    scene.lights = vec![lamp([0.5, 0.0, -3.0])];
+    assert!(fires(Rule::PathLast, &scene));
+    let picture = film(&proven(&scene), Rules::ALL).image;
+    assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
 }

@@ -140,6 +140,12 @@ impl Draft<'_> {
         self.max_depth > u32::from(!self.last_ray) && self.used().next().is_some()
     }
 
+    /// Whether light comes through any surface: that of a ray that goes on, or that of a light
+    /// behind it.
+    pub(super) fn transmits(&self) -> bool {
+        self.any(|material| is_asked_by(material, Effect::Refraction))
+    }
+
     /// Whether the draft still asks for an effect.
     pub(super) fn asks(&self, effect: Effect) -> bool {
         match effect {

@@ -149,7 +149,7 @@ fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
         (PathFeatures::ALPHA, asks(&[Effect::Alpha])),
         (PathFeatures::AIM, asks(&[Effect::DirectLight])),
         (PathFeatures::MICROFACETS, asks(&[Effect::Microfacets])),
-        (PathFeatures::TRANSMISSION, asks(&[Effect::Refraction])),
+        (PathFeatures::TRANSMISSION, draft.transmits()),
         (
             PathFeatures::LAYERS,
             asks(&[
