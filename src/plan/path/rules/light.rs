@@ -162,6 +162,9 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
             let mut places = draft.punctual.iter().filter_map(position);
             body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
         }
+        // Nor is a closed convex mesh known to spare them: a ray from beside an edge starts a few
+        // rounding errors above its face, and by as much the edge functions of the next face may be
+        // wrong, the more so the flatter the ray runs to it.
         Hull::Other => false,
     };
     keeps_rays_out && is_dark && is_perspective && spares
