@@ -37,11 +37,12 @@ pub enum Effect {
     Volume,
     Dispersion,
     VertexColors,
+    EnvironmentMap,
 }
 
 impl Effect {
     /// How many effects there are.
-    pub const COUNT: usize = Self::VertexColors as usize + 1;
+    pub const COUNT: usize = Self::EnvironmentMap as usize + 1;
 
     /// The effects that pictures of the course alone may have.
     pub const OF_THE_COURSE: [Self; 6] = [
@@ -54,9 +55,10 @@ impl Effect {
     ];
 
     /// The effects that traced paths may have.
-    pub const OF_PATHS: [Self; 24] = [
+    pub const OF_PATHS: [Self; 25] = [
         Self::Surfaces,
         Self::Environment,
+        Self::EnvironmentMap,
         Self::Emission,
         Self::Unlit,
         Self::Alpha,
@@ -115,6 +117,7 @@ impl Effect {
             Self::Volume => "absorption",
             Self::Dispersion => "dispersion",
             Self::VertexColors => "corner colours",
+            Self::EnvironmentMap => "environment map",
         }
     }
 }

@@ -1,6 +1,28 @@
 //! What an integrator can do: a set known at compile time, so that no branch is left for what a
 //! picture does not need.
 
+/// What sets of features have in common.
+macro_rules! set {
+    ($name:ident) => {
+        impl $name {
+            /// The set with those of another.
+            #[must_use]
+            pub const fn with(self, other: Self) -> Self {
+                Self(self.0 | other.0)
+            }
+
+            /// Whether all of `others` are in the set.
+            #[must_use]
+            pub const fn contains(self, others: Self) -> bool {
+                self.0 & others.0 == others.0
+            }
+        }
+    };
+}
+
+set!(Features);
+set!(PathFeatures);
+
 /// A set of features of an integrator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Features(pub u32);
@@ -30,18 +52,6 @@ impl Features {
     /// All of them but the last.
     pub const EVERYTHING: Self = Self((1 << 8) - 1);
 
-    /// The set with those of another.
-    #[must_use]
-    pub const fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Whether all of `others` are in the set.
-    #[must_use]
-    pub const fn contains(self, others: Self) -> bool {
-        self.0 & others.0 == others.0
-    }
-
     /// How many there are.
     #[must_use]
     pub const fn count(self) -> u32 {
@@ -70,24 +80,6 @@ impl PathFeatures {
     pub const LAYERS: Self = Self(1 << 5);
     /// All of them.
     pub const EVERYTHING: Self = Self((1 << 6) - 1);
-
-    /// The set with those of another.
-    #[must_use]
-    pub const fn with(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    /// Whether all of `others` are in the set.
-    #[must_use]
-    pub const fn contains(self, others: Self) -> bool {
-        self.0 & others.0 == others.0
-    }
-
-    /// How many there are.
-    #[must_use]
-    pub const fn count(self) -> u32 {
-        self.0.count_ones()
-    }
 }
 
 /// A set of shapes.

@@ -25,7 +25,7 @@ mod window;
 
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, PathFeatures, Shapes};
-pub use path::{LightLeft, PathPlan};
+pub use path::{EnvironmentLeft, LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};

@@ -3,13 +3,14 @@
 
 use super::facts::{Presence, Uses};
 use super::rules::PathRule;
-use super::texture::is_even;
-use crate::ir::Place;
+use super::texture::TextureValues;
+use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
 use crate::plan::window::Shown;
-use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard};
+use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
+use std::ops::Range;
 
 /// The part of a scene that is still in the plan.
 #[derive(Clone)]
@@ -20,6 +21,8 @@ pub(super) struct Draft<'scene> {
     pub(super) punctual: &'scene [Punctual],
     /// Per material, its surfaces.
     pub(super) uses: &'scene [Uses],
+    /// What its textures show.
+    pub(super) textures: &'scene TextureValues<'scene>,
     /// Per surface, its bounds.
     pub(super) bodies: &'scene [Body],
     /// Per surface, its footprint in the picture.
@@ -30,8 +33,7 @@ pub(super) struct Draft<'scene> {
     pub(super) folded: Vec<bool>,
     /// Per punctual light.
     pub(super) lights: Vec<LightLeft>,
-    /// Whether the environment emits light.
-    pub(super) environment: bool,
+    pub(super) environment: EnvironmentLeft,
     /// Per surface, whether it is in the world.
     pub(super) surfaces: Vec<bool>,
     /// The maximum number of bounces.
@@ -51,6 +53,17 @@ pub enum LightLeft {
     Nothing,
     /// Its index in the light distribution; it reaches no surface.
     Place,
+    /// All of it.
+    All,
+}
+
+/// The part of the environment that is still in the plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EnvironmentLeft {
+    /// Nothing: it emits no light.
+    Nothing,
+    /// The value of its image, which is the same in all directions, and the choice of directions.
+    Constant,
     /// All of it.
     All,
 }
@@ -86,6 +99,21 @@ impl Draft<'_> {
         })
     }
 
+    /// Simplifies the materials that are in use; returns the places of the changed ones.
+    pub(super) fn simplify(
+        &mut self,
+        simplified: impl Fn(&Self, usize, &Standard) -> Standard,
+    ) -> Vec<Place> {
+        let new = |(index, material)| (index, simplified(self, index, material));
+        let is_new = |(index, new): &(usize, Standard)| *new != self.materials[*index];
+        let changed: Vec<_> = self.used().map(new).filter(is_new).collect();
+        let put = |(index, new): (usize, Standard)| {
+            self.materials[index] = new;
+            Place::new(Noun::Material, index, Field::Whole)
+        };
+        changed.into_iter().map(put).collect()
+    }
+
     /// The materials with a surface in the world, each with its index.
     pub(super) fn used(&self) -> impl Iterator<Item = (usize, &Standard)> {
         let is_used = |material: &usize| {
@@ -112,13 +140,22 @@ impl Draft<'_> {
         self.max_depth > u32::from(!self.last_ray) && self.used().next().is_some()
     }
 
+    /// Whether light comes through any surface: that of a ray that goes on, or that of a light
+    /// behind it.
+    pub(super) fn transmits(&self) -> bool {
+        self.any(|material| is_asked_by(material, Effect::Refraction))
+    }
+
     /// Whether the draft still asks for an effect.
     pub(super) fn asks(&self, effect: Effect) -> bool {
         match effect {
             Effect::Surfaces => self.surfaces.contains(&true),
             Effect::Supersampling => self.path.samples.get() > 1,
             Effect::Lens => self.scene.camera().lens.radius.get() > 0.0,
-            Effect::Environment => self.environment,
+            Effect::Environment => self.environment != EnvironmentLeft::Nothing,
+            Effect::EnvironmentMap => {
+                self.environment == EnvironmentLeft::All && self.has_environment_image()
+            }
             Effect::Emission | Effect::Unlit | Effect::Alpha => self
                 .used()
                 .any(|(_, material)| is_asked_by(material, effect)),
@@ -152,17 +189,20 @@ impl Draft<'_> {
         }
     }
 
-    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+    /// The surfaces in the world.
+    fn used_surfaces(&self) -> impl Iterator<Item = &Surface> {
         let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
-        surfaces
-            .filter(|(_, is_left)| **is_left)
-            .filter_map(|(surface, _)| {
-                if let Shape::Instance(instance) = &surface.shape {
-                    Some(&*self.scene.meshes()[instance.mesh])
-                } else {
-                    None
-                }
-            })
+        surfaces.filter_map(|(surface, is_left)| is_left.then_some(surface))
+    }
+
+    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+        self.used_surfaces().filter_map(|surface| {
+            if let Shape::Instance(instance) = &surface.shape {
+                Some(&*self.scene.meshes()[instance.mesh])
+            } else {
+                None
+            }
+        })
     }
 
     fn any_mesh(&self, has: impl Fn(&Mesh) -> bool) -> bool {
@@ -188,20 +228,31 @@ impl Draft<'_> {
 
     /// Whether a map of a material is folded into a constant.
     pub(super) fn is_folded(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
-        has_places && self.folded[map.texture]
+        self.is_everywhere(material, map) && self.folded[map.texture]
     }
 
     /// Whether a map is constant, so that it could be folded.
     pub(super) fn is_even(&self, material: usize, map: &Map) -> bool {
-        let has_places = self.uses[material].sets[map.set.index()] == Presence::Everywhere;
-        has_places && is_even(map, self.scene)
+        self.is_everywhere(material, map) && self.textures.is_even(map)
     }
 
-    /// The minimum and maximum of a channel of a map; ones without a map.
-    pub(super) fn channel(&self, material: usize, map: Option<&Map>, channel: usize) -> [f64; 2] {
-        map.map_or([1.0; 2], |map| {
-            self.uses[material].range(map, self.scene)[channel]
+    /// Whether all surfaces of a material have the texture coordinates of a map.
+    fn is_everywhere(&self, material: usize, map: &Map) -> bool {
+        self.uses[material].presence(map) == Presence::Everywhere
+    }
+
+    /// Whether a map is 0 in some channels on all surfaces of a material; not without a map.
+    pub(super) fn is_zero(
+        &self,
+        material: usize,
+        map: Option<&Map>,
+        channels: Range<usize>,
+    ) -> bool {
+        map.is_some_and(|map| {
+            let value = |channel| self.uses[material].value(map, channel, self.textures);
+            channels
+                .into_iter()
+                .all(|channel| value(channel) == Some(0.0))
         })
     }
 
@@ -217,9 +268,13 @@ impl Draft<'_> {
 
     /// Whether there is a light that both light sampling and BSDF sampling find: an environment
     /// image, or emissive triangles.
-    fn has_extended_light(&self) -> bool {
-        let has_image = self.scene.environment().image.is_some();
-        (self.environment && has_image) || self.shines_somewhere()
+    pub(super) fn has_extended_light(&self) -> bool {
+        let shines = self.environment != EnvironmentLeft::Nothing;
+        (shines && self.has_environment_image()) || self.shines_somewhere()
+    }
+
+    fn has_environment_image(&self) -> bool {
+        self.scene.environment().image.is_some()
     }
 
     /// Whether a mesh has an emissive material.
@@ -228,11 +283,7 @@ impl Draft<'_> {
             let material = &self.materials[material];
             !material.unlit && material.emissive != Vec3::ZERO
         };
-        let surfaces = self.scene.surfaces().iter().zip(&self.surfaces);
-        let mut left = surfaces
-            .filter(|(_, is_left)| **is_left)
-            .map(|(surface, _)| surface);
-        left.any(|surface| {
+        self.used_surfaces().any(|surface| {
             let has_triangles = matches!(surface.shape, Shape::Instance(_) | Shape::Triangle(_));
             shines(surface.material) && has_triangles
         })
@@ -276,6 +327,7 @@ pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
         | Effect::Lens
         | Effect::Supersampling
         | Effect::Environment
+        | Effect::EnvironmentMap
         | Effect::Mis
         | Effect::Compensation
         | Effect::VertexColors => false,

@@ -1,9 +1,9 @@
 //! Facts of a scene before any rule: the surfaces of each material, their texture coordinates, and
 //! the values of their textures there.
 
-use super::texture::{Area, show};
-use crate::math::{UnitInterval, Vec3};
-use crate::valid::{Map, Proof, Shape, Standard};
+use super::texture::{Area, TextureValues};
+use crate::math::{Column, UnitInterval, Vec3};
+use crate::valid::{Map, Mesh, Proof, Shape, Standard};
 
 /// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]
@@ -11,11 +11,12 @@ pub(super) struct Uses {
     /// The surfaces, as indices into those of the scene.
     pub(super) surfaces: Vec<usize>,
     /// Per set of texture coordinates, the surfaces that have it.
-    pub(super) sets: [Presence; 2],
+    sets: [Presence; 2],
     /// Per set, the bounding rectangle of all coordinates.
     areas: [Area; 2],
-    /// The minimum alpha of the vertex colours.
-    pub(super) least_alpha: f64,
+    /// Whether any surface has vertex colours. Rounding of their interpolation may leave an alpha
+    /// just below those of the corners.
+    pub(super) has_colors: bool,
 }
 
 /// Whether all, some or none of a material's surfaces have a property.
@@ -45,66 +46,93 @@ impl Uses {
             surfaces: Vec::new(),
             sets: [Presence::Never; 2],
             areas: [Area::NONE; 2],
-            least_alpha: 1.0,
+            has_colors: false,
         };
         let mut uses = vec![unused; scene.materials().len()];
+        // A mesh is looked through once, however many instances it has.
+        let mut of_meshes = vec![None; scene.meshes().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
-            uses[surface.material].add(index, &surface.shape, scene);
+            let used = &mut uses[surface.material];
+            let areas = if let Shape::Instance(instance) = &surface.shape {
+                let mesh = &scene.meshes()[instance.mesh];
+                used.has_colors |= !mesh.colors.is_empty();
+                *of_meshes[instance.mesh].get_or_insert_with(|| areas_of_mesh(mesh))
+            } else {
+                areas(&surface.shape)
+            };
+            used.add(index, areas);
         }
         uses
     }
 
-    fn add(&mut self, surface: usize, shape: &Shape, scene: &Proof) {
+    fn add(&mut self, surface: usize, areas: [Option<Area>; 2]) {
         let is_first = self.surfaces.is_empty();
-        for (set, area) in areas(shape, scene).into_iter().enumerate() {
+        for (set, area) in areas.into_iter().enumerate() {
             self.sets[set] = self.sets[set].and(area.is_some(), is_first);
             self.areas[set] = self.areas[set].around(area.unwrap_or(Area::NONE));
-        }
-        if let Shape::Instance(instance) = shape {
-            let colors = scene.meshes()[instance.mesh].colors.iter();
-            let alpha = colors.map(|[_, _, _, alpha]| alpha);
-            self.least_alpha = alpha.fold(self.least_alpha, f64::min);
         }
         self.surfaces.push(surface);
     }
 
-    /// The least and the largest that a map shows on these surfaces, channel by channel, each
-    /// colour channel as it is stored.
-    pub(super) fn range(&self, map: &Map, scene: &Proof) -> [[f64; 2]; 4] {
-        let set = map.set.index();
-        let mut range = show(map, self.areas[set], scene);
-        if self.sets[set] != Presence::Everywhere {
-            // Without texture coordinates, a map is 1.
-            range = range.map(|[min, max]| [min.min(1.0), max.max(1.0)]);
+    /// The surfaces on which a map has its texture coordinates.
+    pub(super) fn presence(&self, map: &Map) -> Presence {
+        self.sets[map.set.index()]
+    }
+
+    /// The value of a channel that a map shows on all these surfaces, if it shows only one: colour
+    /// channels as they are stored.
+    pub(super) fn value(
+        &self,
+        map: &Map,
+        channel: usize,
+        textures: &TextureValues<'_>,
+    ) -> Option<f64> {
+        let value = || textures.value(map, self.areas[map.set.index()], channel);
+        // Without texture coordinates, a map is 1.
+        match self.presence(map) {
+            Presence::Never => Some(1.0),
+            Presence::Everywhere => value(),
+            Presence::Somewhere => value().filter(|value| *value == 1.0),
         }
-        range
+    }
+
+    /// Whether a channel has a property wherever these surfaces show a map.
+    pub(super) fn all(
+        &self,
+        map: &Map,
+        channel: usize,
+        textures: &TextureValues<'_>,
+        holds: impl Fn(f64) -> bool,
+    ) -> bool {
+        let presence = self.presence(map);
+        let is_sound = presence == Presence::Everywhere || holds(1.0);
+        let area = self.areas[map.set.index()];
+        is_sound && (presence == Presence::Never || textures.all(map, area, channel, holds))
     }
 }
 
-/// The bounds of the texture coordinates of a shape, for both sets.
-fn areas(shape: &Shape, scene: &Proof) -> [Option<Area>; 2] {
-    match shape {
-        Shape::Sphere(_) | Shape::Quad(_) => [Some(Area::UNIT), None],
+/// The bounds of the texture coordinates of a mesh, for both sets.
+fn areas_of_mesh(mesh: &Mesh) -> [Option<Area>; 2] {
+    let area = |uvs: &Column<2>| (!uvs.is_empty()).then(|| Area::of(uvs.iter()));
+    [area(&mesh.uvs), area(&mesh.second_uvs)]
+}
+
+/// The bounds of the texture coordinates of a shape other than a mesh, for both sets.
+fn areas(shape: &Shape) -> [Option<Area>; 2] {
+    let area = match shape {
+        Shape::Sphere(_) | Shape::Quad(_) => Some(Area::UNIT),
         Shape::Triangle(triangle) => {
-            let corners = triangle
-                .uvs
-                .as_ref()
-                .map(|uvs| Area::of(uvs.iter().copied()));
-            [corners, None]
-        }
-        Shape::Instance(instance) => {
-            let mesh = &scene.meshes()[instance.mesh];
-            [&mesh.uvs, &mesh.second_uvs].map(|uvs| {
-                let places = uvs.iter();
-                (!uvs.is_empty()).then(|| Area::of(places))
-            })
+            let uvs = triangle.uvs.as_ref();
+            uvs.map(|uvs| Area::of(uvs.iter().copied()))
         }
         Shape::Plane(_)
         | Shape::Disc(_)
         | Shape::Cylinder(_)
         | Shape::Cone(_)
-        | Shape::Torus(_) => [None; 2],
-    }
+        | Shape::Torus(_)
+        | Shape::Instance(_) => None,
+    };
+    [area, None]
 }
 
 /// Whether all lobes of a material are delta lobes: it is smooth and has no diffuse base.

@@ -10,7 +10,7 @@ pub(in crate::plan) mod rules;
 mod texture;
 mod verdicts;
 
-pub use draft::LightLeft;
+pub use draft::{EnvironmentLeft, LightLeft};
 
 use super::body::bodies;
 use super::effect::{Effect, Verdict};
@@ -22,6 +22,7 @@ use crate::math::Vec3;
 use crate::valid::{Map, PathSettings, Projection, Proof, Standard, UvSet};
 use draft::{Applied, Draft};
 use facts::Uses;
+use texture::TextureValues;
 
 /// The work that traced paths need.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,8 +34,8 @@ pub struct PathPlan {
     folded: Vec<Vec<(usize, UvSet)>>,
     /// Per punctual light.
     pub lights: Vec<LightLeft>,
-    /// Whether the environment emits light.
-    pub environment: bool,
+    /// What is left of the environment.
+    pub environment: EnvironmentLeft,
     /// Whether the last ray of a path may still find light.
     pub last_ray: bool,
     /// The features that the integrator needs.
@@ -62,7 +63,7 @@ pub(super) struct Planned {
 
 /// Plans the paths of a scene.
 pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
-    let (uses, bodies) = (Uses::of(scene), bodies(scene));
+    let (uses, bodies, textures) = (Uses::of(scene), bodies(scene), TextureValues::new(scene));
     let punctual = facts_seen::light::punctual(scene.lights());
     let camera = scene.camera();
     let is_pinhole = camera.lens.radius.get() == 0.0;
@@ -77,6 +78,7 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
         scene,
         path,
         uses: &uses,
+        textures: &textures,
         bodies: &bodies,
         shown: &shown,
         punctual: &punctual,
@@ -87,7 +89,11 @@ pub(super) fn plan(scene: &Proof, path: PathSettings, rules: Rules) -> Planned {
             .collect(),
         folded: vec![false; scene.textures().len()],
         lights: vec![LightLeft::All; punctual.len()],
-        environment: scene.environment().radiance != Vec3::ZERO,
+        environment: if scene.environment().radiance == Vec3::ZERO {
+            EnvironmentLeft::Nothing
+        } else {
+            EnvironmentLeft::All
+        },
         surfaces: vec![true; bodies.len()],
         max_depth: scene.settings().max_depth,
         last_ray: true,
@@ -143,7 +149,7 @@ fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
         (PathFeatures::ALPHA, asks(&[Effect::Alpha])),
         (PathFeatures::AIM, asks(&[Effect::DirectLight])),
         (PathFeatures::MICROFACETS, asks(&[Effect::Microfacets])),
-        (PathFeatures::TRANSMISSION, asks(&[Effect::Refraction])),
+        (PathFeatures::TRANSMISSION, draft.transmits()),
         (
             PathFeatures::LAYERS,
             asks(&[

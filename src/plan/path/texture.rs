@@ -1,7 +1,8 @@
-//! Bounds on the values of a texture within a rectangle of texture coordinates.
+//! The values that a texture shows within a rectangle of texture coordinates.
 
 use crate::image::Texel;
 use crate::valid::{Image, Map, Proof, Texture, Wrap};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// A rectangle of texture coordinates, from minimum to maximum.
@@ -46,32 +47,144 @@ impl Area {
     }
 }
 
-/// The least and the largest that a map shows on an area, channel by channel (red, green, blue,
-/// alpha), bytes in units of 255, colours as they are stored; what filtering blends lies between.
-pub(super) fn show(map: &Map, area: Area, scene: &Proof) -> [[f64; 2]; 4] {
-    let area = area.mapped(&map.texture_from_surface);
-    match &scene.textures()[map.texture] {
-        Texture::Uv => [[0.0, 1.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
-        Texture::Image(image) => {
-            let image = &scene.images()[*image];
-            extremes(image, 0..image.width.get(), 0..image.height.get())
+/// What the textures of a scene show. A question on a whole image is answered once, and by as few
+/// texels as decide it.
+pub(super) struct TextureValues<'scene> {
+    scene: &'scene Proof,
+    /// Per image, whether all texels are equal.
+    even: Vec<OnceCell<bool>>,
+    /// Per image and channel, the value of all texels, if they have only one.
+    values: Vec<[OnceCell<Option<f64>>; 4]>,
+}
+
+impl<'scene> TextureValues<'scene> {
+    pub(super) fn new(scene: &'scene Proof) -> Self {
+        let count = scene.images().len();
+        Self {
+            scene,
+            even: vec![OnceCell::new(); count],
+            values: vec![std::array::from_fn(|_| OnceCell::new()); count],
         }
-        Texture::Sampled(sampled) => {
-            let image = &scene.images()[sampled.image];
-            let Area([us, vs]) = area;
-            let columns = texels(us, image.width.get(), sampled.wrap[0]);
-            let rows = texels(vs, image.height.get(), sampled.wrap[1]);
-            extremes(image, columns, rows)
+    }
+
+    /// Whether a map is constant.
+    pub(super) fn is_even(&self, map: &Map) -> bool {
+        let texture = &self.scene.textures()[map.texture];
+        image_of(texture).is_some_and(|image| self.is_even_image(image))
+    }
+
+    /// Whether all texels of an image are equal.
+    pub(super) fn is_even_image(&self, image: usize) -> bool {
+        let is_even = || self.scene.images()[image].texels.are_even();
+        *self.even[image].get_or_init(is_even)
+    }
+
+    /// The value of a channel (red, green, blue, alpha) that a map shows everywhere on an area, if
+    /// it shows only one: colours as they are stored, bytes in units of 255. What filtering blends
+    /// of equal texels is that value.
+    pub(super) fn value(&self, map: &Map, area: Area, channel: usize) -> Option<f64> {
+        let texture = &self.scene.textures()[map.texture];
+        let Some(image) = image_of(texture) else {
+            return UV[channel];
+        };
+        let part = self.part(texture, image, area.mapped(&map.texture_from_surface));
+        if part.is_whole() {
+            *self.values[image][channel].get_or_init(|| part.value(channel))
+        } else {
+            part.value(channel)
+        }
+    }
+
+    /// Whether a channel has a property in all texels that a map may show on an area.
+    pub(super) fn all(
+        &self,
+        map: &Map,
+        area: Area,
+        channel: usize,
+        holds: impl Fn(f64) -> bool,
+    ) -> bool {
+        let texture = &self.scene.textures()[map.texture];
+        match image_of(texture) {
+            None => UV[channel].is_some_and(holds),
+            Some(image) => self
+                .part(texture, image, area.mapped(&map.texture_from_surface))
+                .channel(channel)
+                .all(holds),
+        }
+    }
+
+    /// The part of an image that a texture may show on an area of its coordinates.
+    fn part(&self, texture: &Texture, image: usize, Area([us, vs]): Area) -> Part<'scene> {
+        let image = &self.scene.images()[image];
+        let [width, height] = [image.width.get(), image.height.get()];
+        let (columns, rows) = match texture {
+            Texture::Uv | Texture::Image(_) => (0..width, 0..height),
+            Texture::Sampled(sampled) => (
+                texels(us, width, sampled.wrap[0]),
+                texels(vs, height, sampled.wrap[1]),
+            ),
+        };
+        Part {
+            image,
+            columns,
+            rows,
         }
     }
 }
 
-/// Whether a map is constant.
-pub(super) fn is_even(map: &Map, scene: &Proof) -> bool {
-    match &scene.textures()[map.texture] {
-        Texture::Uv => false,
-        Texture::Image(image) => scene.images()[*image].texels.are_even(),
-        Texture::Sampled(sampled) => scene.images()[sampled.image].texels.are_even(),
+/// Channels of the texture that shows its own coordinates, where they are constant.
+const UV: [Option<f64>; 4] = [None, Some(0.0), None, Some(1.0)];
+
+/// The image of a texture, if it has one.
+fn image_of(texture: &Texture) -> Option<usize> {
+    match texture {
+        Texture::Uv => None,
+        Texture::Image(image) => Some(*image),
+        Texture::Sampled(sampled) => Some(sampled.image),
+    }
+}
+
+/// A part of an image.
+struct Part<'scene> {
+    image: &'scene Image,
+    columns: Range<u32>,
+    rows: Range<u32>,
+}
+
+impl Part<'_> {
+    fn is_whole(&self) -> bool {
+        self.columns.len() == self.image.width.get() as usize
+            && self.rows.len() == self.image.height.get() as usize
+    }
+
+    /// The values of a channel.
+    fn channel(&self, channel: usize) -> impl Iterator<Item = f64> {
+        let width = self.image.width.get() as usize;
+        let row = move |row: u32| {
+            let texel = move |column: u32| row as usize * width + column as usize;
+            self.columns.clone().map(texel)
+        };
+        self.rows
+            .clone()
+            .flat_map(row)
+            .map(move |texel| value(self.image.texels.at(texel), channel))
+    }
+
+    /// The value of a channel, if it has only one.
+    fn value(&self, channel: usize) -> Option<f64> {
+        let mut values = self.channel(channel);
+        let first = values.next()?;
+        values.all(|value| value == first).then_some(first)
+    }
+}
+
+/// The value of a channel, as sampling reads it.
+fn value(texel: Texel, channel: usize) -> f64 {
+    match (texel, channel) {
+        (Texel::Rgb8(_) | Texel::Rgb32f(_), 3..) => 1.0,
+        (Texel::Rgb8(bytes), _) => f64::from(f32::from(bytes[channel]) / 255.0),
+        (Texel::Rgba8(bytes), _) => f64::from(f32::from(bytes[channel]) / 255.0),
+        (Texel::Rgb32f(values), _) => f64::from(values[channel]),
     }
 }
 
@@ -99,34 +212,12 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     first..last.max(first + 1)
 }
 
-/// The least and the largest of each channel of a part of an image.
-fn extremes(image: &Image, columns: Range<u32>, rows: Range<u32>) -> [[f64; 2]; 4] {
-    let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
-    for row in rows {
-        for column in columns.clone() {
-            let texel = image
-                .texels
-                .at(row as usize * image.width.get() as usize + column as usize);
-            for (channel, value) in range.iter_mut().zip(channels(texel)) {
-                *channel = [channel[0].min(value), channel[1].max(value)];
-            }
-        }
-    }
-    range
-}
-
-fn channels(texel: Texel) -> [f64; 4] {
-    let byte = |byte: u8| f64::from(byte) / 255.0;
-    match texel {
-        Texel::Rgb8([r, g, b]) => [byte(r), byte(g), byte(b), 1.0],
-        Texel::Rgba8(channels) => channels.map(byte),
-        Texel::Rgb32f([r, g, b]) => [f64::from(r), f64::from(g), f64::from(b), 1.0],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::Texels;
+    use std::cell::Cell;
+    use std::num::NonZeroU32;
 
     #[test]
     fn an_area_shows_its_texels_and_their_neighbours() {
@@ -159,5 +250,46 @@ mod tests {
     fn an_affine_map_turns_and_moves_an_area() {
         let turned = Area::UNIT.mapped(&[[0.0, 2.0, 1.0], [-1.0, 0.0, 0.0]]);
         assert_eq!(turned, Area([[1.0, 3.0], [-1.0, 0.0]]));
+    }
+
+    fn image(width: u32, texels: &[[u8; 3]]) -> Image {
+        let count = |count: u32| NonZeroU32::new(count).unwrap();
+        Image {
+            width: count(width),
+            height: count(texels.len() as u32 / width),
+            texels: Texels::Rgb8(texels.concat().into()),
+        }
+    }
+
+    #[test]
+    fn a_part_has_a_value_where_its_own_texels_agree() {
+        let image = image(2, &[[1, 0, 9], [2, 0, 9], [3, 0, 9], [3, 0, 9]]);
+        let values = |columns, rows| {
+            let part = Part {
+                image: &image,
+                columns,
+                rows,
+            };
+            [0, 1, 2, 3].map(|channel| part.value(channel))
+        };
+        let byte = |byte: u8| Some(f64::from(f32::from(byte) / 255.0));
+        let (zero, nine, one) = (Some(0.0), byte(9), Some(1.0));
+        assert_eq!(values(0..2, 0..2), [None, zero, nine, one]);
+        assert_eq!(values(0..2, 1..2), [byte(3), zero, nine, one]);
+        assert_eq!(values(1..2, 0..1), [byte(2), zero, nine, one]);
+    }
+
+    #[test]
+    fn no_texel_is_read_after_the_one_that_decides() {
+        let image = image(3, &[[1; 3], [2; 3], [3; 3], [4; 3], [5; 3], [6; 3]]);
+        let part = Part {
+            image: &image,
+            columns: 1..3,
+            rows: 0..2,
+        };
+        let read = Cell::new(0);
+        let mut values = part.channel(0).inspect(|_| read.set(read.get() + 1));
+        assert!(!values.all(|value| value * 255.0 < 2.5));
+        assert_eq!(read.get(), 2, "the second texel is 3");
     }
 }

@@ -23,12 +23,8 @@ fn verdict(effect: Effect, asked: &Draft<'_>, left: &Draft<'_>, applied: &[Appli
             .find(|applied| applied.spared.contains(&effect))
     };
     let (state, rule, because, mut facts) = if left.asks(effect) {
-        (
-            State::Needed,
-            None,
-            left.because(effect),
-            left.places(effect),
-        )
+        let (because, places) = left.need(effect);
+        (State::Needed, None, because, places)
     } else if let Some(Applied { rule, places, .. }) = spared().filter(|_| asked.asks(effect)) {
         (
             State::Pruned,
@@ -57,6 +53,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Supersampling => "one path a pixel",
         Effect::Lens => "a pinhole: the lens has radius 0",
         Effect::Environment => "the scene has no environment",
+        Effect::EnvironmentMap => "the environment has no image",
         Effect::Emission => "no material emits light",
         Effect::Unlit => "no material is unlit",
         Effect::Alpha => "all materials are opaque",
@@ -87,30 +84,58 @@ fn absence(effect: Effect) -> &'static str {
 }
 
 impl Draft<'_> {
-    /// Why the picture needs an effect.
-    fn because(&self, effect: Effect) -> String {
-        let of_materials = self.materials_with(effect).count();
+    /// Why the picture needs an effect, and the values that make it necessary.
+    fn need(&self, effect: Effect) -> (String, Vec<Place>) {
+        let materials: Vec<_> = self.materials_with(effect).map(material).collect();
+        if materials.is_empty() {
+            self.need_of_scene(effect)
+        } else {
+            (counted(materials.len(), "material"), materials)
+        }
+    }
+
+    /// As [`Self::need`], of an effect that no material asks for by itself.
+    fn need_of_scene(&self, effect: Effect) -> (String, Vec<Place>) {
+        let at = |noun, field| vec![Place::new(noun, 0, field)];
+        let says = |because: &str, noun| (because.to_owned(), at(noun, Field::Whole));
         match effect {
-            _ if of_materials > 0 => counted(of_materials, "material"),
             Effect::Surfaces => {
                 let left = self.surfaces.iter().filter(|is_left| **is_left).count();
-                format!("{left} of {} may be met by a ray", self.surfaces.len())
+                let because = format!("{left} of {} may be met by a ray", self.surfaces.len());
+                (because, at(Noun::Surface, Field::Whole))
             }
-            Effect::Supersampling => counted(self.path.samples.get() as usize, "path") + " a pixel",
-            Effect::Lens => format!("a lens of radius {}", self.scene.camera().lens.radius.get()),
-            Effect::Environment => "paths that leave the scene find light".to_owned(),
-            Effect::DirectLight => "a surface is lit by a light that can be aimed at".to_owned(),
-            Effect::Shadows => "a surface may hide a light from another, or from itself".to_owned(),
-            Effect::Mis => "aiming and scattering find the same light".to_owned(),
+            Effect::Supersampling => {
+                let because = counted(self.path.samples.get() as usize, "path") + " a pixel";
+                (because, at(Noun::Settings, Field::Mode))
+            }
+            Effect::Lens => {
+                let because = format!("a lens of radius {}", self.scene.camera().lens.radius.get());
+                (because, at(Noun::Camera, Field::LensRadius))
+            }
             Effect::Depth => {
                 let bounces = self.max_depth - u32::from(!self.last_ray);
-                format!("at most {}", counted(bounces as usize, "bounce"))
+                let because = format!("at most {}", counted(bounces as usize, "bounce"));
+                (because, at(Noun::Settings, Field::MaxDepth))
             }
-            Effect::Compensation => "light bounces between the facets of rough surfaces".to_owned(),
-            Effect::NormalInterpolation => "a mesh has normals at its corners".to_owned(),
-            Effect::NormalMapping => "a material has a normal map".to_owned(),
-            Effect::VertexColors => "a mesh has colours at its corners".to_owned(),
-            Effect::Textures => "a material has a texture".to_owned(),
+            Effect::Compensation => {
+                let because = "light bounces between the facets of rough surfaces";
+                (because.to_owned(), at(Noun::Settings, Field::Mode))
+            }
+            Effect::Environment => says("paths that leave the scene find light", Noun::Environment),
+            Effect::EnvironmentMap => says("the environment has an image", Noun::Environment),
+            Effect::DirectLight => says(
+                "a surface is lit by a light that can be aimed at",
+                Noun::Light,
+            ),
+            Effect::Shadows => says(
+                "a surface may hide a light from another, or from itself",
+                Noun::Light,
+            ),
+            Effect::Mis => says("aiming and scattering find the same light", Noun::Light),
+            Effect::NormalInterpolation => says("a mesh has normals at its corners", Noun::Surface),
+            Effect::VertexColors => says("a mesh has colours at its corners", Noun::Surface),
+            Effect::NormalMapping => ("a material has a normal map".to_owned(), self.with_maps()),
+            Effect::Textures => ("a material has a texture".to_owned(), self.with_maps()),
             Effect::Emission
             | Effect::Unlit
             | Effect::Alpha
@@ -127,55 +152,15 @@ impl Draft<'_> {
             | Effect::SoftLight
             | Effect::Highlight
             | Effect::Mirror
-            | Effect::GlossyReflection => String::new(),
+            | Effect::GlossyReflection => says("", Noun::Surface),
         }
     }
 
-    /// The values that make an effect necessary.
-    fn places(&self, effect: Effect) -> Vec<Place> {
-        let material = |index| Place::new(Noun::Material, index, Field::Whole);
-        let materials: Vec<_> = self
-            .materials_with(effect)
-            .map(material)
-            .take(FEW)
-            .collect();
-        let (noun, field) = match effect {
-            _ if !materials.is_empty() => return materials,
-            Effect::Textures | Effect::NormalMapping => {
-                let has_map = |(_, m): &(usize, &Standard)| m.maps().next().is_some();
-                return self
-                    .used()
-                    .filter(has_map)
-                    .map(|(index, _)| material(index))
-                    .collect();
-            }
-            Effect::Environment => (Noun::Environment, Field::Whole),
-            Effect::Lens => (Noun::Camera, Field::LensRadius),
-            Effect::Supersampling | Effect::Compensation => (Noun::Settings, Field::Mode),
-            Effect::Depth => (Noun::Settings, Field::MaxDepth),
-            Effect::DirectLight | Effect::Shadows | Effect::Mis => (Noun::Light, Field::Whole),
-            Effect::Surfaces
-            | Effect::NormalInterpolation
-            | Effect::VertexColors
-            | Effect::Emission
-            | Effect::Unlit
-            | Effect::Alpha
-            | Effect::Microfacets
-            | Effect::Refraction
-            | Effect::Volume
-            | Effect::Dispersion
-            | Effect::Clearcoat
-            | Effect::Sheen
-            | Effect::Anisotropy
-            | Effect::Iridescence
-            | Effect::DepthBuffer
-            | Effect::NormalBuffer
-            | Effect::SoftLight
-            | Effect::Highlight
-            | Effect::Mirror
-            | Effect::GlossyReflection => (Noun::Surface, Field::Whole),
-        };
-        vec![Place::new(noun, 0, field)]
+    /// The materials with maps.
+    fn with_maps(&self) -> Vec<Place> {
+        let has_map = |(_, m): &(usize, &Standard)| m.maps().next().is_some();
+        let with_maps = self.used().filter(has_map);
+        with_maps.map(|(index, _)| material(index)).collect()
     }
 
     /// The materials that ask for an effect by themselves.
@@ -183,6 +168,10 @@ impl Draft<'_> {
         let asks = move |(_, material): &(usize, &Standard)| is_asked_by(material, effect);
         self.used().filter(asks).map(|(index, _)| index)
     }
+}
+
+fn material(index: usize) -> Place {
+    Place::new(Noun::Material, index, Field::Whole)
 }
 
 fn counted(count: usize, noun: &str) -> String {

@@ -47,11 +47,13 @@ pub enum Rule {
     PathDelta,
     PathShadowAlone,
     PathCull,
+    PathEvenSky,
+    PathCullShadow,
 }
 
 impl Rule {
     /// All rules, those by light first.
-    pub const ALL: [Self; 40] = [
+    pub const ALL: [Self; 42] = [
         Self::Mode,
         Self::LightBlack,
         Self::LightUnreached,
@@ -92,6 +94,8 @@ impl Rule {
         Self::PathDelta,
         Self::PathShadowAlone,
         Self::PathCull,
+        Self::PathEvenSky,
+        Self::PathCullShadow,
     ];
 
     /// The name, as `E-SPEC`.
@@ -237,7 +241,11 @@ impl Rule {
             | Self::PathLast
             | Self::PathDelta
             | Self::PathShadowAlone
-            | Self::PathCull => unreachable!("rules for paths are items of `plan::path::rules`"),
+            | Self::PathCull
+            | Self::PathEvenSky
+            | Self::PathCullShadow => {
+                unreachable!("rules for paths are items of `plan::path::rules`")
+            }
         }
     }
 }

@@ -94,7 +94,8 @@ impl Counts {
             | Effect::Iridescence
             | Effect::Volume
             | Effect::Dispersion
-            | Effect::VertexColors => self.evaluations[effect as usize],
+            | Effect::VertexColors
+            | Effect::EnvironmentMap => self.evaluations[effect as usize],
         }
     }
 

@@ -11,8 +11,16 @@ use std::sync::Arc;
 /// The light of the environment, from infinitely far away.
 pub(in crate::render) struct Environment {
     radiance: Vec3,
-    /// The image, and the distribution of its pixels by radiance and solid angle.
-    image: Option<(Arc<Image>, Distribution2D)>,
+    map: Option<EnvironmentMap>,
+}
+
+/// An image of all directions.
+struct EnvironmentMap {
+    image: Arc<Image>,
+    /// The value of all pixels, where they are proven to be equal.
+    constant: Option<Vec3>,
+    /// The distribution of the pixels by radiance and solid angle.
+    table: Distribution2D,
     image_from_world: [Vec3; 3],
 }
 
@@ -23,56 +31,81 @@ pub(in crate::render) struct EnvironmentRadiance {
     pub(in crate::render) pdf: f64,
 }
 
+/// The density of directions that are uniform over the sphere.
+const UNIFORM: f64 = 0.5 / TAU;
+
 impl Environment {
     /// An environment of this radiance, times the image if there is one; the rows of
-    /// `image_from_world` rotate directions into the image.
+    /// `image_from_world` rotate directions into the image. `is_constant` says that all pixels are
+    /// equal.
     pub(in crate::render) fn new(
         radiance: Vec3,
         image: Option<Arc<Image>>,
         image_from_world: [Vec3; 3],
+        is_constant: bool,
     ) -> Self {
-        let image = image.map(|image| {
-            let table = table(&image);
-            (image, table)
-        });
-        Self {
-            radiance,
+        let map = image.map(|image| EnvironmentMap {
+            constant: is_constant.then(|| look_up(&image, [0.5; 2])),
+            table: table(&image),
             image,
             image_from_world,
-        }
+        });
+        Self { radiance, map }
     }
 
     /// Whether the radiance is the same in all directions.
     pub(in crate::render) fn is_uniform(&self) -> bool {
-        self.image.is_none()
+        self.map.is_none()
+    }
+
+    /// Whether an image is looked up for each direction.
+    pub(in crate::render) fn is_looked_up(&self) -> bool {
+        let map = self.map.as_ref();
+        map.is_some_and(|map| map.constant.is_none())
     }
 
     /// The mean radiance over all directions, in the strongest channel.
     pub(in crate::render) fn mean(&self) -> f64 {
         // Undo the sine of the colatitude in the table's weights: its mean is 2/π.
         let mean = self
-            .image
+            .map
             .as_ref()
-            .map_or(1.0, |(_, table)| table.mean() * PI / 2.0);
+            .map_or(1.0, |map| map.table.mean() * PI / 2.0);
         self.radiance.max_element() * mean
     }
 
-    /// The radiance and the density in a direction, a unit vector.
-    pub(in crate::render) fn seen(&self, direction: Vec3) -> EnvironmentRadiance {
-        let Some((image, table)) = &self.image else {
-            return self.uniform();
-        };
-        let place = self.place(direction);
-        self.seen_at(image, table, place, sin(place[1] * PI))
+    /// The radiance from a direction, a unit vector, and its point of the image if that was found.
+    pub(in crate::render) fn seen(&self, direction: Vec3) -> (Vec3, Option<[f64; 2]>) {
+        match &self.map {
+            None => (self.radiance, None),
+            Some(map) => match map.constant {
+                Some(value) => (self.radiance * value, None),
+                None => {
+                    let place = map.place(direction);
+                    (self.radiance * look_up(&map.image, place), Some(place))
+                }
+            },
+        }
+    }
+
+    /// The density of [`Self::sample`] per solid angle in a direction, whose point of the image may
+    /// be known.
+    pub(in crate::render) fn pdf(&self, direction: Vec3, place: Option<[f64; 2]>) -> f64 {
+        self.map.as_ref().map_or(UNIFORM, |map| {
+            let place = place.unwrap_or_else(|| map.place(direction));
+            map.pdf(place, sin(place[1] * PI))
+        })
     }
 
     /// Samples a direction, and returns its radiance and density.
     pub(in crate::render) fn sample(&self, u: [f64; 2]) -> (Vec3, EnvironmentRadiance) {
-        let Some((image, table)) = &self.image else {
-            return (direction_turned(1.0 - 2.0 * u[0], u[1]), self.uniform());
+        let Some(map) = &self.map else {
+            let (radiance, pdf) = (self.radiance, UNIFORM);
+            let direction = direction_turned(1.0 - 2.0 * u[0], u[1]);
+            return (direction, EnvironmentRadiance { radiance, pdf });
         };
         // Sample a point of the image.
-        let place = table.sample(u);
+        let place = map.table.sample(u);
         let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
         let sine = sin(colatitude);
         // Convert from longitude and colatitude to a direction.
@@ -82,51 +115,43 @@ impl Environment {
             -sine * cos(longitude),
         );
         // Rotate from the image to the world.
-        let [x, y, z] = self.image_from_world;
+        let [x, y, z] = map.image_from_world;
         let direction = (x * local.x + y * local.y + z * local.z).normalize();
-        (direction, self.seen_at(image, table, place, sine))
+        let value = map.constant.unwrap_or_else(|| look_up(&map.image, place));
+        let (radiance, pdf) = (self.radiance * value, map.pdf(place, sine));
+        (direction, EnvironmentRadiance { radiance, pdf })
     }
+}
 
-    fn uniform(&self) -> EnvironmentRadiance {
-        EnvironmentRadiance {
-            radiance: self.radiance,
-            pdf: 0.5 / TAU,
-        }
-    }
-
-    /// The radiance and the density at a point of the image, given the sine of its colatitude.
-    fn seen_at(
-        &self,
-        image: &Image,
-        table: &Distribution2D,
-        place: [f64; 2],
-        sine: f64,
-    ) -> EnvironmentRadiance {
-        let [r, g, b, _] = sample(
-            image,
-            place,
-            [Wrap::Repeat, Wrap::Clamp],
-            Filter::Linear,
-            ColorSpace::Srgb,
-        );
-        // Convert the density from the unit square to solid angle.
-        let pdf = if sine > 0.0 {
-            table.pdf(place) / (TAU * PI * sine)
-        } else {
-            0.0
-        };
-        EnvironmentRadiance {
-            radiance: self.radiance * Vec3::new(r, g, b),
-            pdf,
-        }
-    }
-
+impl EnvironmentMap {
     /// Maps a direction to the image: −z to its middle, +y to its top, longitude grows towards +x.
     fn place(&self, direction: Vec3) -> [f64; 2] {
         let [x, y, z] = &self.image_from_world;
         let (x, y, z) = (x.dot(direction), y.dot(direction), z.dot(direction));
         [0.5 + atan2(x, -z) / TAU, acos(y.clamp(-1.0, 1.0)) / PI]
     }
+
+    /// The density per solid angle at a point of the image, given the sine of its colatitude.
+    fn pdf(&self, place: [f64; 2], sine: f64) -> f64 {
+        // Convert the density from the unit square to solid angle.
+        if sine > 0.0 {
+            self.table.pdf(place) / (TAU * PI * sine)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The value of an image at a point.
+fn look_up(image: &Image, place: [f64; 2]) -> Vec3 {
+    let [r, g, b, _] = sample(
+        image,
+        place,
+        [Wrap::Repeat, Wrap::Clamp],
+        Filter::Linear,
+        ColorSpace::Srgb,
+    );
+    Vec3::new(r, g, b)
 }
 
 /// The distribution of pixels by their strongest channel and their solid angle.

@@ -242,13 +242,12 @@ impl<'world, S: Geometry> Lights<'world, S> {
         }
     }
 
-    /// The radiance of the environment in a direction, and the density with which
+    /// The radiance of the environment in a direction, and, for who asks, the density with which
     /// [`Lights::sample`] samples it.
-    pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, f64) {
-        let EnvironmentRadiance { radiance, pdf } = self.world.lights.environment.seen(wi);
-        (
-            radiance,
-            self.by_power.probability(self.lights.len() - 1) * pdf,
-        )
+    pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
+        let environment = &self.world.lights.environment;
+        let (radiance, place) = environment.seen(wi);
+        let probability = self.by_power.probability(self.lights.len() - 1);
+        (radiance, move || probability * environment.pdf(wi, place))
     }
 }

@@ -1,11 +1,11 @@
 //! The lights of a world, as its integrator sees them.
 
 use super::texture::Textures;
-use crate::plan::facts;
+use crate::plan::{EnvironmentLeft, Plan, facts};
 use crate::render::light::course::CourseLight;
 use crate::render::light::environment::Environment;
 use crate::render::light::punctual::{Falloff, PointLight, Punctual, SpotLight, SunLight};
-use crate::valid::{self, Mode, Proof};
+use crate::valid::{self, Proof};
 
 /// The lights of a world: of two kinds of lists its integrator asks for one, and the other is
 /// empty.
@@ -18,24 +18,25 @@ pub(in crate::render) struct LightList {
     pub(in crate::render) environment: Environment,
 }
 
-pub(super) fn lights_for(scene: &Proof, textures: &Textures) -> LightList {
-    match scene.settings().mode {
-        Mode::Path(_) => LightList {
-            course: Vec::new(),
-            punctual: facts::light::punctual(scene.lights())
-                .into_iter()
-                .map(punctual)
-                .collect(),
-            environment: environment(scene.environment(), textures),
-        },
-        Mode::Phong | Mode::Zbuffer | Mode::Normal | Mode::Gooch(_) => LightList {
-            course: facts::light::course(scene.lights())
-                .into_iter()
-                .map(course)
-                .collect(),
-            punctual: Vec::new(),
-            environment: environment(&valid::Environment::DARK, textures),
-        },
+pub(super) fn lights_for(scene: &Proof, plan: &Plan, textures: &Textures) -> LightList {
+    match &plan.paths {
+        Some(paths) => {
+            let is_constant = paths.environment == EnvironmentLeft::Constant;
+            let punctuals = facts::light::punctual(scene.lights()).into_iter();
+            LightList {
+                course: Vec::new(),
+                punctual: punctuals.map(punctual).collect(),
+                environment: environment(scene.environment(), is_constant, textures),
+            }
+        }
+        None => {
+            let lights = facts::light::course(scene.lights()).into_iter();
+            LightList {
+                course: lights.map(course).collect(),
+                punctual: Vec::new(),
+                environment: environment(&valid::Environment::DARK, false, textures),
+            }
+        }
     }
 }
 
@@ -99,12 +100,16 @@ fn point(light: valid::PointLight) -> PointLight {
     }
 }
 
-fn environment(environment: &valid::Environment, textures: &Textures) -> Environment {
+fn environment(
+    environment: &valid::Environment,
+    is_constant: bool,
+    textures: &Textures,
+) -> Environment {
     let valid::Environment {
         radiance,
         image,
         image_from_world,
     } = *environment;
     let image = image.map(|image| textures.image(image));
-    Environment::new(radiance, image, image_from_world)
+    Environment::new(radiance, image, image_from_world, is_constant)
 }

@@ -20,7 +20,7 @@ impl<S: Prepare> World<S> {
     #[must_use]
     pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
         let textures = Textures::new(scene);
-        let lights = light::lights_for(scene, &textures);
+        let lights = light::lights_for(scene, plan, &textures);
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
                 let materials = scene.materials().iter().map(material::phong).collect();

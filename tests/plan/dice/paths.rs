@@ -40,7 +40,37 @@ impl Dice {
             ir::Projection::Perspective,
             ir::Projection::Orthographic,
         ]);
+        if self.chance(6) {
+            self.light_directly(&mut scene);
+        }
         scene
+    }
+
+    /// Leaves only direct light, and puts a ball behind most cameras.
+    fn light_directly(&mut self, scene: &mut Scene) {
+        for material in &mut scene.materials {
+            if let Material::Standard(standard) = material {
+                (standard.emissive, standard.unlit) = ([0.0; 3], false);
+            }
+        }
+        (scene.environment, scene.settings.max_depth) = (None, 1);
+        scene.lights.truncate(1);
+        if scene.lights.is_empty() {
+            scene.lights.push(self.path_light());
+        }
+        let mirror = Standard {
+            roughness: self.weight(),
+            ..Standard::default()
+        };
+        scene.surfaces.push(ir::Surface {
+            shape: ir::Shape::Sphere(ir::Sphere {
+                center: [self.number(3), self.number(3), 12.0],
+                radius: self.length(),
+                texture_from_world: None,
+            }),
+            material: MaterialId(scene.materials.len() as u32),
+        });
+        scene.materials.push(Material::Standard(Box::new(mirror)));
     }
 
     /// Of noise, of one value, black, opaque, clear in parts, and white.

@@ -5,11 +5,11 @@ use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::{Body, Hull};
-use crate::plan::path::draft::{Draft, LightLeft};
+use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
-use crate::plan::space::{MARGIN, Sides, Space};
-use crate::valid::{Falloff, Punctual};
+use crate::plan::space::{Flat, MARGIN, Sides, Space};
+use crate::valid::{Alpha, Falloff, PointLight, Punctual, SpotLight};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -33,17 +33,42 @@ pub(super) const DARK_SKY: PathRule = PathRule {
     text: "An environment whose radiance is 0 in all directions adds 0 to a path that leaves the scene.",
     because: "the environment is black",
     apply: |draft| {
-        let around = draft.scene.environment();
-        let is_dark = around
-            .image
-            .is_some_and(|image| is_black(&draft.scene.images()[image].texels));
-        if !draft.environment || !is_dark {
-            return Vec::new();
-        }
-        draft.environment = false;
-        vec![Place::new(Noun::Environment, 0, Field::Whole)]
+        reduce_environment(draft, EnvironmentLeft::Nothing, |draft, image| {
+            is_black(&draft.scene.images()[image].texels)
+        })
     },
 };
+
+pub(super) const EVEN_SKY: PathRule = PathRule {
+    rule: Rule::PathEvenSky,
+    name: "P-ENV-CONST",
+    text: "An environment image whose texels are all equal shows that value in every direction: what \
+           filtering blends of equal texels is that texel. It is read once, when the scene is \
+           prepared. Directions to it are chosen by its table as before, so that no random number \
+           changes its meaning.",
+    because: "all texels of the environment's image are equal",
+    apply: |draft| {
+        reduce_environment(draft, EnvironmentLeft::Constant, |draft, image| {
+            draft.textures.is_even_image(image)
+        })
+    },
+};
+
+/// Reduces an environment with an image that has a property to `rest`; returns its place if that
+/// changed it.
+fn reduce_environment(
+    draft: &mut Draft<'_>,
+    rest: EnvironmentLeft,
+    has: impl Fn(&Draft<'_>, usize) -> bool,
+) -> Vec<Place> {
+    let image = draft.scene.environment().image;
+    let is_all = draft.environment == EnvironmentLeft::All;
+    if !(is_all && image.is_some_and(|image| has(draft, image))) {
+        return Vec::new();
+    }
+    draft.environment = rest;
+    vec![Place::new(Noun::Environment, 0, Field::Whole)]
+}
 
 pub(super) const OUT_OF_REACH: PathRule = PathRule {
     rule: Rule::PathLightReach,
@@ -89,7 +114,8 @@ pub(super) const ALONE: PathRule = PathRule {
     name: "P-SHADOW-ALONE",
     text: "A convex opaque solid that stands alone, looked at from outside, lies behind the plane that \
            touches it at any of its points, and a light before that plane is not hidden by it. A flat \
-           surface that stands alone hides no light that is off its plane.",
+           surface that stands alone hides no light that is off its plane; of an environment with an image \
+           some directions are not.",
     because: "one convex surface stands alone and does not hide its lights",
     apply: |draft| {
         let mut left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
@@ -123,17 +149,36 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         draft.scene.camera().eye,
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
-    let mut places = draft.punctual.iter().filter_map(position);
-    let is_plain = material.transmission == UnitInterval::ZERO && material.emissive == Vec3::ZERO;
+    let keeps_rays_out =
+        material.transmission == UnitInterval::ZERO && material.alpha == Alpha::Opaque;
+    let is_dark = material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {
-        Hull::Flat(flat) => places.all(|at| flat.sides(&point(at)) != Sides::BOTH),
+        Hull::Flat(flat) => {
+            let mut lights = draft.punctual.iter();
+            !draft.has_extended_light() && lights.all(|light| is_off(light, &flat))
+        }
         Hull::Ball(..) | Hull::Convex => {
+            let mut places = draft.punctual.iter().filter_map(position);
             body.is_clear_of(&eye) && places.all(|at| body.is_clear_of(&point(at)))
         }
+        // Nor is a closed convex mesh known to spare them: a ray from beside an edge starts a few
+        // rounding errors above its face, and by as much the edge functions of the next face may be
+        // wrong, the more so the flatter the ray runs to it.
         Hull::Other => false,
     };
-    is_plain && is_perspective && spares
+    keeps_rays_out && is_dark && is_perspective && spares
+}
+
+/// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
+fn is_off(light: &Punctual, flat: &Flat) -> bool {
+    match light {
+        Punctual::Sun(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
+        Punctual::Point(PointLight { position, .. })
+        | Punctual::Spot(SpotLight { position, .. }) => {
+            flat.sides(&point(*position)) != Sides::BOTH
+        }
+    }
 }
 
 /// Whether all texels are black.

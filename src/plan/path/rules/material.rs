@@ -1,33 +1,11 @@
 //! Rules on materials: layers of weight 0, alpha of 1, what an unlit material ignores.
 
 use super::PathRule;
-use crate::ir::{Field, Noun, Place};
 use crate::math::{NonNegative, UnitInterval, Vec3};
 use crate::plan::facts;
 use crate::plan::path::draft::Draft;
 use crate::plan::rules::Rule;
-use crate::valid::{Alpha, Standard};
-
-fn place(material: usize) -> Place {
-    Place::new(Noun::Material, material, Field::Whole)
-}
-
-/// Simplifies the materials that are in use; returns the places of the changed ones.
-fn simplify(
-    draft: &mut Draft<'_>,
-    simplified: impl Fn(&Draft<'_>, usize, &Standard) -> Standard,
-) -> Vec<Place> {
-    let used: Vec<_> = draft.used().map(|(index, _)| index).collect();
-    let mut changed = Vec::new();
-    for index in used {
-        let new = simplified(draft, index, &draft.materials[index]);
-        if new != draft.materials[index] {
-            draft.materials[index] = new;
-            changed.push(place(index));
-        }
-    }
-    changed
-}
+use crate::valid::{Alpha, Map, Standard};
 
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,
@@ -36,36 +14,37 @@ pub(super) const ZERO: PathRule = PathRule {
            iridescence, specular reflection or emission whose factor is 0, or whose texture is 0 in \
            the channel that counts, wherever a surface lies on it.",
     because: "its textures are 0 wherever a surface lies on them",
-    apply: |draft| simplify(draft, without_zeros),
+    apply: |draft| draft.simplify(without_zeros),
 };
 
-fn without_zeros(draft: &Draft<'_>, index: usize, material: &Standard) -> Standard {
-    let mut new = material.clone();
-    let is_zero = |map, channel| draft.channel(index, map, channel)[1] == 0.0;
-    let are_zero = |map| (0..3).all(|channel| is_zero(map, channel));
-    if is_zero(material.transmission_map.as_ref(), 0) {
+fn without_zeros(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
+    let mut new = m.clone();
+    let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
+    let is_zero =
+        |map: &Option<Map>, channel| draft.is_zero(index, map.as_ref(), channel..channel + 1);
+    let are_zero = |map: &Option<Map>| draft.is_zero(index, map.as_ref(), 0..3);
+    if weighs(m.transmission) && is_zero(&m.transmission_map, 0) {
         // Only the factor decides whether the camera sees back faces.
-        new.double_sided = !material.is_seen_from_one_side();
+        new.double_sided = !m.is_seen_from_one_side();
         new.transmission = UnitInterval::ZERO;
     }
-    if is_zero(material.clearcoat_map.as_ref(), 0) {
+    if weighs(m.clearcoat) && is_zero(&m.clearcoat_map, 0) {
         new.clearcoat = UnitInterval::ZERO;
     }
-    if are_zero(material.sheen_color_map.as_ref()) {
+    if m.sheen_color != Vec3::ZERO && are_zero(&m.sheen_color_map) {
         new.sheen_color = Vec3::ZERO;
     }
-    if is_zero(material.anisotropy_map.as_ref(), 2) {
+    if weighs(m.anisotropy) && is_zero(&m.anisotropy_map, 2) {
         new.anisotropy = UnitInterval::ZERO;
     }
-    if is_zero(material.iridescence_map.as_ref(), 0)
-        || material.iridescence_thickness == [NonNegative::ZERO; 2]
-    {
+    let is_thin = m.iridescence_thickness == [NonNegative::ZERO; 2];
+    if weighs(m.iridescence) && (is_thin || is_zero(&m.iridescence_map, 0)) {
         new.iridescence = UnitInterval::ZERO;
     }
-    if is_zero(material.specular_map.as_ref(), 3) {
+    if weighs(m.specular) && is_zero(&m.specular_map, 3) {
         new.specular = UnitInterval::ZERO;
     }
-    if are_zero(material.emissive_map.as_ref()) {
+    if m.emissive != Vec3::ZERO && are_zero(&m.emissive_map) {
         new.emissive = Vec3::ZERO;
     }
     new
@@ -77,7 +56,7 @@ pub(super) const UNLIT: PathRule = PathRule {
     text: "An unlit material shows its base colour and ends the path: nothing else of it counts.",
     because: "the materials that have it are unlit",
     apply: |draft| {
-        simplify(draft, |_, _, material| {
+        draft.simplify(|_, _, material| {
             if !material.unlit {
                 return material.clone();
             }
@@ -97,10 +76,11 @@ pub(super) const OPAQUE: PathRule = PathRule {
     rule: Rule::PathOpaque,
     name: "P-ALPHA",
     text: "A material whose alpha is 1 wherever a surface lies on its texture, or that is masked and \
-           whose alpha is above the cutoff there, covers what is behind it: it is opaque.",
+           whose alpha is above the cutoff there, covers what is behind it: it is opaque. Not where \
+           surfaces have colours at their corners, whose alpha is interpolated.",
     because: "alpha is 1, or above the cutoff, wherever a surface lies",
     apply: |draft| {
-        simplify(draft, |draft, index, material| {
+        draft.simplify(|draft, index, material| {
             let is_opaque = covers(draft, index, material);
             let alpha = if is_opaque {
                 Alpha::Opaque
@@ -115,17 +95,24 @@ pub(super) const OPAQUE: PathRule = PathRule {
     },
 };
 
-/// Whether a material is opaque.
+/// Whether a material is opaque. Its texture is looked at only where the factor leaves that open.
 fn covers(draft: &Draft<'_>, index: usize, material: &Standard) -> bool {
     /// A margin above the rounding error of filtered values.
     const MARGIN: f64 = 1e-6;
-    let [min, max] = draft.channel(index, material.base_color_map.as_ref(), 3);
-    let corners = draft.uses[index].least_alpha;
-    let alpha = material.base_color[3].get() * min * corners;
-    let is_exact = min == max && corners == 1.0;
+    let uses = &draft.uses[index];
+    let factor = material.base_color[3].get();
+    let (map, textures) = (material.base_color_map.as_ref(), draft.textures);
+    let only_value = || map.map_or(Some(1.0), |map| uses.value(map, 3, textures));
     match material.alpha {
         Alpha::Opaque => true,
-        Alpha::Mask(cutoff) => alpha > cutoff.get() + MARGIN || (is_exact && alpha >= cutoff.get()),
-        Alpha::Blend => is_exact && alpha >= 1.0,
+        Alpha::Mask(_) | Alpha::Blend if uses.has_colors => false,
+        Alpha::Blend => factor >= 1.0 && only_value() == Some(1.0),
+        Alpha::Mask(cutoff) => {
+            let cutoff = cutoff.get();
+            let is_above = |alpha: f64| factor * alpha > cutoff + MARGIN;
+            factor >= cutoff
+                && (only_value().is_some_and(|alpha| factor * alpha >= cutoff)
+                    || map.is_some_and(|map| uses.all(map, 3, textures, is_above)))
+        }
     }
 }

@@ -26,9 +26,10 @@ pub(in crate::plan) struct PathRule {
 }
 
 /// All rules for paths.
-pub(in crate::plan) const ALL: [&PathRule; 14] = [
+pub(in crate::plan) const ALL: [&PathRule; 16] = [
     &light::BLACK,
     &light::DARK_SKY,
+    &light::EVEN_SKY,
     &material::ZERO,
     &material::UNLIT,
     &texture::UNSEEN,
@@ -41,6 +42,7 @@ pub(in crate::plan) const ALL: [&PathRule; 14] = [
     &light::MIRRORS_ONLY,
     &light::ALONE,
     &paths::CULL,
+    &paths::CULL_SHADOW,
 ];
 
 /// The item of a rule, if it is one for paths.

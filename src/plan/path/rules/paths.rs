@@ -2,9 +2,14 @@
 
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
+use crate::math::Vec3;
+use crate::plan::MAX_PAIRS;
+use crate::plan::effect::Effect;
 use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::rules::Rule;
+use crate::plan::space::Space;
 use crate::plan::window::Shown;
+use crate::valid::{Falloff, PointLight, Punctual, SpotLight, Standard};
 
 fn depth() -> Place {
     Place::new(Noun::Settings, 0, Field::MaxDepth)
@@ -12,10 +17,8 @@ fn depth() -> Place {
 
 /// Whether a scattered ray may find light at a surface or in the environment.
 fn finds_light(draft: &Draft<'_>) -> bool {
-    let glows = |material: &crate::valid::Standard| {
-        material.unlit || material.emissive != crate::math::Vec3::ZERO
-    };
-    draft.environment || draft.used().any(|(_, material)| glows(material))
+    let glows = |material: &Standard| material.unlit || material.emissive != Vec3::ZERO;
+    draft.asks(Effect::Environment) || draft.used().any(|(_, material)| glows(material))
 }
 
 pub(super) const NO_LIGHT: PathRule = PathRule {
@@ -63,19 +66,104 @@ pub(super) const CULL: PathRule = PathRule {
            is met by no ray.",
     because: "no ray of the camera meets it",
     apply: |draft| {
-        if draft.bounces() || draft.asks(crate::plan::Effect::Shadows) {
+        if draft.bounces() || draft.asks(Effect::Shadows) {
             return Vec::new();
         }
-        let is_out =
-            |surface: &usize| draft.surfaces[*surface] && draft.shown[*surface] == Shown::Nowhere;
-        let out: Vec<_> = (0..draft.surfaces.len()).filter(is_out).collect();
-        out.iter()
-            .for_each(|surface| draft.surfaces[*surface] = false);
-        let index = |surface: usize| draft.scene.surfaces()[surface].index;
-        let place = |surface| Place::new(Noun::Surface, index(surface), Field::Whole);
-        out.into_iter().map(place).collect()
+        let (_, unseen) = split(draft);
+        leave_out(draft, unseen)
     },
 };
+
+pub(super) const CULL_SHADOW: PathRule = PathRule {
+    rule: Rule::PathCullShadow,
+    name: "P-CULL-SHADOW",
+    text: "Where no path goes on and no light has an extent, rays go from the camera to the surfaces in \
+           view, and from these to the lights. A surface outside the view, and outside the convex hull \
+           of each surface in view and each light, is met by no ray. Not where lights are chosen by \
+           what they send to the whole scene, of which the surface is a part.",
+    because: "no ray of the camera meets it, and it is not between a surface in view and a light",
+    apply: |draft| {
+        if draft.bounces() || !draft.asks(Effect::Shadows) || draft.has_extended_light() {
+            return Vec::new();
+        }
+        if is_choice_by_size(draft) {
+            return Vec::new();
+        }
+        let unmet = unmet_by_shadow_rays(draft).unwrap_or_default();
+        leave_out(draft, unmet)
+    },
+};
+
+/// Whether the choice between lights without extent depends on the size of the scene.
+fn is_choice_by_size(draft: &Draft<'_>) -> bool {
+    let is_chosen = |(_, left): &(&Punctual, &LightLeft)| **left != LightLeft::Nothing;
+    let chosen = || draft.punctual.iter().zip(&draft.lights).filter(is_chosen);
+    let is_by_size = |(light, _): (&Punctual, &LightLeft)| match light {
+        Punctual::Sun(_) => true,
+        Punctual::Point(PointLight { falloff, .. }) | Punctual::Spot(SpotLight { falloff, .. }) => {
+            matches!(falloff, Falloff::None)
+        }
+    };
+    chosen().count() > 1 && chosen().any(is_by_size)
+}
+
+/// The surfaces outside the view that surely no ray from one in view to a light meets; `None` where
+/// that is not known.
+fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
+    let (seen, unseen) = split(draft);
+    let is_left = |(_, left): &(&Punctual, &LightLeft)| **left == LightLeft::All;
+    let lights = || draft.punctual.iter().zip(&draft.lights).filter(is_left);
+    if lights()
+        .count()
+        .saturating_mul(seen.len())
+        .saturating_mul(unseen.len())
+        > MAX_PAIRS
+    {
+        return None;
+    }
+    let space = |surface: &usize| draft.bodies[*surface].space().copied();
+    let starts = seen.iter().map(space).collect::<Option<Vec<_>>>()?;
+    let is_met = |other: &Space| {
+        let meets = |start: &Space| {
+            lights().any(|(light, _)| start.may_see_through(&end(light, start, other), other))
+        };
+        starts.iter().any(meets)
+    };
+    let is_unmet = |surface: &usize| space(surface).is_some_and(|space| !is_met(&space));
+    Some(unseen.into_iter().filter(is_unmet).collect())
+}
+
+/// Where the rays to a light that start in a box end; for a sun, beyond another box.
+fn end(light: &Punctual, start: &Space, other: &Space) -> Space {
+    match light {
+        Punctual::Sun(sun) => {
+            // Points of the two are at most √3 times the sum of their sizes apart.
+            let step = sun.direction * (2.0 * (start.size() + other.size()));
+            Space {
+                min: start.min + step,
+                max: start.max + step,
+            }
+        }
+        Punctual::Point(PointLight { position, .. })
+        | Punctual::Spot(SpotLight { position, .. }) => Space::around(*position, Vec3::ZERO),
+    }
+}
+
+/// The surfaces of the world that a ray of the camera may meet, and the others.
+fn split(draft: &Draft<'_>) -> (Vec<usize>, Vec<usize>) {
+    let left = (0..draft.surfaces.len()).filter(|surface| draft.surfaces[*surface]);
+    left.partition(|surface| draft.shown[*surface] != Shown::Nowhere)
+}
+
+/// Leaves surfaces out of the world; returns their places.
+fn leave_out(draft: &mut Draft<'_>, surfaces: Vec<usize>) -> Vec<Place> {
+    surfaces
+        .iter()
+        .for_each(|surface| draft.surfaces[*surface] = false);
+    let index = |surface: usize| draft.scene.surfaces()[surface].index;
+    let place = |surface| Place::new(Noun::Surface, index(surface), Field::Whole);
+    surfaces.into_iter().map(place).collect()
+}
 
 /// Ends all paths at their first hit, if that is proven to be sufficient.
 fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<Place> {

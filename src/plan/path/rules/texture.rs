@@ -15,24 +15,11 @@ pub(super) const UNSEEN: PathRule = PathRule {
            does not show at all: neither is looked up. Nor are maps that only light needs, where no \
            path goes on.",
     because: "its maps multiply 0, or no surface has their texture coordinates",
-    apply: |draft| {
-        let used: Vec<_> = draft.used().map(|(index, _)| index).collect();
-        let mut changed = Vec::new();
-        for index in used {
-            let new = without_unseen(draft, index);
-            if new != draft.materials[index] {
-                draft.materials[index] = new;
-                changed.push(Place::new(Noun::Material, index, Field::Whole));
-            }
-        }
-        changed
-    },
+    apply: |draft| draft.simplify(without_unseen),
 };
 
-fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
-    let mut new = draft.materials[index].clone();
-    let sets = draft.uses[index].sets;
-    let m = &draft.materials[index];
+fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
+    let mut new = m.clone();
     let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
     let is_shaded = draft.max_depth > 0 && !m.unlit;
     let is_clear = !weighs(m.transmission);
@@ -82,7 +69,7 @@ fn without_unseen(draft: &Draft<'_>, index: usize) -> Standard {
         ),
     ];
     for (map, shows) in conditions {
-        let has_places = |map: &Map| sets[map.set.index()] != Presence::Never;
+        let has_places = |map: &Map| draft.uses[index].presence(map) != Presence::Never;
         if !(shows && map.as_ref().is_some_and(has_places)) {
             *map = None;
         }

@@ -12,7 +12,7 @@ mod visibility;
 
 use super::Integrator;
 use crate::math::Vec3;
-use crate::plan::{Effect, PathFeatures};
+use crate::plan::{Effect, EnvironmentLeft, PathFeatures};
 use crate::render::camera::{image_point, lens_at, ray_through};
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::film::pixel::{Sample, SampleId, Stream};
@@ -74,7 +74,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             strategy,
             knows_all: false,
             background: Background::default(),
-            has_environment: plan.is_none_or(|plan| plan.environment),
+            has_environment: plan.is_none_or(|plan| plan.environment != EnvironmentLeft::Nothing),
             max_bounces: world.plan.max_depth.saturating_sub(useless),
             planned: plan.map_or(PathFeatures::EVERYTHING, |plan| plan.features),
             heartbeat: Heartbeat::new(on_pixel),

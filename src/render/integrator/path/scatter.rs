@@ -25,10 +25,18 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return;
         }
         let (radiance, light_pdf) = self.lights.environment(state.ray.direction);
+        self.count_environment_map();
         if radiance != Vec3::ZERO {
             self.counts.add(Effect::Environment);
-            let weight = self.weight_of_scattering(state.pdf, || light_pdf);
+            let weight = self.weight_of_scattering(state.pdf, light_pdf);
             state.radiance += state.beta * radiance * weight;
+        }
+    }
+
+    /// Counts a look-up of the environment's image.
+    fn count_environment_map(&mut self) {
+        if self.world.lights.environment.is_looked_up() {
+            self.counts.add(Effect::EnvironmentMap);
         }
     }
 
@@ -184,6 +192,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             return Vec3::ZERO;
         };
         self.counts.add(Effect::DirectLight);
+        // Of all lights, only the environment has a density and no place.
+        if pdf.is_some() && place.is_none() {
+            self.count_environment_map();
+        }
         let local = frame.to_local(wi);
         let through = local.z * wo.z < 0.0;
         if through != (wi.dot(at.normal) * -state.ray.direction.dot(at.normal) < 0.0) {

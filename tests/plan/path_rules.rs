@@ -1,0 +1,252 @@
+//! Each rule for paths by two scenes: one where it holds, and one as near to it as can be where it
+//! does not. The first is told so, the second is not, and the picture of neither changes a bit.
+
+use super::proven;
+use super::stage::{ball, disc, stage};
+use super::told::{difference, film};
+use rtc::ir::{
+    self, Alpha, Emitter, Environment, ImageId, Material, MaterialId, Mode, PathSettings, Pixels,
+    Punctual, Scene, Shape, Standard, Surface,
+};
+use rtc::math::Vec3;
+use rtc::plan::{Effect, Plan, Rule, Rules};
+
+/// White without reflection, seen from both sides.
+fn white() -> Standard {
+    Standard {
+        metallic: 0.0,
+        specular: 0.0,
+        double_sided: true,
+        ..Standard::default()
+    }
+}
+
+/// A stage whose paths are traced, with surfaces of glTF materials.
+fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
+    let mut scene = stage();
+    scene.settings.mode = Mode::Path(PathSettings {
+        samples: 4,
+        multiple_scattering: false,
+    });
+    for (index, (shape, material)) in (0..).zip(surfaces) {
+        let (shape, material) = (shape.clone(), Box::new(material.clone()));
+        scene.materials.push(Material::Standard(material));
+        scene.surfaces.push(Surface {
+            shape,
+            material: MaterialId(index),
+        });
+    }
+    scene
+}
+
+/// A white sun.
+fn sun(direction: Vec3) -> ir::Light {
+    let direction = direction.to_array();
+    ir::Light::Punctual(Punctual {
+        emitter: Emitter::Sun { direction },
+        intensity: [1.0; 3],
+    })
+}
+
+/// A white light at a point, which falls off with the square of the distance.
+fn lamp(position: [f64; 3]) -> ir::Light {
+    ir::Light::Punctual(Punctual {
+        emitter: Emitter::Point {
+            position,
+            range: None,
+        },
+        intensity: [40.0; 3],
+    })
+}
+
+/// Adds a mesh, and returns an instance of it.
+fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
+    scene.meshes.push(mesh);
+    Shape::Instance(ir::Instance {
+        mesh: ir::MeshId(scene.meshes.len() as u32 - 1),
+        world_from_object: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0; 3]],
+    })
+}
+
+/// A triangle across the view.
+fn across() -> ir::Mesh {
+    ir::Mesh {
+        name: "across".to_owned(),
+        positions: vec![[-2.0, -2.0, 1.0], [2.0, -2.0, 1.1], [0.0, 2.0, 1.3]].into(),
+        uvs: vec![[0.0, 0.0], [1.0, 0.0], [0.5, 1.0]].into(),
+        triangles: vec![[0, 1, 2]].into(),
+        ..ir::Mesh::default()
+    }
+}
+
+/// Whether a rule removes an effect from a scene. The picture by it, and by all rules, keeps its
+/// bits in any case.
+fn fires(rule: Rule, scene: &Scene) -> bool {
+    let proof = proven(scene);
+    let unpruned = film(&proof, Rules::NONE);
+    for rules in [Rules::NONE.with(rule), Rules::ALL] {
+        assert_eq!(difference(&proof, &unpruned, rules), None, "{rule:?}");
+    }
+    let plan = Plan::new(&proof, Rules::ALL);
+    plan.verdicts
+        .iter()
+        .any(|verdict| verdict.rule == Some(rule))
+}
+
+#[test]
+fn a_solid_alone_casts_no_shadow_unless_rays_get_inside() {
+    let alone = |material: Standard| traced(&[(ball([0.0; 3], 1.0), material)]);
+    let fires = |material: Standard| fires(Rule::PathShadowAlone, &alone(material));
+    assert!(fires(white()));
+    let half = [1.0, 1.0, 1.0, 0.5];
+    for alpha in [Alpha::Blend, Alpha::Mask(0.7)] {
+        let base_color = half;
+        assert!(!fires(Standard {
+            base_color,
+            alpha,
+            ..white()
+        }));
+    }
+    let opaque = Alpha::Opaque;
+    assert!(fires(Standard {
+        base_color: half,
+        alpha: opaque,
+        ..white()
+    }));
+}
+
+#[test]
+fn alpha_of_corners_is_not_taken_for_1_where_it_is_interpolated() {
+    let masked = Standard {
+        alpha: Alpha::Mask(1.0),
+        ..white()
+    };
+    let cover = |colors: Vec<[f64; 4]>| {
+        let mut scene = traced(&[(disc([0.0; 3], 4.0), white())]);
+        let mut mesh = across();
+        mesh.colors = colors.into();
+        let shape = placed(&mut scene, mesh);
+        let material = MaterialId(scene.materials.len() as u32);
+        scene.surfaces.push(Surface { shape, material });
+        scene
+            .materials
+            .push(Material::Standard(Box::new(masked.clone())));
+        scene
+    };
+    assert!(fires(Rule::PathOpaque, &cover(Vec::new())));
+    // The weights of some points add up to a little less than 1.
+    assert!(!fires(Rule::PathOpaque, &cover(vec![[1.0; 4]; 3])));
+}
+
+#[test]
+fn an_environment_of_one_value_is_looked_up_once_and_a_black_one_never() {
+    let around = |texel: [u8; 4], last: [u8; 4]| {
+        let mut scene = traced(&[(ball([0.0; 3], 1.0), white())]);
+        scene.images.push(ir::Image {
+            name: "sky".to_owned(),
+            width: 2,
+            height: 2,
+            kind: Pixels::Rgba8,
+            pixels: [texel, texel, texel, last].concat().into(),
+        });
+        scene.environment = Some(Environment {
+            radiance: [0.5, 1.0, 2.0],
+            image: Some(ImageId(0)),
+            image_from_world: None,
+        });
+        scene
+    };
+    let color = [200, 150, 100, 255];
+    let (even, uneven) = (around(color, color), around(color, [200, 150, 101, 255]));
+    assert!(fires(Rule::PathEvenSky, &even) && !fires(Rule::PathEvenSky, &uneven));
+    let looked_up = |scene| {
+        film(&proven(scene), Rules::ALL)
+            .counts
+            .of(Effect::EnvironmentMap)
+    };
+    assert_eq!(looked_up(&even), 0);
+    assert!(looked_up(&uneven) > 0);
+    // The alpha of an environment's image has no meaning.
+    assert!(fires(Rule::PathDarkSky, &around([0; 4], [0, 0, 0, 255])));
+    assert!(!fires(Rule::PathDarkSky, &around([0; 4], [0, 0, 1, 0])));
+}
+
+#[test]
+fn a_flat_surface_alone_may_stand_in_the_light_of_a_sun_in_its_plane() {
+    let lit_from = |normal: Vec3, direction: Vec3| {
+        let shape = Shape::Disc(ir::Disc {
+            center: [0.0; 3],
+            normal: normal.to_array(),
+            radius: 2.5,
+        });
+        let mut scene = traced(&[(shape, white())]);
+        // Where coordinates are small, rays start close above the disc.
+        (scene.camera.right, scene.camera.up) = ([1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]);
+        scene.lights = vec![sun(direction)];
+        scene
+    };
+    for k in 0..16 {
+        let normal = Vec3::new(0.3 + 0.01 * f64::from(k), 0.7, 1.0);
+        let along = normal.cross(Vec3::new(0.2, 0.9, 0.1));
+        assert!(!fires(Rule::PathShadowAlone, &lit_from(normal, along)));
+        assert!(fires(
+            Rule::PathShadowAlone,
+            &lit_from(normal, along + normal * 1e-3)
+        ));
+    }
+}
+
+#[test]
+fn what_is_out_of_view_is_left_out_unless_it_may_hide_a_light() {
+    let beside = |center: [f64; 3], depth: u32| {
+        let mirror = Standard {
+            metallic: 1.0,
+            ..white()
+        };
+        let mut scene = traced(&[(ball([0.0; 3], 1.0), white()), (ball(center, 0.2), mirror)]);
+        scene.settings.max_depth = depth;
+        scene
+    };
+    // The light is behind the camera, at (3, 4, 12).
+    let (apart, between) = ([-3.0, -4.0, 12.0], [2.8, 3.7, 11.2]);
+    assert!(fires(Rule::PathCullShadow, &beside(apart, 1)));
+    assert!(!fires(Rule::PathCullShadow, &beside(between, 1)));
+    assert!(
+        !fires(Rule::PathCullShadow, &beside(apart, 2)),
+        "a mirrored ray may meet it"
+    );
+    let by_sun = |center| {
+        let mut scene = beside(center, 1);
+        scene.lights = vec![sun(Vec3::new(3.0, 4.0, 12.0))];
+        scene
+    };
+    assert!(fires(Rule::PathCullShadow, &by_sun(apart)));
+    assert!(!fires(Rule::PathCullShadow, &by_sun(between)));
+    let by_two = |light: ir::Light| {
+        let mut scene = beside(apart, 1);
+        scene.lights = vec![lamp([3.0, 4.0, 12.0]), light];
+        scene
+    };
+    assert!(fires(Rule::PathCullShadow, &by_two(lamp([9.0, 0.0, 9.0]))));
+    let choice = by_two(sun(Vec3::Z));
+    assert!(
+        !fires(Rule::PathCullShadow, &choice),
+        "the scene decides how often the sun is chosen"
+    );
+}
+
+#[test]
+fn light_comes_through_glass_where_no_ray_goes_on() {
+    let frosted = Standard {
+        transmission: 1.0,
+        specular: 1.0,
+        roughness: 0.8,
+        ..white()
+    };
+    let mut scene = traced(&[(disc([0.0; 3], 1.0), frosted)]);
+    scene.settings.max_depth = 1;
+    scene.lights = vec![lamp([0.5, 0.0, -3.0])];
+    assert!(fires(Rule::PathLast, &scene));
+    let picture = film(&proven(&scene), Rules::ALL).image;
+    assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
+}
