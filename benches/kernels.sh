@@ -119,7 +119,7 @@ scenes/normals.yaml 0.75
 scenes/five-spheres.yaml 0.75
 scenes/globe.yaml 0.72
 scenes/vases.yaml 1
-../shared/gltf/assets/own_CornellLambert.glb 1
-../shared/gltf/assets/FlightHelmet/FlightHelmet.gltf 1
-../shared/gltf/assets/TransmissionRoughnessTest.glb 1
+../shared/gltf/refs/CornellLambert.json 1
+../shared/gltf/refs/FlightHelmet.json 1
+../shared/gltf/refs/GlassSphere.json 1
 END

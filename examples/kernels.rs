@@ -1,19 +1,22 @@
-//! `kernels planned|everything|unpruned|NUMBER SCENE` renders 160 × 160 pixels, 16 paths each where
-//! paths are traced, and says nothing, for a profiler to count the instructions of `picture`: as
-//! planned; by the kernel that can do everything; with no rule of the plan; by the kernel of a number.
+//! `kernels planned|everything|unpruned|NUMBER SCENE` renders 160 × 160 pixels of a scene, or of the
+//! set-up of a reference, 16 paths each where paths are traced, and says nothing, for a profiler to
+//! count the instructions of `picture`: as planned; by the kernel that can do everything; with no
+//! rule of the plan; by the kernel of a number.
 //! `kernels time SCENE` says how long the first two take: the median of pictures made in turns.
 
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
 
-use rtc::diag::Sink;
+mod setup;
+
 use rtc::passes::Overrides;
-use rtc::pipeline::{self, Options};
 use rtc::plan::{Features, PathFeatures, Plan, Rules, Shapes};
-use rtc::render::{self, Film, Job, KERNELS, PATH_KERNELS};
-use rtc::source::{Loader, SourceMap};
+use rtc::render::{AnyWorld, Film, Job, KERNELS, PATH_KERNELS};
 use rtc::valid::Proof;
 use std::path::Path;
 use std::time::Instant;
+
+/// Paths a pixel.
+const SAMPLES: u32 = 16;
 
 /// Pictures of each kind that are timed.
 const ROUNDS: usize = 9;
@@ -64,21 +67,19 @@ fn by(planned: &Plan, kernel: usize, of_paths: usize) -> Plan {
 }
 
 fn count(scene: &Proof, plan: &Plan) {
-    assert!(picture(scene, plan).counts.rays() > 0);
+    assert!(picture(&AnyWorld::prepare(scene, plan)).counts.rays() > 0);
 }
 
 /// Prints the medians of both kernels, in seconds.
 #[expect(clippy::disallowed_methods, reason = "a bench tells time")]
 fn time(scene: &Proof, planned: &Plan) {
-    let plans = [
-        planned.clone(),
-        by(planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1),
-    ];
+    let everything = by(planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1);
+    let worlds = [planned, &everything].map(|plan| AnyWorld::prepare(scene, plan));
     let mut taken = [const { Vec::new() }; 2];
     for _ in 0..ROUNDS {
-        for (taken, plan) in taken.iter_mut().zip(&plans) {
+        for (taken, world) in taken.iter_mut().zip(&worlds) {
             let start = Instant::now();
-            count(scene, plan);
+            picture(world);
             taken.push(start.elapsed().as_secs_f64());
         }
     }
@@ -93,19 +94,22 @@ fn time(scene: &Proof, planned: &Plan) {
 }
 
 #[inline(never)]
-fn picture(scene: &Proof, plan: &Plan) -> Film {
-    render::render(scene, plan, &Job::default(), &|_| true).unwrap()
+fn picture(world: &AnyWorld) -> Film {
+    world.render(&Job::default(), &|_| true).unwrap()
 }
 
 fn scene(file: &str) -> Proof {
-    let (mut map, mut sink, options) = (SourceMap::default(), Sink::default(), Options::default());
-    let read = Loader.file(Path::new(file), &mut map).unwrap();
-    let mut lowered = pipeline::load(read, &mut map, &options, &mut sink).unwrap();
+    let path = Path::new(file);
+    let mut lowered = if path.extension().is_some_and(|it| it == "json") {
+        setup::load_set_up(path, SAMPLES)
+    } else {
+        setup::load(path)
+    };
     Overrides {
         size: Some([160; 2]),
-        spp: Some(16),
+        spp: Some(SAMPLES),
         ..Overrides::default()
     }
     .apply(&mut lowered.scene);
-    pipeline::prove(&lowered, &options, &mut sink).unwrap()
+    setup::prove(&lowered)
 }
