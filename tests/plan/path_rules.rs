@@ -28,15 +28,20 @@ fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
         samples: 4,
         multiple_scattering: false,
     });
-    for (index, (shape, material)) in (0..).zip(surfaces) {
-        let (shape, material) = (shape.clone(), Box::new(material.clone()));
-        scene.materials.push(Material::Standard(material));
-        scene.surfaces.push(Surface {
-            shape,
-            material: MaterialId(index),
-        });
+    for (shape, material) in surfaces {
+        add(&mut scene, shape, material);
     }
     scene
+}
+
+/// Adds a surface with a material of its own.
+fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
+    scene.surfaces.push(Surface {
+        shape: shape.clone(),
+        material: MaterialId(scene.materials.len() as u32),
+    });
+    let material = Box::new(material.clone());
+    scene.materials.push(Material::Standard(material));
 }
 
 /// A white sun.
@@ -126,11 +131,7 @@ fn alpha_of_corners_is_not_taken_for_1_where_it_is_interpolated() {
         let mut mesh = across();
         mesh.colors = colors.into();
         let shape = placed(&mut scene, mesh);
-        let material = MaterialId(scene.materials.len() as u32);
-        scene.surfaces.push(Surface { shape, material });
-        scene
-            .materials
-            .push(Material::Standard(Box::new(masked.clone())));
+        add(&mut scene, &shape, &masked);
         scene
     };
     assert!(fires(Rule::PathOpaque, &cover(Vec::new())));
@@ -249,4 +250,30 @@ fn light_comes_through_glass_where_no_ray_goes_on() {
     assert!(fires(Rule::PathLast, &scene));
     let picture = film(&proven(&scene), Rules::ALL).image;
     assert!(picture.pixels.iter().any(|pixel| *pixel != [0.0; 3]));
+}
+
+#[test]
+fn veils_dim_a_light_alike_with_a_veiled_solid_that_is_left_out() {
+    let veil = |alpha: f64| Standard {
+        base_color: [1.0, 1.0, 1.0, alpha],
+        alpha: Alpha::Blend,
+        ..white()
+    };
+    let hidden = ball([-3.0, -4.0, 12.0], 0.2);
+    let mut scene = traced(&[(ball([0.0; 3], 1.0), white()), (hidden, veil(0.5))]);
+    for (height, alpha) in [(2.0, 0.3), (0.0, 0.45), (3.0, 0.17), (1.0, 0.61)] {
+        let mut mesh = across();
+        let raised = mesh.positions.iter().map(|[x, y, z]| [x, y, z + height]);
+        mesh.positions = raised.collect();
+        let shape = placed(&mut scene, mesh);
+        add(&mut scene, &shape, &veil(alpha));
+    }
+    scene.settings.max_depth = 1;
+    scene.lights = vec![lamp([0.5, 0.0, 12.0])];
+    let plan = Plan::new(&proven(&scene), Rules::ALL);
+    assert!(
+        !plan.surfaces[1],
+        "it is out of view, and off the way of the light"
+    );
+    fires(Rule::PathCullShadow, &scene);
 }

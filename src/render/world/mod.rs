@@ -273,18 +273,6 @@ impl<S: Geometry> World<S> {
         });
         blocked
     }
-
-    /// Whether the triangles of a surface stand in the world one by one.
-    pub(in crate::render) fn is_flattened(&self, surface: usize) -> bool {
-        let prims = self
-            .flattened
-            .as_ref()
-            .map_or(&[][..], |flattened| &flattened.prims);
-        let first = prims.partition_point(|[other, _]| (*other as usize) < surface);
-        prims
-            .get(first)
-            .is_some_and(|[other, _]| *other as usize == surface)
-    }
 }
 
 /// The ray from one point to another, and the t before which nothing belongs to the other; `None`

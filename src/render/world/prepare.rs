@@ -42,7 +42,7 @@ impl<S: Prepare> World<S> {
             bvh,
             flattened,
         } = Lookup::of(scene, &surfaces);
-        let mut world = Self {
+        Self {
             scene: scene.clone(),
             camera: camera(scene.camera()),
             settings: settings(scene),
@@ -52,16 +52,15 @@ impl<S: Prepare> World<S> {
             lights,
             surfaces,
             verify: None,
-            alpha_tested: AlphaTested::None,
+            alpha_tested: match plan.paths {
+                Some(_) => AlphaTested::of(scene),
+                None => AlphaTested::None,
+            },
             unbounded,
             bounded,
             bvh,
             flattened,
-        };
-        if plan.paths.is_some() {
-            world.alpha_tested = AlphaTested::of(&world, scene);
         }
-        world
     }
 }
 

@@ -72,8 +72,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
                 return transmittance;
             }
+            // What is met within the segment may be missed to within rounding: it hides the light,
+            // as it does where no surface is tested.
             let Some(hit) = self.world.closest_hit_from(&ray, from) else {
-                return transmittance;
+                return 0.0;
             };
             let (at, fraction) = self.transmittance(&ray, &hit);
             transmittance *= fraction;
