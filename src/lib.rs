@@ -21,6 +21,10 @@
 
 #![forbid(unsafe_code)]
 
+// First, since the rooms below use its table of shapes.
+#[macro_use]
+pub mod ir;
+
 pub mod cli;
 pub mod codec;
 pub mod color;
@@ -28,7 +32,6 @@ pub mod diag;
 pub mod emit;
 pub mod front;
 pub mod image;
-pub mod ir;
 pub mod math;
 pub mod passes;
 pub mod pipeline;

@@ -1,11 +1,8 @@
 //! Where a scene is: a ball around all of it that has an end. Its middle is what cameras without a
 //! target look at.
 
-use super::{
-    Column, Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle,
-};
-use crate::math::{Vec3, unit};
-use glam::DAffine3;
+use super::{Column, Scene};
+use crate::math::Vec3;
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,9 +24,13 @@ impl Scene {
             .map(|mesh| around(&mesh.positions))
             .collect();
         let each = |visit: &mut dyn FnMut(Vec3)| {
-            self.surfaces
-                .iter()
-                .for_each(|surface| corners(&surface.shape, &boxes, visit));
+            for surface in &self.surfaces {
+                let bounded = surface.shape.bounded();
+                bounded.cubes(&boxes, &mut |center, half| {
+                    let corners = box_corners([center - half, center + half]);
+                    corners.into_iter().for_each(&mut *visit);
+                });
+            }
         };
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         each(&mut |corner| (low, high) = (low.min(corner), high.max(corner)));
@@ -53,75 +54,8 @@ fn around(points: &Column<3>) -> [Vec3; 2] {
     ]
 }
 
-/// Visits points whose hull holds the shape; none for a plane or an empty mesh.
-fn corners(shape: &Shape, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
-    let mut cube = |center: [f64; 3], half: f64| {
-        let center = Vec3::from_array(center);
-        box_corners([center - half, center + half])
-            .into_iter()
-            .for_each(&mut *visit);
-    };
-    match shape {
-        Shape::Plane(Plane {
-            center: _,
-            normal: _,
-        }) => {}
-        Shape::Sphere(Sphere {
-            center,
-            radius,
-            texture_from_world: _,
-        }) => cube(*center, *radius),
-        Shape::Disc(Disc {
-            center,
-            normal: _,
-            radius,
-        }) => cube(*center, *radius),
-        Shape::Torus(Torus {
-            center,
-            axis: _,
-            major,
-            minor,
-        }) => cube(*center, major + minor),
-        Shape::Triangle(Triangle { vertices, uvs: _ }) => {
-            vertices.iter().for_each(|v| visit(Vec3::from_array(*v)))
-        }
-        Shape::Quad(Quad { vertices }) => vertices.iter().for_each(|v| visit(Vec3::from_array(*v))),
-        Shape::Cylinder(Cylinder {
-            base,
-            axis,
-            height,
-            radius,
-        }) => {
-            let top = Vec3::from_array(*base)
-                + unit(Vec3::from_array(*axis)).unwrap_or(Vec3::ZERO) * *height;
-            cube(*base, *radius);
-            cube(top.to_array(), *radius);
-        }
-        Shape::Cone(Cone { base, up, radius }) => {
-            cube(*base, *radius);
-            visit(Vec3::from_array(*base) + Vec3::from_array(*up));
-        }
-        Shape::Instance(instance) => placed(instance, boxes, visit),
-    }
-}
-
-/// Visits the corners of the box around a mesh, where the instance places them.
-fn placed(instance: &Instance, boxes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
-    let Instance {
-        mesh,
-        world_from_object,
-    } = instance;
-    let around = boxes.get(mesh.0 as usize);
-    let Some(around) = around.filter(|[low, _]| low.is_finite()) else {
-        return;
-    };
-    let world = DAffine3::from_cols_array_2d(world_from_object);
-    box_corners(*around)
-        .into_iter()
-        .for_each(|corner| visit(world.transform_point3(corner)));
-}
-
-fn box_corners([low, high]: [Vec3; 2]) -> [Vec3; 8] {
+/// The corners of a box.
+pub(super) fn box_corners([low, high]: [Vec3; 2]) -> [Vec3; 8] {
     std::array::from_fn(|corner| {
         let pick = |bit: usize| {
             if corner >> bit & 1 == 0 {

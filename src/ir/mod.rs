@@ -14,6 +14,7 @@ mod material;
 mod mesh;
 mod origin;
 mod settings;
+#[macro_use]
 mod shape;
 mod standard;
 mod texture;
@@ -28,9 +29,7 @@ pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};
 pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
-pub use shape::{
-    Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
-};
+pub use shape::*;
 pub use standard::{Alpha, Map, Standard};
 pub use texture::{Filter, Sampled, Texture, TextureId, Wrap};
 

@@ -1,5 +1,6 @@
 //! Where each value of a scene was written: kept beside the scene, never serialised.
 
+use super::ShapeKind;
 use crate::source::Span;
 use std::fmt;
 
@@ -65,33 +66,8 @@ pub enum Field {
     SpecularMap,
     NormalMap,
     Bump,
-    SphereCenter,
-    SphereRadius,
-    PlaneCenter,
-    PlaneNormal,
-    TriangleVertex0,
-    TriangleVertex1,
-    TriangleVertex2,
-    QuadVertex0,
-    QuadVertex1,
-    QuadVertex2,
-    QuadVertex3,
-    DiscCenter,
-    DiscNormal,
-    DiscRadius,
-    CylinderBase,
-    CylinderAxis,
-    CylinderHeight,
-    CylinderRadius,
-    ConeBase,
-    ConeUp,
-    ConeRadius,
-    TorusCenter,
-    TorusAxis,
-    TorusMajor,
-    TorusMinor,
-    InstanceMesh,
-    InstanceTransform,
+    /// A value of a shape: its place among those of its row in the table of shapes.
+    Shape(ShapeKind, u8),
     Material,
 }
 
@@ -104,6 +80,19 @@ pub struct Place {
     pub index: u32,
     /// The value.
     pub field: Field,
+}
+
+impl Field {
+    /// The value of a shape to which this way leads in the IR, as `radius` or `vertices/0`.
+    ///
+    /// # Panics
+    /// If the row of the shape has no such value.
+    #[must_use]
+    pub fn of_shape(kind: ShapeKind, way: &str) -> Self {
+        let at = kind.values().iter().position(|known| *known == way);
+        let at = at.and_then(|at| u8::try_from(at).ok());
+        Self::Shape(kind, at.expect("the row of the shape has this value"))
+    }
 }
 
 impl Place {
@@ -132,14 +121,17 @@ impl fmt::Display for Place {
             Noun::Surface => write!(f, "/surfaces/{index}"),
             Noun::Environment => f.write_str("/environment"),
         }?;
+        if let Field::Shape(kind, value) = self.field {
+            let way = kind.values()[usize::from(value)];
+            return write!(f, "/shape/{}/{way}", kind.word());
+        }
         f.write_str(pointer_tail(self.noun, self.field))
     }
 }
 
-#[expect(clippy::too_many_lines, reason = "a table, one line a field")]
 fn pointer_tail(noun: Noun, field: Field) -> &'static str {
     match field {
-        Field::Whole => "",
+        Field::Whole | Field::Shape(..) => "",
         Field::Eye => "/eye",
         Field::Center => "/center",
         Field::Right => "/right",
@@ -170,33 +162,6 @@ fn pointer_tail(noun: Noun, field: Field) -> &'static str {
         Field::SpecularMap => "/phong/specularMap",
         Field::NormalMap => "/phong/normalMap",
         Field::Bump => "/phong/bump",
-        Field::SphereCenter => "/shape/sphere/center",
-        Field::SphereRadius => "/shape/sphere/radius",
-        Field::PlaneCenter => "/shape/plane/center",
-        Field::PlaneNormal => "/shape/plane/normal",
-        Field::TriangleVertex0 => "/shape/triangle/vertices/0",
-        Field::TriangleVertex1 => "/shape/triangle/vertices/1",
-        Field::TriangleVertex2 => "/shape/triangle/vertices/2",
-        Field::QuadVertex0 => "/shape/quad/vertices/0",
-        Field::QuadVertex1 => "/shape/quad/vertices/1",
-        Field::QuadVertex2 => "/shape/quad/vertices/2",
-        Field::QuadVertex3 => "/shape/quad/vertices/3",
-        Field::DiscCenter => "/shape/disc/center",
-        Field::DiscNormal => "/shape/disc/normal",
-        Field::DiscRadius => "/shape/disc/radius",
-        Field::CylinderBase => "/shape/cylinder/base",
-        Field::CylinderAxis => "/shape/cylinder/axis",
-        Field::CylinderHeight => "/shape/cylinder/height",
-        Field::CylinderRadius => "/shape/cylinder/radius",
-        Field::ConeBase => "/shape/cone/base",
-        Field::ConeUp => "/shape/cone/up",
-        Field::ConeRadius => "/shape/cone/radius",
-        Field::TorusCenter => "/shape/torus/center",
-        Field::TorusAxis => "/shape/torus/axis",
-        Field::TorusMajor => "/shape/torus/major",
-        Field::TorusMinor => "/shape/torus/minor",
-        Field::InstanceMesh => "/shape/instance/mesh",
-        Field::InstanceTransform => "/shape/instance/worldFromObject",
         Field::Material => "/material",
     }
 }
@@ -270,10 +235,9 @@ mod tests {
     fn a_default_falls_back_to_its_entity() {
         let file = crate::source::SourceMap::default().add("x", Vec::new());
         let mut origins = Origins::default();
-        origins.record(
-            Place::new(Noun::Surface, 3, Field::SphereRadius),
-            Span::new(file, 5, 6),
-        );
+        let [center, radius] =
+            ["center", "radius"].map(|way| Field::of_shape(ShapeKind::Sphere, way));
+        origins.record(Place::new(Noun::Surface, 3, radius), Span::new(file, 5, 6));
         origins.record(
             Place::new(Noun::Surface, 3, Field::Whole),
             Span::new(file, 1, 9),
@@ -284,12 +248,9 @@ mod tests {
                 .span(Place::new(Noun::Surface, 3, field))
                 .map(|span| span.start)
         };
+        assert_eq!((span(radius), span(center)), (Some(5), Some(1)));
         assert_eq!(
-            (span(Field::SphereRadius), span(Field::SphereCenter)),
-            (Some(5), Some(1))
-        );
-        assert_eq!(
-            Place::new(Noun::Surface, 3, Field::SphereRadius).to_string(),
+            Place::new(Noun::Surface, 3, radius).to_string(),
             "/surfaces/3/shape/sphere/radius"
         );
     }

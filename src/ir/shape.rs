@@ -1,9 +1,142 @@
-//! The shapes, and the surfaces that clothe them.
+//! The table of shapes, and what each is made of.
+//!
+//! A shape is one row of `shapes!` here; every stage makes its enums and its dispatch of the rows.
+//! What a stage has to say of one shape alone stands in the file of that shape, or in one `impl`.
 
+use super::bounds::box_corners;
 use super::{MaterialId, MeshId};
+use crate::math::{Vec3, unit};
 use arbitrary::Arbitrary;
+use glam::DAffine3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// Calls a macro with the table of shapes; all stages list them in its order.
+///
+/// A row holds the type, its word in the IR, how enums store it, and its values in one of two ways:
+/// - `ruled { "type" value: rule "key" "words"; … }`: each value follows a rule, by which it is
+///   proven, prepared and written. The rules are `point`; `direction`, of any length but 0; `step`,
+///   a direction with a length; `length`, above 0. The type and the keys are what `emit` writes,
+///   the words name the value in a finding.
+/// - `own { "value" … }`: the ways to the values in the IR; each stage has an `impl` for the shape.
+macro_rules! shapes {
+    ($stage:ident) => {
+        $stage! {
+            /// A sphere.
+            Sphere sphere Inline own { "center" "radius" }
+            /// An infinite plane.
+            Plane plane Inline ruled {
+                "plane"
+                center: point "position";
+                normal: direction "normal" "normal of a plane";
+            }
+            /// A triangle.
+            Triangle triangle Inline own { "vertices/0" "vertices/1" "vertices/2" }
+            /// A quadrilateral.
+            Quad quad Box own { "vertices/0" "vertices/1" "vertices/2" "vertices/3" }
+            /// A disc.
+            Disc disc Inline ruled {
+                "circle"
+                center: point "center";
+                normal: direction "normal" "normal of a disc";
+                radius: length "radius" "radius";
+            }
+            /// A cylinder with two caps.
+            Cylinder cylinder Inline ruled {
+                "cylinder"
+                base: point "position";
+                axis: direction "direction" "axis of a cylinder";
+                height: length "height" "height";
+                radius: length "radius" "radius";
+            }
+            /// A cone with a cap at its base.
+            Cone cone Inline ruled {
+                "cone"
+                base: point "position";
+                up: step "up" "height of a cone";
+                radius: length "radius" "radius";
+            }
+            /// A torus.
+            Torus torus Inline ruled {
+                "torus"
+                center: point "position";
+                axis: direction "direction" "axis of a torus";
+                major: length "radius" "radius";
+                minor: length "alpha" "radius of the tube";
+            }
+            /// A mesh, placed.
+            Instance instance Box own { "mesh" "worldFromObject" }
+        }
+    };
+}
+
+/// Declares the shapes of the IR.
+macro_rules! declare {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        /// A shape of any kind, in world coordinates.
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+        #[serde(rename_all = "camelCase", deny_unknown_fields)]
+        pub enum Shape {
+            $($(#[$doc])* $Name($Name),)*
+        }
+
+        /// Which shape.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum ShapeKind {
+            $($(#[$doc])* $Name,)*
+        }
+
+        impl ShapeKind {
+            /// Its word in the IR.
+            pub(super) fn word(self) -> &'static str {
+                match self {
+                    $(Self::$Name => stringify!($word),)*
+                }
+            }
+
+            /// The ways to its values in the IR.
+            pub(super) fn values(self) -> &'static [&'static str] {
+                match self {
+                    $(Self::$Name => values!($how $values),)*
+                }
+            }
+        }
+
+        impl Shape {
+            /// Which shape it is.
+            #[must_use]
+            pub fn kind(&self) -> ShapeKind {
+                match self {
+                    $(Self::$Name(_) => ShapeKind::$Name,)*
+                }
+            }
+
+            /// What tells where it is.
+            pub(super) fn bounded(&self) -> &dyn Bounded {
+                match self {
+                    $(Self::$Name(shape) => shape,)*
+                }
+            }
+        }
+    };
+}
+
+/// The ways to the values of a row.
+macro_rules! values {
+    (own { $($value:literal)* }) => { &[$($value),*] };
+    (ruled { $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)* }) => {
+        &[$(stringify!($value)),*]
+    };
+}
+
+shapes!(declare);
+
+/// A shape whose place can be asked.
+pub(super) trait Bounded {
+    /// Visits cubes, by centre and half side, whose hull holds the shape; none if it has no end.
+    /// `meshes` are the boxes around the meshes of the scene.
+    fn cubes(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64));
+}
 
 /// A shape with a material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -13,30 +146,6 @@ pub struct Surface {
     pub shape: Shape,
     /// What it is made of.
     pub material: MaterialId,
-}
-
-/// A shape of any kind, in world coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
-#[serde(rename_all = "camelCase", deny_unknown_fields)]
-pub enum Shape {
-    /// A sphere.
-    Sphere(Sphere),
-    /// An infinite plane.
-    Plane(Plane),
-    /// A triangle.
-    Triangle(Triangle),
-    /// A quadrilateral.
-    Quad(Quad),
-    /// A disc.
-    Disc(Disc),
-    /// A cylinder with two caps.
-    Cylinder(Cylinder),
-    /// A cone with a cap at its base.
-    Cone(Cone),
-    /// A torus.
-    Torus(Torus),
-    /// A mesh, placed.
-    Instance(Instance),
 }
 
 /// A sphere.
@@ -55,6 +164,17 @@ pub struct Sphere {
     pub texture_from_world: Option<[[f64; 3]; 3]>,
 }
 
+impl Bounded for Sphere {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            center,
+            radius,
+            texture_from_world: _,
+        } = self;
+        visit(Vec3::from_array(*center), *radius);
+    }
+}
+
 /// An infinite plane.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -63,6 +183,15 @@ pub struct Plane {
     pub center: [f64; 3],
     /// Its normal, of any length but 0.
     pub normal: [f64; 3],
+}
+
+impl Bounded for Plane {
+    fn cubes(&self, _: &[[Vec3; 2]], _: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            center: _,
+            normal: _,
+        } = self;
+    }
 }
 
 /// A triangle, seen from both sides.
@@ -76,6 +205,15 @@ pub struct Triangle {
     pub uvs: Option<[[f64; 2]; 3]>,
 }
 
+impl Bounded for Triangle {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self { vertices, uvs: _ } = self;
+        vertices
+            .iter()
+            .for_each(|v| visit(Vec3::from_array(*v), 0.0));
+    }
+}
+
 /// A quadrilateral, seen from both sides: flat if its corners are in a plane, else the bilinear
 /// patch between them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
@@ -83,6 +221,15 @@ pub struct Triangle {
 pub struct Quad {
     /// The corners in order around it, with uv (0, 0), (1, 0), (1, 1), (0, 1).
     pub vertices: [[f64; 3]; 4],
+}
+
+impl Bounded for Quad {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self { vertices } = self;
+        vertices
+            .iter()
+            .for_each(|v| visit(Vec3::from_array(*v), 0.0));
+    }
 }
 
 /// A disc, seen from both sides.
@@ -96,6 +243,17 @@ pub struct Disc {
     /// Its radius, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
+}
+
+impl Bounded for Disc {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            center,
+            normal: _,
+            radius,
+        } = self;
+        visit(Vec3::from_array(*center), *radius);
+    }
 }
 
 /// A cylinder with two caps.
@@ -114,6 +272,21 @@ pub struct Cylinder {
     pub radius: f64,
 }
 
+impl Bounded for Cylinder {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            base,
+            axis,
+            height,
+            radius,
+        } = self;
+        let base = Vec3::from_array(*base);
+        let axis = unit(Vec3::from_array(*axis)).unwrap_or(Vec3::ZERO);
+        visit(base, *radius);
+        visit(base + axis * *height, *radius);
+    }
+}
+
 /// A cone with a cap at its base.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -125,6 +298,15 @@ pub struct Cone {
     /// The radius of the base, above 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
+}
+
+impl Bounded for Cone {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self { base, up, radius } = self;
+        let base = Vec3::from_array(*base);
+        visit(base, *radius);
+        visit(base + Vec3::from_array(*up), 0.0);
+    }
 }
 
 /// A torus.
@@ -143,6 +325,18 @@ pub struct Torus {
     pub minor: f64,
 }
 
+impl Bounded for Torus {
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            center,
+            axis: _,
+            major,
+            minor,
+        } = self;
+        visit(Vec3::from_array(*center), major + minor);
+    }
+}
+
 /// A mesh, placed in the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
@@ -152,4 +346,20 @@ pub struct Instance {
     /// The columns of the affine map from object to world: the images of the three axes, and the
     /// origin's.
     pub world_from_object: [[f64; 3]; 4],
+}
+
+impl Bounded for Instance {
+    fn cubes(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self {
+            mesh,
+            world_from_object,
+        } = self;
+        let around = meshes.get(mesh.0 as usize);
+        let Some(around) = around.filter(|[low, _]| low.is_finite()) else {
+            return;
+        };
+        let world = DAffine3::from_cols_array_2d(world_from_object);
+        let placed = box_corners(*around).map(|corner| world.transform_point3(corner));
+        placed.into_iter().for_each(|corner| visit(corner, 0.0));
+    }
 }

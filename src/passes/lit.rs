@@ -80,33 +80,27 @@ fn emission(scene: &Scene, material: &Material) -> f64 {
 /// The area of a surface that can glow; others than triangles are not asked.
 fn area(scene: &Scene, shape: &Shape) -> f64 {
     let triangle = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).length() / 2.0;
-    match shape {
-        Shape::Triangle(shape) => triangle(shape.vertices.map(Vec3::from_array)),
-        Shape::Quad(shape) => {
-            let [a, b, c, d] = shape.vertices.map(Vec3::from_array);
-            triangle([a, b, c]) + triangle([a, c, d])
-        }
-        Shape::Instance(instance) => {
-            let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
-            let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
-                return 0.0;
-            };
-            let known = |index: &u32| (*index as usize) < mesh.positions.len();
-            let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
-            let sound = mesh
-                .triangles
-                .iter()
-                .filter(|indices| indices.iter().all(known));
-            let placed =
-                sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
-            placed.map(triangle).sum()
-        }
-        Shape::Sphere(_)
-        | Shape::Plane(_)
-        | Shape::Disc(_)
-        | Shape::Cylinder(_)
-        | Shape::Cone(_)
-        | Shape::Torus(_) => 0.0,
+    if let Shape::Triangle(shape) = shape {
+        triangle(shape.vertices.map(Vec3::from_array))
+    } else if let Shape::Quad(shape) = shape {
+        let [a, b, c, d] = shape.vertices.map(Vec3::from_array);
+        triangle([a, b, c]) + triangle([a, c, d])
+    } else if let Shape::Instance(instance) = shape {
+        let world = DAffine3::from_cols_array_2d(&instance.world_from_object);
+        let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
+            return 0.0;
+        };
+        let known = |index: &u32| (*index as usize) < mesh.positions.len();
+        let corner = |index: u32| Vec3::from_array(mesh.positions.at(index as usize));
+        let sound = mesh
+            .triangles
+            .iter()
+            .filter(|indices| indices.iter().all(known));
+        let placed =
+            sound.map(|indices| indices.map(|index| world.transform_point3(corner(index))));
+        placed.map(triangle).sum()
+    } else {
+        0.0
     }
 }
 

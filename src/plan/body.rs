@@ -1,9 +1,10 @@
 //! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is
 //! a convex solid.
 
+use super::shape::shape_facts;
 use super::space::{Flat, MARGIN, Sides, Space};
 use crate::math::{Vec3, cross, unit};
-use crate::valid::{Cone, Cylinder, Disc, Instance, Mesh, Proof, Quad, Shape, Sphere, Torus};
+use crate::valid::{Instance, Mesh, Proof};
 use std::sync::Arc;
 
 /// Where a surface is.
@@ -38,89 +39,11 @@ pub(in crate::plan) enum Hull {
 }
 
 impl Body {
-    pub(in crate::plan) fn of(shape: &Shape, meshes: &[Space]) -> Self {
-        match shape {
-            Shape::Sphere(Sphere { center, radius, .. }) => {
-                let radius = radius.get();
-                Self::within(
-                    Space::around(*center, Vec3::splat(radius)),
-                    Hull::Ball(*center, radius),
-                )
-            }
-            Shape::Plane(plane) => {
-                let flat = unit(plane.normal).map(|normal| Flat {
-                    point: plane.center,
-                    normal,
-                });
-                Self {
-                    extent: flat.map_or(Extent::Anywhere, Extent::Plane),
-                    form: Hull::Other,
-                }
-            }
-            Shape::Triangle(triangle) => {
-                Self::within(Space::of(triangle.vertices), face(triangle.vertices))
-            }
-            Shape::Quad(quad) => Self::of_quad(quad),
-            Shape::Disc(disc) => Self::of_disc(disc),
-            Shape::Cylinder(Cylinder {
-                base,
-                axis,
-                height,
-                radius,
-            }) => {
-                let top = *base + unit(*axis).unwrap_or(Vec3::ZERO) * height.get();
-                let rim = |center| ring(center, *axis, radius.get(), 0.0);
-                Self::within(rim(*base).union(rim(top)), Hull::Convex)
-            }
-            Shape::Cone(Cone { base, up, radius }) => Self::within(
-                ring(*base, *up, radius.get(), 0.0).union(Space::of([*base + *up])),
-                Hull::Convex,
-            ),
-            Shape::Torus(Torus {
-                center,
-                axis,
-                major,
-                minor,
-            }) => Self::within(ring(*center, *axis, major.get(), minor.get()), Hull::Other),
-            Shape::Instance(instance) => {
-                Self::within(placed(instance, &meshes[instance.mesh]), Hull::Other)
-            }
-        }
-    }
-
-    fn of_disc(disc: &Disc) -> Self {
-        let Disc {
-            center,
-            normal,
-            radius,
-        } = *disc;
-        let point = center;
-        let flat = unit(normal).map(|normal| Hull::Flat(Flat { point, normal }));
-        let space = ring(center, normal, radius.get(), 0.0);
-        Self::within(space, flat.unwrap_or(Hull::Other))
-    }
-
-    fn within(space: Space, form: Hull) -> Self {
+    pub(in crate::plan) fn within(space: Space, form: Hull) -> Self {
         Self {
             extent: Extent::Within(space),
             form,
         }
-    }
-
-    /// A patch is met by formulas whose error nobody has bounded, so that it may be anywhere.
-    fn of_quad(quad: &Quad) -> Self {
-        let [a, b, c, d] = quad.vertices;
-        if !quad.is_flat() {
-            return Self {
-                extent: Extent::Anywhere,
-                form: Hull::Other,
-            };
-        }
-        let form = match face([a, b, c]) {
-            Hull::Flat(flat) => Hull::Flat(flat),
-            Hull::Ball(..) | Hull::Convex | Hull::Other => face([a, c, d]),
-        };
-        Self::within(Space::of(quad.vertices), form)
     }
 
     /// Grows the body by the error of its points. Where that is no small part of the thickness,
@@ -174,7 +97,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
     let surfaces = || scene.surfaces().iter().map(|surface| &surface.shape);
     let mut bodies = surfaces()
-        .map(|shape| Body::of(shape, &meshes))
+        .map(|shape| shape_facts(shape).body(&meshes))
         .collect::<Vec<_>>();
     let eye = scene.camera().eye.abs().max_element();
     let farthest = bodies
@@ -183,34 +106,14 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
         .map(Space::size)
         .fold(eye, f64::max);
     for (body, shape) in bodies.iter_mut().zip(surfaces()) {
-        body.grow(MARGIN * farthest, thickness(shape));
+        body.grow(MARGIN * farthest, shape_facts(shape).thickness());
     }
     bodies
 }
 
-/// How thick a solid is, or how long the shortest side of a face.
-fn thickness(shape: &Shape) -> f64 {
-    let shortest = |corners: &[Vec3]| {
-        let sides = corners
-            .iter()
-            .zip(corners.iter().cycle().skip(1))
-            .map(|(a, b)| (*a - *b).abs().max_element());
-        sides.fold(f64::INFINITY, f64::min)
-    };
-    match shape {
-        Shape::Sphere(sphere) => sphere.radius.get(),
-        Shape::Triangle(triangle) => shortest(&triangle.vertices),
-        Shape::Quad(quad) => shortest(&quad.vertices),
-        Shape::Disc(disc) => disc.radius.get(),
-        Shape::Cylinder(Cylinder { height, radius, .. }) => height.get().min(radius.get()),
-        Shape::Cone(Cone { up, radius, .. }) => up.abs().max_element().min(radius.get()),
-        Shape::Plane(_) | Shape::Torus(_) | Shape::Instance(_) => f64::INFINITY,
-    }
-}
-
 /// The plane of a triangle, unless its corners are so nearly in line that rounding moves its
 /// normal.
-fn face([a, b, c]: [Vec3; 3]) -> Hull {
+pub(in crate::plan) fn face([a, b, c]: [Vec3; 3]) -> Hull {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
     let normal = || {
@@ -222,7 +125,7 @@ fn face([a, b, c]: [Vec3; 3]) -> Hull {
 }
 
 /// The box of a circle around an axis, with a tube around it.
-fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
+pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
     let axis = unit(axis).unwrap_or(Vec3::ZERO);
     let reach = |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() + tube + MARGIN * (radius + tube);
     Space::around(
@@ -233,7 +136,7 @@ fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) -> Space {
 
 /// The box of a mesh in the world. Rays go to its own space and back: the flatter the map, the more
 /// they round.
-fn placed(instance: &Instance, mesh: &Space) -> Space {
+pub(in crate::plan) fn placed(instance: &Instance, mesh: &Space) -> Space {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
     let axes = [x, y, z].map(|axis| unit(axis).unwrap_or(Vec3::ZERO));

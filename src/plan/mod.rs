@@ -17,6 +17,7 @@ mod path;
 mod precision;
 mod region;
 mod rules;
+mod shape;
 mod space;
 mod summary;
 mod verdicts;

@@ -4,9 +4,9 @@
 //! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors
 //! are larger.
 
+use super::shape::shape_facts;
 use super::{Arithmetic, facts};
-use crate::math::{Vec3, unit};
-use crate::valid::{Instance, Mode, Phong, Proof, Shape, Surface};
+use crate::valid::{Mode, Phong, Proof, Surface};
 
 /// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray
 /// starts on.
@@ -108,7 +108,7 @@ struct Measure {
 }
 
 /// What a surface is to a formula, with the sizes that divide its error.
-enum Formula {
+pub(super) enum Formula {
     /// Flat: t is one quotient. Of this size, or without an end.
     Flat(f64),
     /// A quadratic, of this radius.
@@ -120,35 +120,7 @@ enum Formula {
 impl Measure {
     fn of(scene: &Proof, surface: &Surface) -> Self {
         let eye = scene.camera().eye;
-        let size = |from: Vec3, corners: &[Vec3]| {
-            corners.iter().map(|c| c.distance(from)).fold(0.0, f64::max)
-        };
-        let (middle, form) = match &surface.shape {
-            Shape::Sphere(sphere) => (sphere.center, Formula::Round(sphere.radius.get())),
-            Shape::Plane(plane) => (
-                nearest(plane.center, plane.normal, eye),
-                Formula::Flat(f64::INFINITY),
-            ),
-            Shape::Triangle(triangle) => {
-                let [a, b, c] = triangle.vertices;
-                (a, Formula::Flat(size(a, &[b, c])))
-            }
-            Shape::Quad(quad) => (
-                quad.vertices[0],
-                Formula::Flat(size(quad.vertices[0], &quad.vertices[1..])),
-            ),
-            Shape::Disc(disc) => (disc.center, Formula::Flat(disc.radius.get())),
-            Shape::Cylinder(cylinder) => (cylinder.base, Formula::Round(cylinder.radius.get())),
-            Shape::Cone(cone) => (cone.base, Formula::Round(cone.radius.get())),
-            Shape::Torus(torus) => (
-                torus.center,
-                Formula::Torus {
-                    major: torus.major.get(),
-                    minor: torus.minor.get(),
-                },
-            ),
-            Shape::Instance(instance) => placed(scene, instance),
-        };
+        let (middle, form) = shape_facts(&surface.shape).formula(scene);
         let coordinates = eye.abs().max_element().max(middle.abs().max_element());
         Self {
             coordinates,
@@ -195,30 +167,4 @@ impl Measure {
             Symptom::SelfHit | Symptom::Shape | Symptom::Skipped => 0.0,
         }
     }
-}
-
-/// The point of a plane nearest to `to`.
-fn nearest(center: Vec3, normal: Vec3, to: Vec3) -> Vec3 {
-    let normal = unit(normal).unwrap_or(Vec3::ZERO);
-    to + normal * normal.dot(center - to)
-}
-
-/// The first corner of a placed mesh, and how far it extends.
-fn placed(scene: &Proof, instance: &Instance) -> (Vec3, Formula) {
-    let [x, y, z, origin] = instance.world_from_object;
-    let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;
-    let mut corners = scene.meshes()[instance.mesh]
-        .positions
-        .iter()
-        .map(Vec3::from_array)
-        .map(to_world);
-    let first = corners.next().unwrap_or(origin);
-    (
-        first,
-        Formula::Flat(
-            corners
-                .map(|corner| corner.distance(first))
-                .fold(0.0, f64::max),
-        ),
-    )
 }

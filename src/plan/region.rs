@@ -6,11 +6,11 @@
 
 use super::body::Hull;
 use super::rules::Rule;
+use super::shape::shape_facts;
 use super::space::Sides;
 use super::window::{Rect, Shown, Window};
 use super::{Facts, Findings};
-use crate::math::{Basis, Vec3, cos_sin_turns};
-use crate::valid::{Disc, Mode, Shape};
+use crate::valid::{Mode, Shape};
 
 /// The most cells of a picture.
 const MAX_CELLS: u64 = 1 << 18;
@@ -160,7 +160,7 @@ impl Findings<'_> {
             Mode::Zbuffer | Mode::Gooch(_) | Mode::Path(_) => false,
         };
         let corners = if shows_one_value {
-            corners(shape, flat.normal)
+            shape_facts(shape).polygon(flat.normal)
         } else {
             None
         };
@@ -170,30 +170,6 @@ impl Findings<'_> {
                 .map(|corner| window.middle(corner))
                 .collect::<Option<_>>()?,
         )
-    }
-}
-
-/// Corners of a convex polygon within a flat shape, in order around it.
-fn corners(shape: &Shape, normal: Vec3) -> Option<Vec<Vec3>> {
-    /// Corners of the polygon within a disc: it covers 97 % of it.
-    const COUNT: u64 = 16;
-    match shape {
-        Shape::Triangle(triangle) => Some(triangle.vertices.to_vec()),
-        Shape::Quad(quad) => Some(quad.vertices.to_vec()),
-        Shape::Disc(Disc { center, radius, .. }) => {
-            let basis = Basis::around(normal);
-            let corner = |k: u64| {
-                let (x, y) = cos_sin_turns(k << 60);
-                *center + basis.to_world(Vec3::new(x, y, 0.0)) * radius.get()
-            };
-            Some((0..COUNT).map(corner).collect())
-        }
-        Shape::Sphere(_)
-        | Shape::Plane(_)
-        | Shape::Cylinder(_)
-        | Shape::Cone(_)
-        | Shape::Torus(_)
-        | Shape::Instance(_) => None,
     }
 }
 

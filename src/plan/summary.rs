@@ -1,5 +1,6 @@
 //! What of its material a surface shows, maps and constants of textures considered.
 
+use super::shape::shape_facts;
 use crate::math::Vec3;
 use crate::valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
 
@@ -49,7 +50,7 @@ impl MaterialSummary {
         let maps = material
             .maps
             .as_deref()
-            .filter(|_| has_uv(&surface.shape, scene));
+            .filter(|_| shape_facts(&surface.shape).has_uv(scene));
         let (color_map, specular_map) = (
             maps.and_then(|maps| maps.color),
             maps.and_then(|maps| maps.specular),
@@ -100,19 +101,6 @@ fn largest(scene: &Proof, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         Some(Texture::Uv) => Vec3::INFINITY,
         Some(Texture::Image(_) | Texture::Sampled(_)) | None => Vec3::ONE,
-    }
-}
-
-fn has_uv(shape: &Shape, scene: &Proof) -> bool {
-    match shape {
-        Shape::Sphere(_) | Shape::Quad(_) => true,
-        Shape::Triangle(triangle) => triangle.uvs.is_some(),
-        Shape::Instance(instance) => !scene.meshes()[instance.mesh].uvs.is_empty(),
-        Shape::Plane(_)
-        | Shape::Disc(_)
-        | Shape::Cylinder(_)
-        | Shape::Cone(_)
-        | Shape::Torus(_) => false,
     }
 }
 

@@ -197,23 +197,7 @@ pub(super) fn lights_inside_spheres(scene: &ir::Scene, check: &mut Check<'_>) {
         let inside = scene
             .surfaces
             .iter()
-            .position(|surface| match &surface.shape {
-                ir::Shape::Sphere(ir::Sphere {
-                    center,
-                    radius,
-                    texture_from_world: _,
-                }) => {
-                    Vec3::from_array(light.position).distance(Vec3::from_array(*center)) < *radius
-                }
-                ir::Shape::Plane(_)
-                | ir::Shape::Triangle(_)
-                | ir::Shape::Quad(_)
-                | ir::Shape::Disc(_)
-                | ir::Shape::Cylinder(_)
-                | ir::Shape::Cone(_)
-                | ir::Shape::Torus(_)
-                | ir::Shape::Instance(_) => false,
-            });
+            .position(|surface| holds(&surface.shape, light.position));
         if let Some(sphere) = inside {
             let finding =
                 Diagnostic::new(&codes::LIGHT_IN_SPHERE, "a light stands inside a sphere");
@@ -228,4 +212,17 @@ pub(super) fn lights_inside_spheres(scene: &ir::Scene, check: &mut Check<'_>) {
             );
         }
     }
+}
+
+/// Whether a point lies inside a sphere; other shapes are not asked.
+fn holds(shape: &ir::Shape, point: [f64; 3]) -> bool {
+    let ir::Shape::Sphere(ir::Sphere {
+        center,
+        radius,
+        texture_from_world: _,
+    }) = shape
+    else {
+        return false;
+    };
+    Vec3::from_array(point).distance(Vec3::from_array(*center)) < *radius
 }

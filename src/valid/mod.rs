@@ -27,9 +27,7 @@ pub use material::Material;
 pub use mesh::Mesh;
 pub use phong::{Bump, Maps, Phong};
 pub use settings::{Gooch, Mode, PathSettings, Pattern, Settings};
-pub use shape::{
-    Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle,
-};
+pub use shape::*;
 pub use standard::{Alpha, Standard};
 pub use texture::{Filter, Map, Sampled, Texture, UvSet, Wrap};
 

@@ -2,129 +2,135 @@
 
 use super::material::file_name;
 use super::{Text, triple};
-use crate::ir::{
-    Cone, Cylinder, Disc, Instance, Plane, Quad, Scene, Shape, Sphere, Torus, Triangle,
-};
+use crate::ir::{self, Instance, Quad, Scene, Shape, Sphere, Triangle};
 use crate::math::{Vec3, axis_and_angle, shortest, turned_to_z, unit};
 
-impl Text {
-    pub(super) fn shape(&mut self, shape: &Shape, scene: &Scene) -> Result<(), String> {
-        match shape {
-            Shape::Sphere(sphere) => self.sphere(sphere)?,
-            Shape::Plane(Plane { center, normal }) => {
-                self.kind("plane");
-                self.vectors(&[("position", center), ("normal", normal)]);
-            }
-            Shape::Triangle(triangle) => self.triangle(triangle),
-            Shape::Quad(Quad {
-                vertices: [a, b, c, d],
-            }) => {
-                self.kind("quad");
-                self.vectors(&[("v0", a), ("v1", b), ("v2", c), ("v3", d)]);
-            }
-            Shape::Disc(Disc {
-                center,
-                normal,
-                radius,
-            }) => {
-                self.kind("circle");
-                self.vectors(&[("center", center), ("normal", normal)]);
-                self.number("radius", *radius, 4);
-            }
-            Shape::Cylinder(Cylinder {
-                base,
-                axis,
-                height,
-                radius,
-            }) => {
-                self.kind("cylinder");
-                self.vectors(&[("position", base), ("direction", axis)]);
-                self.number("height", *height, 4);
-                self.number("radius", *radius, 4);
-            }
-            Shape::Cone(Cone { base, up, radius }) => {
-                self.kind("cone");
-                self.vectors(&[("position", base), ("up", up)]);
-                self.number("radius", *radius, 4);
-            }
-            Shape::Torus(Torus {
-                center,
-                axis,
-                major,
-                minor,
-            }) => {
-                self.kind("torus");
-                self.vectors(&[("position", center), ("direction", axis)]);
-                self.number("radius", *major, 4);
-                self.number("alpha", *minor, 4);
-            }
-            Shape::Instance(instance) => self.instance(instance, scene)?,
-        }
-        Ok(())
-    }
+/// A shape as the scene format writes it.
+trait Emit {
+    /// # Errors
+    /// Says what the format has no words for.
+    fn emit(&self, text: &mut Text, scene: &Scene) -> Result<(), String>;
+}
 
+/// Writes each shape in its own way, or by the keys of its row.
+macro_rules! emit {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        impl Text {
+            pub(super) fn shape(&mut self, shape: &Shape, scene: &Scene) -> Result<(), String> {
+                match shape {
+                    $(Shape::$Name(shape) => shape.emit(self, scene),)*
+                }
+            }
+        }
+
+        $(by_keys!($Name $how $values);)*
+    };
+}
+
+/// Writes a shape by the keys of its row.
+macro_rules! by_keys {
+    ($Name:ident own $values:tt) => {};
+    ($Name:ident ruled {
+        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+    }) => {
+        impl Emit for ir::$Name {
+            fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+                let Self { $($value),* } = self;
+                text.kind($type);
+                $(text.$rule($key, $value);)*
+                Ok(())
+            }
+        }
+    };
+}
+
+shapes!(emit);
+
+impl Text {
     fn kind(&mut self, word: &str) {
         self.line(2, &format!("- type: {word}"));
     }
 
-    fn vectors(&mut self, pairs: &[(&str, &[f64; 3])]) {
-        pairs
-            .iter()
-            .for_each(|(key, value)| self.numbers(key, value, 4));
+    fn point(&mut self, key: &str, value: &[f64; 3]) {
+        self.numbers(key, value, 4);
     }
 
-    fn sphere(
-        &mut self,
-        Sphere {
+    fn direction(&mut self, key: &str, value: &[f64; 3]) {
+        self.numbers(key, value, 4);
+    }
+
+    fn step(&mut self, key: &str, value: &[f64; 3]) {
+        self.numbers(key, value, 4);
+    }
+
+    fn length(&mut self, key: &str, value: &f64) {
+        self.number(key, *value, 4);
+    }
+
+    fn corners<const N: usize>(&mut self, corners: &[[f64; 3]; N]) {
+        for (key, corner) in ["v0", "v1", "v2", "v3"].into_iter().zip(corners) {
+            self.point(key, corner);
+        }
+    }
+}
+
+impl Emit for Sphere {
+    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+        let Self {
             center,
             radius,
             texture_from_world: turn,
-        }: &Sphere,
-    ) -> Result<(), String> {
-        self.kind("sphere");
-        self.numbers("position", center, 4);
+        } = self;
+        text.kind("sphere");
+        text.point("position", center);
         let Some(turn) = turn else {
-            self.number("radius", *radius, 4);
+            text.length("radius", radius);
             return Ok(());
         };
         let turn = turn_of(*turn)
             .ok_or("the texture of a sphere is turned as no axis and angle say to the last bit")?;
         let (axis, angle) = turn;
-        self.finite &= [*radius, angle]
+        text.finite &= [*radius, angle]
             .iter()
             .chain(&axis)
             .all(|number| number.is_finite());
-        self.line(
+        text.line(
             4,
             &format!("radius: [{}, {}]", shortest(*radius), triple(axis)),
         );
-        self.number("angle", angle, 4);
+        text.number("angle", angle, 4);
         Ok(())
     }
+}
 
-    fn triangle(
-        &mut self,
-        Triangle {
-            vertices: [a, b, c],
-            uvs,
-        }: &Triangle,
-    ) {
-        self.kind("triangle");
-        self.vectors(&[("v0", a), ("v1", b), ("v2", c)]);
+impl Emit for Triangle {
+    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+        let Self { vertices, uvs } = self;
+        text.kind("triangle");
+        text.corners(vertices);
         for (key, [u, v]) in ["uv0", "uv1", "uv2"].into_iter().zip(uvs.iter().flatten()) {
-            self.finite &= u.is_finite() && v.is_finite();
-            self.line(4, &format!("{key}: [{}, {}]", shortest(*u), shortest(*v)));
+            text.finite &= u.is_finite() && v.is_finite();
+            text.line(4, &format!("{key}: [{}, {}]", shortest(*u), shortest(*v)));
         }
+        Ok(())
     }
+}
 
-    fn instance(
-        &mut self,
-        Instance {
+impl Emit for Quad {
+    fn emit(&self, text: &mut Text, _: &Scene) -> Result<(), String> {
+        let Self { vertices } = self;
+        text.kind("quad");
+        text.corners(vertices);
+        Ok(())
+    }
+}
+
+impl Emit for Instance {
+    fn emit(&self, text: &mut Text, scene: &Scene) -> Result<(), String> {
+        let Self {
             mesh,
             world_from_object,
-        }: &Instance,
-        scene: &Scene,
-    ) -> Result<(), String> {
+        } = self;
         let mesh = scene
             .meshes
             .get(mesh.0 as usize)
@@ -137,10 +143,10 @@ impl Text {
                     .to_owned(),
             );
         }
-        self.kind("mesh");
-        self.line(4, &format!("file: {}", file_name(&mesh.name)?));
-        self.numbers("position", origin, 4);
-        self.number("scale", scale, 4);
+        text.kind("mesh");
+        text.line(4, &format!("file: {}", file_name(&mesh.name)?));
+        text.point("position", origin);
+        text.number("scale", scale, 4);
         Ok(())
     }
 }

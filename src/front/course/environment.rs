@@ -2,8 +2,8 @@
 
 use super::decode::Spanned;
 use super::lower::Lowering;
+use super::object::solid::turned;
 use super::record::{FieldOutcome, keys, record};
-use super::solid::turned;
 use super::value::{Channels, FileName, Vector};
 use crate::ir::{self, Field, Noun};
 

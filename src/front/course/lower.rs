@@ -4,7 +4,7 @@
 use super::assets::{Asset, Wanted};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
-use super::mesh;
+use super::object::mesh;
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;

@@ -5,34 +5,22 @@
 
 pub mod assets;
 mod camera;
-mod cone;
-mod cylinder;
 mod decode;
-mod disc;
 mod environment;
 mod form;
-mod gltf;
 mod light;
 mod lower;
 mod material;
-mod mesh;
 mod number;
 mod object;
 mod page;
-mod plane;
-mod quad;
 mod reader;
 mod record;
 mod schema;
 mod settings;
-mod solid;
 mod spelling;
-mod sphere;
 mod syntax;
 mod texture;
-mod torus;
-
-mod triangle;
 mod value;
 
 pub use lower::{UnfinishedScene, lower};

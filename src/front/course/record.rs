@@ -59,13 +59,13 @@ macro_rules! record {
         $(lowered_forms { $([$($lowered:ident)+])+ })?
     ) => {
         $(#[doc = $doc])+
-        pub(super) struct $name {
-            $($(#[doc = $field_doc])+ pub(super) $field: record!(@type $need $type),)+
+        pub(in crate::front::course) struct $name {
+            $($(#[doc = $field_doc])+ pub(in crate::front::course) $field: record!(@type $need $type),)+
         }
 
         impl $name {
             /// The declaration.
-            pub(super) const RECORD: $crate::front::course::record::Record = $crate::front::course::record::Record {
+            pub(in crate::front::course) const RECORD: $crate::front::course::record::Record = $crate::front::course::record::Record {
                 word: $word,
                 doc: concat!($($doc),+),
                 fields: &[$($crate::front::course::record::Field {

@@ -2,8 +2,9 @@
 //! the values of their textures there.
 
 use super::texture::{Area, TextureValues};
-use crate::math::{Column, UnitInterval, Vec3};
-use crate::valid::{Map, Mesh, Proof, Shape, Standard};
+use crate::math::{UnitInterval, Vec3};
+use crate::plan::shape::shape_facts;
+use crate::valid::{Map, Proof, Shape, Standard};
 
 /// Facts of all surfaces of one material.
 #[derive(Clone, Debug)]
@@ -53,12 +54,13 @@ impl Uses {
         let mut of_meshes = vec![None; scene.meshes().len()];
         for (index, surface) in scene.surfaces().iter().enumerate() {
             let used = &mut uses[surface.material];
+            let areas = || shape_facts(&surface.shape).uv_areas(scene);
             let areas = if let Shape::Instance(instance) = &surface.shape {
                 let mesh = &scene.meshes()[instance.mesh];
                 used.has_colors |= !mesh.colors.is_empty();
-                *of_meshes[instance.mesh].get_or_insert_with(|| areas_of_mesh(mesh))
+                *of_meshes[instance.mesh].get_or_insert_with(areas)
             } else {
-                areas(&surface.shape)
+                areas()
             };
             used.add(index, areas);
         }
@@ -109,30 +111,6 @@ impl Uses {
         let area = self.areas[map.set.index()];
         is_sound && (presence == Presence::Never || textures.all(map, area, channel, holds))
     }
-}
-
-/// The bounds of the texture coordinates of a mesh, for both sets.
-fn areas_of_mesh(mesh: &Mesh) -> [Option<Area>; 2] {
-    let area = |uvs: &Column<2>| (!uvs.is_empty()).then(|| Area::of(uvs.iter()));
-    [area(&mesh.uvs), area(&mesh.second_uvs)]
-}
-
-/// The bounds of the texture coordinates of a shape other than a mesh, for both sets.
-fn areas(shape: &Shape) -> [Option<Area>; 2] {
-    let area = match shape {
-        Shape::Sphere(_) | Shape::Quad(_) => Some(Area::UNIT),
-        Shape::Triangle(triangle) => {
-            let uvs = triangle.uvs.as_ref();
-            uvs.map(|uvs| Area::of(uvs.iter().copied()))
-        }
-        Shape::Plane(_)
-        | Shape::Disc(_)
-        | Shape::Cylinder(_)
-        | Shape::Cone(_)
-        | Shape::Torus(_)
-        | Shape::Instance(_) => None,
-    };
-    [area, None]
 }
 
 /// Whether all lobes of a material are delta lobes: it is smooth and has no diffuse base.

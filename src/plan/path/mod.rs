@@ -11,6 +11,7 @@ mod texture;
 mod verdicts;
 
 pub use draft::{EnvironmentLeft, LightLeft};
+pub(super) use texture::Area;
 
 use super::body::bodies;
 use super::effect::{Effect, Verdict};

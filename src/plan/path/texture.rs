@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// A rectangle of texture coordinates, from minimum to maximum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Area([[f64; 2]; 2]);
+pub(in crate::plan) struct Area([[f64; 2]; 2]);
 
 /// The margin in texels, for rounding and for the neighbours that filters blend in.
 const MARGIN: f64 = 2.0;
@@ -20,10 +20,10 @@ impl Area {
     pub(super) const NONE: Self = Self([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
 
     /// The unit square.
-    pub(super) const UNIT: Self = Self([[0.0, 1.0]; 2]);
+    pub(in crate::plan) const UNIT: Self = Self([[0.0, 1.0]; 2]);
 
     /// The bounding rectangle of points.
-    pub(super) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
+    pub(in crate::plan) fn of(places: impl Iterator<Item = [f64; 2]>) -> Self {
         places.fold(Self::NONE, |area, [u, v]| {
             area.around(Self([[u, u], [v, v]]))
         })

@@ -1,9 +1,9 @@
 //! How each shape is proven.
 
 use super::area::has_area;
-use super::{Cone, Cylinder, Disc, Instance, Plane, Quad, Shape, Sphere, Surface, Torus, Triangle};
+use super::{Instance, Quad, Shape, Sphere, Surface, Triangle};
 use crate::diag::{Diagnostic, codes};
-use crate::ir::{self, Field, Noun, Place};
+use crate::ir::{self, Field, Noun, Place, ShapeKind};
 use crate::math::{Positive, Vec3, unit};
 use crate::valid::check::{Check, EntityCounts, SMALLEST, place};
 
@@ -15,24 +15,20 @@ pub(in crate::valid) fn surface(
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
     let ir::Surface { shape, material } = surface;
-    let mut proof = SurfaceCheck { index, check };
+    let kind = shape.kind();
+    let mut proof = SurfaceCheck {
+        kind,
+        index,
+        counts,
+        check,
+    };
     let material = proof.check.handle(
         material.0,
         counts.materials,
         "material",
-        proof.at(Field::Material),
+        place(Noun::Surface, index, Field::Material),
     );
-    let shape = match shape {
-        ir::Shape::Sphere(shape) => proof.sphere(shape).map(Some),
-        ir::Shape::Plane(shape) => proof.plane(shape).map(Some),
-        ir::Shape::Triangle(shape) => proof.triangle(shape),
-        ir::Shape::Quad(shape) => proof.quad(shape),
-        ir::Shape::Disc(shape) => proof.disc(shape).map(Some),
-        ir::Shape::Cylinder(shape) => proof.cylinder(shape).map(Some),
-        ir::Shape::Cone(shape) => proof.cone(shape).map(Some),
-        ir::Shape::Torus(shape) => proof.torus(shape).map(Some),
-        ir::Shape::Instance(shape) => proof.instance(shape, counts).map(Some),
-    };
+    let shape = shape.prove(&mut proof);
     let material = material?;
     Some(shape?.map(|shape| Surface {
         shape,
@@ -41,98 +37,47 @@ pub(in crate::valid) fn surface(
     }))
 }
 
-/// One surface under the check.
+/// A shape under the check.
 struct SurfaceCheck<'a, 'run> {
+    kind: ShapeKind,
     index: usize,
+    counts: &'a EntityCounts,
     check: &'a mut Check<'run>,
 }
 
 impl SurfaceCheck<'_, '_> {
-    fn at(&self, field: Field) -> Place {
+    /// The place of a value of the shape.
+    fn at(&self, way: &str) -> Place {
+        let field = Field::of_shape(self.kind, way);
         place(Noun::Surface, self.index, field)
     }
 
-    fn point(&mut self, value: [f64; 3], field: Field) -> Option<Vec3> {
-        self.check.vector(value, self.at(field))
+    fn whole(&self) -> Place {
+        place(Noun::Surface, self.index, Field::Whole)
     }
 
-    fn direction(&mut self, value: [f64; 3], name: &str, field: Field) -> Option<Vec3> {
-        self.check.direction(value, name, self.at(field))
+    /// A point: its components are finite and in range.
+    fn point(&mut self, value: [f64; 3], way: &str, _words: &str) -> Option<Vec3> {
+        self.check.vector(value, self.at(way))
     }
 
-    fn length(&mut self, value: f64, name: &str, field: Field) -> Option<Positive> {
+    /// A direction: a point that is not 0, scaled.
+    fn direction(&mut self, value: [f64; 3], way: &str, words: &str) -> Option<Vec3> {
+        self.check.direction(value, words, self.at(way))
+    }
+
+    /// A length: above 0, and in range.
+    fn length(&mut self, value: f64, way: &str, words: &str) -> Option<Positive> {
         self.check
-            .length(value, self.at(field), &codes::RADIUS, name)
+            .length(value, self.at(way), &codes::RADIUS, words)
     }
 
-    fn sphere(&mut self, sphere: &ir::Sphere) -> Option<Shape> {
-        let ir::Sphere {
-            center,
-            radius,
-            texture_from_world,
-        } = sphere;
-        let center = self.point(*center, Field::SphereCenter);
-        let radius = self.length(*radius, "radius", Field::SphereRadius);
-        let rows = texture_from_world.map(|rows| Box::new(rows.map(Vec3::from_array)));
-        if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
-            let finding = Diagnostic::new(
-                &codes::BAD_ROTATION,
-                "the texture of a sphere is turned by no rotation",
-            );
-            self.check.report(self.at(Field::Whole), "", finding);
-            return None;
-        }
-        Some(Shape::Sphere(Sphere {
-            center: center?,
-            radius: radius?,
-            texture_from_world: rows,
-        }))
-    }
-
-    fn plane(&mut self, plane: &ir::Plane) -> Option<Shape> {
-        let ir::Plane { center, normal } = plane;
-        let center = self.point(*center, Field::PlaneCenter);
-        let normal = self.direction(*normal, "normal of a plane", Field::PlaneNormal);
-        Some(Shape::Plane(Plane {
-            center: center?,
-            normal: normal?,
-        }))
-    }
-
-    fn triangle(&mut self, triangle: &ir::Triangle) -> Option<Option<Shape>> {
-        const FIELDS: [Field; 3] = [
-            Field::TriangleVertex0,
-            Field::TriangleVertex1,
-            Field::TriangleVertex2,
-        ];
-        let ir::Triangle { vertices, uvs } = triangle;
-        let corners = [0, 1, 2].map(|k| self.point(vertices[k], FIELDS[k]));
-        for uv in uvs.iter().flatten().flatten() {
-            self.check.number(*uv, self.at(Field::Whole))?;
-        }
-        let vertices = [corners[0]?, corners[1]?, corners[2]?];
-        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle {
-            vertices,
-            uvs: uvs.map(Box::new),
-        }));
-        Some(self.face(sound, "triangle"))
-    }
-
-    fn quad(&mut self, quad: &ir::Quad) -> Option<Option<Shape>> {
-        const FIELDS: [Field; 4] = [
-            Field::QuadVertex0,
-            Field::QuadVertex1,
-            Field::QuadVertex2,
-            Field::QuadVertex3,
-        ];
-        let ir::Quad { vertices } = quad;
-        let corners = [0, 1, 2, 3].map(|k| self.point(vertices[k], FIELDS[k]));
-        let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
-        let area = has_area([a, b, c]) || has_area([a, c, d]);
-        let sound = area.then_some(Shape::Quad(Box::new(Quad {
-            vertices: [a, b, c, d],
-        })));
-        Some(self.face(sound, "quad"))
+    /// A step: a point as far from 0 as a length.
+    fn step(&mut self, value: [f64; 3], way: &str, words: &str) -> Option<Vec3> {
+        let step = self.point(value, way, words);
+        let longest = step.map(|step| step.abs().max_element());
+        longest.and_then(|longest| self.length(longest, way, words))?;
+        step
     }
 
     /// Warns about a face that has no area.
@@ -142,90 +87,117 @@ impl SurfaceCheck<'_, '_> {
             let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
             let finding = finding.hint("give it corners that are not in line, or remove it");
             self.check
-                .report(self.at(Field::Whole), "its corners are in line", finding);
+                .report(self.whole(), "its corners are in line", finding);
         }
         sound
     }
+}
 
-    fn disc(&mut self, disc: &ir::Disc) -> Option<Shape> {
-        let ir::Disc {
+/// How a shape of the IR is proven.
+trait Prove {
+    /// The proven shape; `Some(None)` for a face without an area.
+    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>>;
+}
+
+/// Proves each shape in its own way, or by the rules of its row.
+macro_rules! prove {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        impl Prove for ir::Shape {
+            fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+                match self {
+                    $(Self::$Name(shape) => shape.prove(proof),)*
+                }
+            }
+        }
+
+        $(by_rule!($Name $how $values);)*
+    };
+}
+
+/// Proves a shape by the rules of its row. All its values are looked at, whatever is wrong.
+macro_rules! by_rule {
+    ($Name:ident own $values:tt) => {};
+    ($Name:ident ruled {
+        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+    }) => {
+        impl Prove for ir::$Name {
+            fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+                let Self { $($value),* } = *self;
+                $(let $value = proof.$rule($value, stringify!($value), concat!($($words)?));)*
+                Some(Some(Shape::$Name(super::$Name { $($value: $value?),* })))
+            }
+        }
+    };
+}
+
+shapes!(prove);
+
+impl Prove for ir::Sphere {
+    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        let Self {
             center,
-            normal,
             radius,
-        } = disc;
-        let center = self.point(*center, Field::DiscCenter);
-        let normal = self.direction(*normal, "normal of a disc", Field::DiscNormal);
-        let radius = self.length(*radius, "radius", Field::DiscRadius);
-        Some(Shape::Disc(Disc {
+            texture_from_world,
+        } = self;
+        let center = proof.point(*center, "center", "");
+        let radius = proof.length(*radius, "radius", "radius");
+        let rows = texture_from_world.map(|rows| Box::new(rows.map(Vec3::from_array)));
+        if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
+            let finding = Diagnostic::new(
+                &codes::BAD_ROTATION,
+                "the texture of a sphere is turned by no rotation",
+            );
+            proof.check.report(proof.whole(), "", finding);
+            return None;
+        }
+        Some(Some(Shape::Sphere(Sphere {
             center: center?,
-            normal: normal?,
             radius: radius?,
-        }))
+            texture_from_world: rows,
+        })))
     }
+}
 
-    fn cylinder(&mut self, cylinder: &ir::Cylinder) -> Option<Shape> {
-        let ir::Cylinder {
-            base,
-            axis,
-            height,
-            radius,
-        } = cylinder;
-        let base = self.point(*base, Field::CylinderBase);
-        let axis = self.direction(*axis, "axis of a cylinder", Field::CylinderAxis);
-        let height = self.length(*height, "height", Field::CylinderHeight);
-        let radius = self.length(*radius, "radius", Field::CylinderRadius);
-        Some(Shape::Cylinder(Cylinder {
-            base: base?,
-            axis: axis?,
-            height: height?,
-            radius: radius?,
-        }))
+impl Prove for ir::Triangle {
+    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        const WAYS: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
+        let Self { vertices, uvs } = self;
+        let corners = [0, 1, 2].map(|k| proof.point(vertices[k], WAYS[k], ""));
+        for uv in uvs.iter().flatten().flatten() {
+            proof.check.number(*uv, proof.whole())?;
+        }
+        let vertices = [corners[0]?, corners[1]?, corners[2]?];
+        let sound = has_area(vertices).then_some(Shape::Triangle(Triangle {
+            vertices,
+            uvs: uvs.map(Box::new),
+        }));
+        Some(proof.face(sound, "triangle"))
     }
+}
 
-    fn cone(&mut self, cone: &ir::Cone) -> Option<Shape> {
-        let ir::Cone { base, up, radius } = cone;
-        let base = self.point(*base, Field::ConeBase);
-        let up_vector = self.point(*up, Field::ConeUp);
-        let height = up_vector.map(|up| up.abs().max_element());
-        let height =
-            height.and_then(|height| self.length(height, "height of a cone", Field::ConeUp));
-        let radius = self.length(*radius, "radius", Field::ConeRadius);
-        height?;
-        Some(Shape::Cone(Cone {
-            base: base?,
-            up: up_vector?,
-            radius: radius?,
-        }))
+impl Prove for ir::Quad {
+    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        const WAYS: [&str; 4] = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
+        let Self { vertices } = self;
+        let corners = [0, 1, 2, 3].map(|k| proof.point(vertices[k], WAYS[k], ""));
+        let [a, b, c, d] = [corners[0]?, corners[1]?, corners[2]?, corners[3]?];
+        let area = has_area([a, b, c]) || has_area([a, c, d]);
+        let sound = area.then_some(Shape::Quad(Box::new(Quad {
+            vertices: [a, b, c, d],
+        })));
+        Some(proof.face(sound, "quad"))
     }
+}
 
-    fn torus(&mut self, torus: &ir::Torus) -> Option<Shape> {
-        let ir::Torus {
-            center,
-            axis,
-            major,
-            minor,
-        } = torus;
-        let center = self.point(*center, Field::TorusCenter);
-        let axis = self.direction(*axis, "axis of a torus", Field::TorusAxis);
-        let major = self.length(*major, "radius", Field::TorusMajor);
-        let minor = self.length(*minor, "radius of the tube", Field::TorusMinor);
-        Some(Shape::Torus(Torus {
-            center: center?,
-            axis: axis?,
-            major: major?,
-            minor: minor?,
-        }))
-    }
-
-    fn instance(&mut self, instance: &ir::Instance, counts: &EntityCounts) -> Option<Shape> {
-        let ir::Instance {
+impl Prove for ir::Instance {
+    fn prove(&self, proof: &mut SurfaceCheck<'_, '_>) -> Option<Option<Shape>> {
+        let Self {
             mesh,
             world_from_object,
-        } = instance;
-        let mesh = self
-            .check
-            .handle(mesh.0, counts.meshes, "mesh", self.at(Field::InstanceMesh));
-        let columns = world_from_object.map(|column| self.point(column, Field::InstanceTransform));
+        } = self;
+        let meshes = proof.counts.meshes;
+        let mesh = proof.check.handle(mesh.0, meshes, "mesh", proof.at("mesh"));
+        let columns = world_from_object.map(|column| proof.point(column, "worldFromObject", ""));
         let columns = [columns[0]?, columns[1]?, columns[2]?, columns[3]?];
         let axes = [0, 1, 2].map(|k| unit(columns[k]).unwrap_or(Vec3::ZERO));
         let volume = axes[0].dot(axes[1].cross(axes[2])).abs();
@@ -238,14 +210,14 @@ impl SurfaceCheck<'_, '_> {
                 &codes::BAD_ROTATION,
                 "a mesh is placed by a map that flattens it",
             );
-            self.check
-                .report(self.at(Field::InstanceTransform), "", finding);
+            let at = proof.at("worldFromObject");
+            proof.check.report(at, "", finding);
             return None;
         }
-        Some(Shape::Instance(Box::new(Instance {
+        Some(Some(Shape::Instance(Box::new(Instance {
             mesh: mesh?,
             world_from_object: columns,
-        })))
+        }))))
     }
 }
 

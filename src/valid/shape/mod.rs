@@ -19,28 +19,54 @@ pub struct Surface {
     pub index: usize,
 }
 
-/// A shape of any kind.
-#[derive(Clone, Debug)]
-pub enum Shape {
-    /// A sphere.
-    Sphere(Sphere),
-    /// An infinite plane.
-    Plane(Plane),
-    /// A triangle with an area.
-    Triangle(Triangle),
-    /// A quadrilateral with an area.
-    Quad(Box<Quad>),
-    /// A disc.
-    Disc(Disc),
-    /// A cylinder.
-    Cylinder(Cylinder),
-    /// A cone.
-    Cone(Cone),
-    /// A torus.
-    Torus(Torus),
-    /// A mesh, placed.
-    Instance(Box<Instance>),
+/// What an enum holds of a shape that is small.
+type Inline<T> = T;
+
+/// Declares the proven shapes: those whose values are `ruled` in full, of the others the variant.
+macro_rules! declare {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        /// A shape of any kind.
+        #[derive(Clone, Debug)]
+        pub enum Shape {
+            $($(#[$doc])* $Name($Store<$Name>),)*
+        }
+
+        $(proven!($(#[$doc])* $Name $how $values);)*
+    };
 }
+
+/// Declares a proven shape.
+macro_rules! proven {
+    ($(#[$doc:meta])* $Name:ident own $values:tt) => {};
+    ($(#[$doc:meta])* $Name:ident ruled {
+        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+    }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $Name {
+            $(
+                #[doc = proven_type!(doc $rule $Name $value)]
+                pub $value: proven_type!($rule),
+            )*
+        }
+    };
+}
+
+/// The type of a value that is proven by a rule, and its description.
+macro_rules! proven_type {
+    (point) => { Vec3 };
+    (direction) => { Vec3 };
+    (step) => { Vec3 };
+    (length) => { Positive };
+    (doc direction $Name:ident $value:ident) => {
+        concat!(proven_type!(doc point $Name $value), ", with its largest component in [1, 2)")
+    };
+    (doc $rule:ident $Name:ident $value:ident) => {
+        concat!("[`", stringify!($value), "`](crate::ir::", stringify!($Name), "::", stringify!($value), ")")
+    };
+}
+
+shapes!(declare);
 
 /// A sphere.
 #[derive(Clone, Debug)]
@@ -52,15 +78,6 @@ pub struct Sphere {
     /// The rows of the rotation from directions of the world to those of the texture; none for the
     /// identity.
     pub texture_from_world: Option<Box<[Vec3; 3]>>,
-}
-
-/// An infinite plane.
-#[derive(Clone, Copy, Debug)]
-pub struct Plane {
-    /// A point of it.
-    pub center: Vec3,
-    /// Its normal, with its largest component in [1, 2).
-    pub normal: Vec3,
 }
 
 /// A triangle whose corners are not in line.
@@ -85,54 +102,6 @@ impl Quad {
     pub fn is_flat(&self) -> bool {
         is_flat(self.vertices)
     }
-}
-
-/// A disc.
-#[derive(Clone, Copy, Debug)]
-pub struct Disc {
-    /// Its centre.
-    pub center: Vec3,
-    /// Its normal, with its largest component in [1, 2).
-    pub normal: Vec3,
-    /// Its radius.
-    pub radius: Positive,
-}
-
-/// A cylinder with two caps.
-#[derive(Clone, Copy, Debug)]
-pub struct Cylinder {
-    /// The centre of its base.
-    pub base: Vec3,
-    /// The direction to the top, with its largest component in [1, 2).
-    pub axis: Vec3,
-    /// From base to top.
-    pub height: Positive,
-    /// Its radius.
-    pub radius: Positive,
-}
-
-/// A cone with a cap at its base.
-#[derive(Clone, Copy, Debug)]
-pub struct Cone {
-    /// The centre of its base.
-    pub base: Vec3,
-    /// From there to the apex; not zero.
-    pub up: Vec3,
-    /// The radius of its base.
-    pub radius: Positive,
-}
-
-/// A torus.
-#[derive(Clone, Copy, Debug)]
-pub struct Torus {
-    /// Its centre.
-    pub center: Vec3,
-    /// The direction of its axis, with its largest component in [1, 2).
-    pub axis: Vec3,
-    /// From the centre to the middle of the tube.
-    pub major: Positive,
-    /// The radius of the tube.
-    pub minor: Positive,
 }
 
 /// A mesh, placed in the world.

@@ -1,15 +1,16 @@
 //! The quadrilateral.
 
-use super::decode::{Numbers, SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::record::{FieldOutcome, Rows, keys, record};
-use super::value::{Point, Text, Vector};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::record::{FieldOutcome, Rows, keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 use crate::math::Vec3;
 
 /// How people name four corners.
-pub(super) const FOUR_CORNERS: Rows = &[
+pub(in crate::front::course) const FOUR_CORNERS: Rows = &[
     &["v0", "v1", "v2", "v3"],
     &["v1", "v2", "v3", "v4"],
     &["a", "b", "c", "d"],
@@ -21,7 +22,7 @@ pub(super) const FOUR_CORNERS: Rows = &[
 ];
 
 /// How people name the two edges from a corner: upward, and to the side.
-pub(super) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
+pub(in crate::front::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "edge2"]];
 
 record! {
     /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
@@ -41,20 +42,14 @@ record! {
     forms { [corners] [position edges] }
 }
 
-impl Lowering {
-    /// Lowers a quadrilateral.
-    pub(super) fn quad(&mut self, quad: &Quad) {
-        let clothes = self.clothe(&quad.kind, &quad.material);
-        if let (Some(clothes), Some(corners)) = (clothes, corners(quad)) {
-            let fields = [
-                Field::QuadVertex0,
-                Field::QuadVertex1,
-                Field::QuadVertex2,
-                Field::QuadVertex3,
-            ];
+impl Lower for Quad {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+        let clothes = lowering.clothe(&self.kind, &self.material);
+        if let (Some(clothes), Some(corners)) = (clothes, corners(self)) {
+            let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
             let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
             let vertices = corners.map(|corner| corner.value);
-            self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
+            lowering.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places);
         }
     }
 }

@@ -1,12 +1,13 @@
 //! The torus.
 
-use super::decode::{SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::Positive;
-use super::record::{keys, record};
-use super::value::{Point, Text, Vector};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Positive;
+use crate::front::course::record::{keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 
 record! {
     /// A torus.
@@ -26,9 +27,8 @@ record! {
     }
 }
 
-impl Lowering {
-    /// Lowers a torus.
-    pub(super) fn torus(&mut self, torus: &Torus) {
+impl Lower for Torus {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Torus {
             kind,
             position,
@@ -36,7 +36,7 @@ impl Lowering {
             alpha,
             direction,
             material,
-        } = torus;
+        } = self;
         let (center, axis) = (position.value.0, direction.value.0);
         let shape = ir::Torus {
             center,
@@ -45,13 +45,13 @@ impl Lowering {
             minor: alpha.value.0,
         };
         let places = [
-            (Field::TorusCenter, position.span),
-            (Field::TorusAxis, direction.span),
-            (Field::TorusMajor, radius.span),
-            (Field::TorusMinor, alpha.span),
+            ("center", position.span),
+            ("axis", direction.span),
+            ("major", radius.span),
+            ("minor", alpha.span),
         ];
-        if let Some(clothes) = self.clothe(kind, material) {
-            self.put(&clothes, ir::Shape::Torus(shape), &places);
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, ir::Shape::Torus(shape), &places);
         }
     }
 }

@@ -1,15 +1,16 @@
 //! The solids with flat faces: box, tetrahedron and prism. They are lowered to the triangles they
 //! are bounded by.
 
-use super::decode::{Context, SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::object::Clothes;
+use super::Lower;
 use super::quad::FOUR_CORNERS;
-use super::record::{FieldOutcome, keys, record};
 use super::triangle::{CORNERS, VERTICES};
-use super::value::{Point, Text, Vector};
 use crate::diag::codes;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::object::Clothes;
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::value::{Point, Text, Vector};
 use crate::ir;
 use crate::math::{Vec3, cos, sin, unit_scale};
 use crate::source::Span;
@@ -84,11 +85,10 @@ const PRISM: &[Face] = &[
     &[2, 0, 3, 5],
 ];
 
-impl Lowering {
-    /// Lowers a box.
-    pub(super) fn cuboid(&mut self, cuboid: &Cuboid, context: &mut Context<'_>) {
-        let clothes = self.clothe(&cuboid.kind, &cuboid.material);
-        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(cuboid)) {
+impl Lower for Cuboid {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        let clothes = lowering.clothe(&self.kind, &self.material);
+        if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self)) {
             let edges = [
                 corners[1] - corners[0],
                 corners[2] - corners[0],
@@ -100,18 +100,19 @@ impl Lowering {
                 faces: BOX,
                 edges,
             };
-            self.solid(&clothes, &solid, span, context);
+            lowering.solid(&clothes, &solid, span, context);
         }
     }
+}
 
-    /// Lowers a tetrahedron.
-    pub(super) fn tetrahedron(&mut self, tetrahedron: &Tetrahedron, context: &mut Context<'_>) {
+impl Lower for Tetrahedron {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Tetrahedron {
             kind,
             corners,
             material,
-        } = tetrahedron;
-        let Some(clothes) = self.clothe(kind, material) else {
+        } = self;
+        let Some(clothes) = lowering.clothe(kind, material) else {
             return;
         };
         let span = corners[0].span;
@@ -121,7 +122,7 @@ impl Lowering {
             corners[2] - corners[0],
             corners[3] - corners[0],
         ];
-        self.solid(
+        lowering.solid(
             &clothes,
             &Solid {
                 word: "tetrahedron",
@@ -133,16 +134,17 @@ impl Lowering {
             context,
         );
     }
+}
 
-    /// Lowers a prism.
-    pub(super) fn prism(&mut self, prism: &Prism, context: &mut Context<'_>) {
+impl Lower for Prism {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Prism {
             kind,
             corners,
             up,
             material,
-        } = prism;
-        let Some(clothes) = self.clothe(kind, material) else {
+        } = self;
+        let Some(clothes) = lowering.clothe(kind, material) else {
             return;
         };
         let span = corners[0].span;
@@ -151,7 +153,7 @@ impl Lowering {
             Vec3::from_array(up.value.0),
         );
         let corners = [a, b, c, a + up, b + up, c + up];
-        self.solid(
+        lowering.solid(
             &clothes,
             &Solid {
                 word: "prism",
@@ -163,7 +165,9 @@ impl Lowering {
             context,
         );
     }
+}
 
+impl Lowering {
     /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
     fn solid(
         &mut self,
@@ -284,7 +288,7 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
 }
 
 /// Where the axes come to, turned by angles in radians about x, then y, then z.
-pub(super) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
+pub(in crate::front::course) fn turned(angles: [f64; 3]) -> [Vec3; 3] {
     let [(cx, sx), (cy, sy), (cz, sz)] = angles.map(|angle| (cos(angle), sin(angle)));
     Vec3::AXES.map(|Vec3 { x, y, z }| {
         let (y, z) = (y * cx - z * sx, y * sx + z * cx);

@@ -1,12 +1,13 @@
 //! The cone.
 
-use super::decode::{SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::Positive;
-use super::record::{keys, record};
-use super::value::{Point, Text, Vector};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Positive;
+use crate::front::course::record::{keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 
 record! {
     /// A cone with a cap at its base.
@@ -24,28 +25,27 @@ record! {
     }
 }
 
-impl Lowering {
-    /// Lowers a cone.
-    pub(super) fn cone(&mut self, cone: &Cone) {
+impl Lower for Cone {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Cone {
             kind,
             position,
             up,
             radius,
             material,
-        } = cone;
+        } = self;
         let shape = ir::Cone {
             base: position.value.0,
             up: up.value.0,
             radius: radius.value.0,
         };
         let places = [
-            (Field::ConeBase, position.span),
-            (Field::ConeUp, up.span),
-            (Field::ConeRadius, radius.span),
+            ("base", position.span),
+            ("up", up.span),
+            ("radius", radius.span),
         ];
-        if let Some(clothes) = self.clothe(kind, material) {
-            self.put(&clothes, ir::Shape::Cone(shape), &places);
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, ir::Shape::Cone(shape), &places);
         }
     }
 }

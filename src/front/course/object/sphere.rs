@@ -1,14 +1,15 @@
 //! The sphere, and the turn of its texture.
 
-use super::decode::{Context, SharedValue, Spanned, Value};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::{Positive, Real, json_number};
-use super::record::{FieldOutcome, keys, record};
-use super::schema::Definitions;
-use super::value::{Point, Text, Vector};
+use super::Lower;
 use crate::diag::codes;
-use crate::ir::{self, Field};
+use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::{Positive, Real, json_number};
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::schema::Definitions;
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 use crate::math::{Vec3, turned_to_z, unit};
 use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
@@ -33,9 +34,9 @@ record! {
 
 /// A radius, with or without the axis of a texture.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Radius {
-    pub(super) length: f64,
-    pub(super) axis: Option<Spanned<Vector>>,
+pub(in crate::front::course) struct Radius {
+    pub(in crate::front::course) length: f64,
+    pub(in crate::front::course) axis: Option<Spanned<Vector>>,
 }
 
 impl Value for Radius {
@@ -71,9 +72,8 @@ impl Value for Radius {
     }
 }
 
-impl Lowering {
-    /// Lowers a sphere.
-    pub(super) fn sphere(&mut self, sphere: &Sphere, context: &mut Context<'_>) {
+impl Lower for Sphere {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Sphere {
             kind,
             position,
@@ -81,19 +81,16 @@ impl Lowering {
             angle,
             axis,
             material,
-        } = sphere;
+        } = self;
         let axis = texture_axis(radius, axis, context);
         let shape = ir::Shape::Sphere(ir::Sphere {
             center: position.value.0,
             radius: radius.value.length,
             texture_from_world: turned_to_z(axis, angle.value.0),
         });
-        let places = [
-            (Field::SphereCenter, position.span),
-            (Field::SphereRadius, radius.span),
-        ];
-        if let Some(clothes) = self.clothe(kind, material) {
-            self.put(&clothes, shape, &places);
+        let places = [("center", position.span), ("radius", radius.span)];
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, shape, &places);
         }
     }
 }

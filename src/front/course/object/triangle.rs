@@ -1,14 +1,15 @@
 //! The triangle.
 
-use super::decode::{SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::record::{FieldOutcome, Rows, keys, record};
-use super::value::{Point, Text, Uv};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::record::{FieldOutcome, Rows, keys, record};
+use crate::front::course::value::{Point, Text, Uv};
+use crate::ir;
 
 /// How people name three corners.
-pub(super) const CORNERS: Rows = &[
+pub(in crate::front::course) const CORNERS: Rows = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
     &["a", "b", "c"],
@@ -34,21 +35,16 @@ record! {
 }
 
 /// The places of the corners, from where they were written.
-pub(super) const VERTICES: [Field; 3] = [
-    Field::TriangleVertex0,
-    Field::TriangleVertex1,
-    Field::TriangleVertex2,
-];
+pub(in crate::front::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
-impl Lowering {
-    /// Lowers a triangle.
-    pub(super) fn triangle(&mut self, triangle: &Triangle) {
+impl Lower for Triangle {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Triangle {
             kind,
             corners,
             uvs,
             material,
-        } = triangle;
+        } = self;
         let uvs = if let FieldOutcome::Read(uvs) = uvs {
             Some(uvs.map(|uv| uv.value.0))
         } else {
@@ -60,8 +56,8 @@ impl Lowering {
         });
         let spans = corners.map(|corner| corner.span);
         let places = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
-        if let Some(clothes) = self.clothe(kind, material) {
-            self.put(&clothes, shape, &places);
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, shape, &places);
         }
     }
 }

@@ -1,23 +1,24 @@
 //! The objects, told apart by their `type`: the table of types, and what all of them share.
 
-use super::cone::Cone;
-use super::cylinder::Cylinder;
+mod cone;
+mod cylinder;
+mod disc;
+mod gltf;
+pub(super) mod mesh;
+mod plane;
+mod quad;
+pub(super) mod solid;
+mod sphere;
+mod torus;
+mod triangle;
+
 use super::decode::{Context, SharedValue, Spanned, Value, ValueKey};
-use super::disc::Disc;
-use super::gltf::Gltf;
 use super::lower::Lowering;
 use super::material::Material;
-use super::mesh::Mesh;
-use super::plane::{BoundedPlane, Plane};
-use super::quad::Quad;
 use super::reader::{look_up, missing_keys};
 use super::record::Record;
 use super::schema::{self, Definitions};
-use super::solid::{Cuboid, Prism, Tetrahedron};
 use super::spelling::{list, nearest};
-use super::sphere::Sphere;
-use super::torus::Torus;
-use super::triangle::Triangle;
 use super::value::Text;
 use crate::diag::clip;
 use crate::diag::{Severity, codes};
@@ -34,39 +35,56 @@ pub(super) struct ObjectKind {
     schema: fn(&mut Definitions) -> Json,
 }
 
-/// Declares the types of objects: the record and the words for it.
+/// What an object becomes in the IR.
+trait Lower {
+    /// Lowers an object; one without a sound material or form is left out, and the sink has an
+    /// error.
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>);
+}
+
+/// Declares the types of objects: the file and the record, and the words for it.
 macro_rules! kinds {
-    ($($record:ident $($word:literal)+;)+) => {
+    ($($file:ident $record:ident $($word:literal)+;)+) => {
         /// An object of any type.
         pub(super) enum Object {
-            $($record($record)),+
+            $($record($file::$record)),+
         }
 
         /// The types there are.
         pub(super) const KINDS: &[ObjectKind] = &[$(ObjectKind {
             words: &[$($word),+],
-            record: &$record::RECORD,
-            decode: |node, context| $record::decode(node, context).map(Object::$record),
-            schema: $record::schema,
+            record: &$file::$record::RECORD,
+            decode: |node, context| $file::$record::decode(node, context).map(Object::$record),
+            schema: $file::$record::schema,
         }),+];
+
+        impl Lowering {
+            /// Lowers an object; one without a sound material or form is left out, and the sink has
+            /// an error.
+            pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
+                match object {
+                    $(Object::$record(record) => record.lower(self, context),)+
+                }
+            }
+        }
     };
 }
 
 kinds! {
-    Sphere "sphere";
-    Plane "plane";
-    Triangle "triangle";
-    Quad "quad" "quadrilateral";
-    Disc "circle" "disc" "disk";
-    Cylinder "cylinder";
-    Cone "cone";
-    Torus "torus";
-    Cuboid "box";
-    Tetrahedron "tetrahedron";
-    Prism "prism";
-    Mesh "mesh" "model" "OBJModel" "triangleMesh" "triangleAggregate";
-    BoundedPlane "bplane";
-    Gltf "gltf";
+    sphere Sphere "sphere";
+    plane Plane "plane";
+    triangle Triangle "triangle";
+    quad Quad "quad" "quadrilateral";
+    disc Disc "circle" "disc" "disk";
+    cylinder Cylinder "cylinder";
+    cone Cone "cone";
+    torus Torus "torus";
+    solid Cuboid "box";
+    solid Tetrahedron "tetrahedron";
+    solid Prism "prism";
+    mesh Mesh "mesh" "model" "OBJModel" "triangleMesh" "triangleAggregate";
+    plane BoundedPlane "bplane";
+    gltf Gltf "gltf";
 }
 
 impl Value for Object {
@@ -147,27 +165,6 @@ pub(super) struct Clothes {
 }
 
 impl Lowering {
-    /// Lowers an object; one without a sound material or form is left out, and the sink has an
-    /// error.
-    pub(super) fn object(&mut self, object: &Object, context: &mut Context<'_>) {
-        match object {
-            Object::Sphere(sphere) => self.sphere(sphere, context),
-            Object::Plane(plane) => self.plane(plane),
-            Object::Triangle(triangle) => self.triangle(triangle),
-            Object::Quad(quad) => self.quad(quad),
-            Object::Disc(disc) => self.disc(disc),
-            Object::Cylinder(cylinder) => self.cylinder(cylinder),
-            Object::Cone(cone) => self.cone(cone),
-            Object::Torus(torus) => self.torus(torus),
-            Object::Cuboid(cuboid) => self.cuboid(cuboid, context),
-            Object::Tetrahedron(tetrahedron) => self.tetrahedron(tetrahedron, context),
-            Object::Prism(prism) => self.prism(prism, context),
-            Object::Mesh(mesh) => self.mesh(mesh, context),
-            Object::BoundedPlane(plane) => self.bounded_plane(plane, context),
-            Object::Gltf(gltf) => self.gltf(gltf),
-        }
-    }
-
     /// Lowers the material of an object. `None` if it has no sound one, which is reported.
     pub(super) fn clothe(
         &mut self,
@@ -191,23 +188,25 @@ impl Lowering {
         }
     }
 
-    /// Adds a surface of an object.
+    /// Adds a surface of an object; `places` are the ways to its values in the IR, and where those
+    /// were written.
     pub(super) fn put(
         &mut self,
         clothes: &Clothes,
         shape: ir::Shape,
-        places: &[(Field, Option<Span>)],
+        places: &[(&str, Option<Span>)],
     ) {
         let Clothes {
             whole,
             material,
             span,
         } = *clothes;
-        let index = self.scene.surfaces.len();
+        let (index, kind) = (self.scene.surfaces.len(), shape.kind());
         self.scene.surfaces.push(ir::Surface { shape, material });
         self.origin(Noun::Surface, index, Field::Whole, whole);
-        for (field, span) in places {
-            self.origin(Noun::Surface, index, *field, *span);
+        for (way, span) in places {
+            let field = Field::of_shape(kind, way);
+            self.origin(Noun::Surface, index, field, *span);
         }
         self.origin(Noun::Surface, index, Field::Material, span);
     }

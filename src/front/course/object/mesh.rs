@@ -1,14 +1,15 @@
 //! The meshes: triangles from a file, placed.
 
-use super::decode::{Context, SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::Real;
-use super::record::{FieldOutcome, keys, record};
+use super::Lower;
 use super::sphere::Radius;
-use super::value::{FileName, Point, Text};
 use crate::diag::{Severity, codes};
-use crate::ir::{self, Field};
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Real;
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::value::{FileName, Point, Text};
+use crate::ir;
 use crate::math::Vec3;
 
 record! {
@@ -30,9 +31,8 @@ record! {
     forms { [file] [file scale] [file radius] }
 }
 
-impl Lowering {
-    /// Lowers a mesh: its file is wanted.
-    pub(super) fn mesh(&mut self, mesh: &Mesh, context: &mut Context<'_>) {
+impl Lower for Mesh {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Mesh {
             kind,
             file,
@@ -40,10 +40,10 @@ impl Lowering {
             scale,
             radius,
             material,
-        } = mesh;
+        } = self;
         let clothes = match material {
-            FieldOutcome::Read(material) => self.clothe(kind, material),
-            FieldOutcome::Absent => Some(self.clothe_in_grey(kind)),
+            FieldOutcome::Read(material) => lowering.clothe(kind, material),
+            FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind)),
             FieldOutcome::Broken => None,
         };
         let (size, to_fit) = match (scale, radius) {
@@ -62,20 +62,17 @@ impl Lowering {
             _ => return,
         };
         let Some(clothes) = clothes else { return };
-        let mesh = self.files.mesh(&mut self.scene, file);
+        let mesh = lowering.files.mesh(&mut lowering.scene, file);
         if to_fit {
-            self.fitted.push(self.scene.surfaces.len());
+            lowering.fitted.push(lowering.scene.surfaces.len());
         }
         let [x, y, z] = Vec3::AXES.map(|axis| (axis * size.value).to_array());
         let shape = ir::Instance {
             mesh,
             world_from_object: [x, y, z, position.value.0],
         };
-        let places = [
-            (Field::InstanceMesh, file.span),
-            (Field::InstanceTransform, size.span),
-        ];
-        self.put(&clothes, ir::Shape::Instance(shape), &places);
+        let places = [("mesh", file.span), ("worldFromObject", size.span)];
+        lowering.put(&clothes, ir::Shape::Instance(shape), &places);
     }
 }
 
@@ -90,7 +87,7 @@ fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
 
 /// Makes a mesh fill the size it is to have: the transform of the instance has that size and where
 /// its middle is to be.
-pub(super) fn fit(scene: &mut ir::Scene, surface: usize) {
+pub(in crate::front::course) fn fit(scene: &mut ir::Scene, surface: usize) {
     let Some(ir::Surface {
         shape: ir::Shape::Instance(instance),
         ..

@@ -1,10 +1,11 @@
 //! The glTF assets: a file, and its place in the scene.
 
-use super::decode::Spanned;
-use super::lower::Lowering;
-use super::record::{keys, record};
+use super::Lower;
 use super::solid::turned;
-use super::value::{FileName, Point, Scale, Text, Vector};
+use crate::front::course::decode::{Context, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::record::{keys, record};
+use crate::front::course::value::{FileName, Point, Scale, Text, Vector};
 
 record! {
     /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.
@@ -22,20 +23,20 @@ record! {
     }
 }
 
-impl Lowering {
-    /// Lowers an asset: its file is wanted.
-    pub(super) fn gltf(&mut self, gltf: &Gltf) {
+impl Lower for Gltf {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Gltf {
             _kind: _,
             file,
             position,
             scale,
             rotation,
-        } = gltf;
+        } = self;
         let [x, y, z] = turned(rotation.value.0);
         let [sx, sy, sz] = scale.value.0;
         let columns = [x * sx, y * sy, z * sz].map(|axis| axis.to_array());
-        self.files
+        lowering
+            .files
             .gltf([columns[0], columns[1], columns[2], position.value.0], file);
     }
 }

@@ -1,12 +1,13 @@
 //! The disc.
 
-use super::decode::{SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::Positive;
-use super::record::{keys, record};
-use super::value::{Point, Text, Vector};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Positive;
+use crate::front::course::record::{keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 
 record! {
     /// A disc, seen from both sides.
@@ -24,28 +25,27 @@ record! {
     }
 }
 
-impl Lowering {
-    /// Lowers a disc.
-    pub(super) fn disc(&mut self, disc: &Disc) {
+impl Lower for Disc {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Disc {
             kind,
             center,
             normal,
             radius,
             material,
-        } = disc;
+        } = self;
         let shape = ir::Disc {
             center: center.value.0,
             normal: normal.value.0,
             radius: radius.value.0,
         };
         let places = [
-            (Field::DiscCenter, center.span),
-            (Field::DiscNormal, normal.span),
-            (Field::DiscRadius, radius.span),
+            ("center", center.span),
+            ("normal", normal.span),
+            ("radius", radius.span),
         ];
-        if let Some(clothes) = self.clothe(kind, material) {
-            self.put(&clothes, ir::Shape::Disc(shape), &places);
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, ir::Shape::Disc(shape), &places);
         }
     }
 }

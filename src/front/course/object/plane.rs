@@ -1,16 +1,17 @@
 //! The planes: infinite ones, and the bounded ones of some files.
 
-use super::decode::{Context, Numbers, SharedValue, Spanned, Value};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::{Positive, Real};
+use super::Lower;
 use super::quad::EDGES;
-use super::record::{FieldOutcome, keys, record};
-use super::schema::Definitions;
 use super::triangle::CORNERS;
-use super::value::{Point, Text, Vector, word, word_schema};
 use crate::diag::codes;
-use crate::ir::{self, Field};
+use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned, Value};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::{Positive, Real};
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::schema::Definitions;
+use crate::front::course::value::{Point, Text, Vector, word, word_schema};
+use crate::ir;
 use crate::math::{Vec3, unit, unit_scale};
 use crate::source::tree::NodeId;
 use serde_json::Value as Json;
@@ -58,7 +59,7 @@ record! {
 
 /// What bounds a bounded plane.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Outline {
+pub(in crate::front::course) enum Outline {
     Square,
     Circle,
 }
@@ -75,25 +76,22 @@ impl Value for Outline {
     }
 }
 
-impl Lowering {
-    /// Lowers a plane.
-    pub(super) fn plane(&mut self, plane: &Plane) {
-        let clothes = self.clothe(&plane.kind, &plane.material);
-        if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(plane)) {
-            let places = [
-                (Field::PlaneCenter, center.span),
-                (Field::PlaneNormal, normal.span),
-            ];
+impl Lower for Plane {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+        let clothes = lowering.clothe(&self.kind, &self.material);
+        if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(self)) {
+            let places = [("center", center.span), ("normal", normal.span)];
             let shape = ir::Plane {
                 center: center.value,
                 normal: normal.value,
             };
-            self.put(&clothes, ir::Shape::Plane(shape), &places);
+            lowering.put(&clothes, ir::Shape::Plane(shape), &places);
         }
     }
+}
 
-    /// Lowers a plane with bounds to a quadrilateral or a disc.
-    pub(super) fn bounded_plane(&mut self, plane: &BoundedPlane, context: &mut Context<'_>) {
+impl Lower for BoundedPlane {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let BoundedPlane {
             kind,
             outline,
@@ -101,8 +99,8 @@ impl Lowering {
             normal,
             radius,
             material,
-        } = plane;
-        let Some(clothes) = self.clothe(kind, material) else {
+        } = self;
+        let Some(clothes) = lowering.clothe(kind, material) else {
             return;
         };
         match outline.value {
@@ -113,24 +111,19 @@ impl Lowering {
                     radius: radius.value.0,
                 };
                 let places = [
-                    (Field::DiscCenter, center.span),
-                    (Field::DiscNormal, normal.span),
-                    (Field::DiscRadius, radius.span),
+                    ("center", center.span),
+                    ("normal", normal.span),
+                    ("radius", radius.span),
                 ];
-                self.put(&clothes, ir::Shape::Disc(shape), &places);
+                lowering.put(&clothes, ir::Shape::Disc(shape), &places);
             }
             Outline::Square if radius.value.0 <= 0.0 => pointlike(radius, context),
             Outline::Square => {
-                let fields = [
-                    Field::QuadVertex0,
-                    Field::QuadVertex1,
-                    Field::QuadVertex2,
-                    Field::QuadVertex3,
-                ];
+                let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
                 let places = fields.map(|field| (field, center.span));
                 match square(center.value.0, normal.value.0, radius.value.0) {
                     Some(vertices) => {
-                        self.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places)
+                        lowering.put(&clothes, ir::Shape::Quad(ir::Quad { vertices }), &places)
                     }
                     None => oblique(normal, context),
                 }

@@ -1,12 +1,13 @@
 //! The cylinder.
 
-use super::decode::{Numbers, SharedValue, Spanned};
-use super::lower::Lowering;
-use super::material::Material;
-use super::number::Positive;
-use super::record::{FieldOutcome, keys, record};
-use super::value::{Point, Text, Vector};
-use crate::ir::{self, Field};
+use super::Lower;
+use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Positive;
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
 use crate::math::Vec3;
 
 record! {
@@ -30,17 +31,16 @@ record! {
     forms { [position direction height] [ends] }
 }
 
-impl Lowering {
-    /// Lowers a cylinder.
-    pub(super) fn cylinder(&mut self, cylinder: &Cylinder) {
+impl Lower for Cylinder {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
         let Cylinder {
             kind,
             radius,
             material,
             ..
-        } = cylinder;
-        let clothes = self.clothe(kind, material);
-        if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(cylinder)) {
+        } = self;
+        let clothes = lowering.clothe(kind, material);
+        if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(self)) {
             let shape = ir::Cylinder {
                 base: base.value,
                 axis: axis.value,
@@ -48,12 +48,12 @@ impl Lowering {
                 radius: radius.value.0,
             };
             let places = [
-                (Field::CylinderBase, base.span),
-                (Field::CylinderAxis, axis.span),
-                (Field::CylinderHeight, height.span),
-                (Field::CylinderRadius, radius.span),
+                ("base", base.span),
+                ("axis", axis.span),
+                ("height", height.span),
+                ("radius", radius.span),
             ];
-            self.put(&clothes, ir::Shape::Cylinder(shape), &places);
+            lowering.put(&clothes, ir::Shape::Cylinder(shape), &places);
         }
     }
 }
