@@ -6,7 +6,7 @@ use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
     Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad,
-    Ray, Shape, Shear, Sphere, Torus, Triangle,
+    Ray, Shape, Shear, Sphere, TexturedSphere, TexturedTriangle, Torus, Triangle,
 };
 use std::sync::Arc;
 
@@ -152,11 +152,15 @@ impl Form {
         } = *self;
         let face = [center, center + side, center + side + other, center + other];
         match self.kind {
-            Kind::Sphere => Shape::Sphere(Sphere { center, radius }, [Vec3::X, Vec3::Y, Vec3::Z]),
+            Kind::Sphere => Shape::Sphere(TexturedSphere {
+                sphere: Sphere { center, radius },
+                texture_from_world: Vec3::AXES,
+            }),
             Kind::Plane => Shape::Plane(Plane::new(center, axis)),
-            Kind::Triangle => {
-                Shape::Triangle(Triangle::new([face[0], face[1], face[3]]).unwrap(), None)
-            }
+            Kind::Triangle => Shape::Triangle(TexturedTriangle {
+                triangle: Triangle::new([face[0], face[1], face[3]]).unwrap(),
+                uvs: None,
+            }),
             Kind::Quad => Shape::Quad(Box::new(Quad::new(face))),
             Kind::Patch => {
                 let [a, b, c, d] = face;

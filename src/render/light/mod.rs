@@ -19,8 +19,8 @@ use crate::render::material::point::uvs;
 use crate::render::material::standard::StandardMaterial;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::discrete::DiscreteDistribution;
+use crate::render::shape::geometry::Asked;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Asked;
 use crate::render::world::World;
 use std::f64::consts::PI;
 

@@ -6,7 +6,7 @@ use crate::render::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
 use crate::render::ray::Interaction;
-use crate::render::shape::instance::Details;
+use crate::render::shape::geometry::Details;
 use crate::render::texture::sampled::UvSets;
 
 /// A material at one point of a surface.

@@ -1,7 +1,7 @@
 //! The glTF material, prepared: defaults are resolved, and each map holds its image.
 
 use crate::math::Vec3;
-use crate::render::shape::instance::Asked;
+use crate::render::shape::geometry::Asked;
 use crate::render::texture::sampled::{Map, UvSets};
 
 /// A prepared material: constants are numbers, everything else has a map.

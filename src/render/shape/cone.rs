@@ -10,7 +10,16 @@
 use crate::math::{Vec3, cross, difference_of_products, dot};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::disc::PlainDisc;
+use crate::render::shape::geometry::Geometry;
 use crate::render::shape::interval::{Interval, between_planes, roots};
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quadratic;
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::Shear;
+use std::sync::Arc;
 
 /// A cone is flat if its radius is more than this many times its height.
 const FLAT: f64 = 1024.0;
@@ -112,12 +121,7 @@ impl Cone {
         }
     }
 
-    /// The first root above 0.
-    #[must_use]
-    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        self.crossing(ray).map(|(t, _)| t)
-    }
-
+    /// The first root above 0, and its part.
     fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
         let d = ray.direction;
         let start = ray.origin - self.base;
@@ -177,10 +181,15 @@ impl Cone {
             .map(|s| moved + s / pace)
             .first_in_front()
     }
+}
+
+impl Geometry for Cone {
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.crossing(ray).map(|(t, _)| (t, 0))
+    }
 
     /// The point at `t`, moved onto the part that was hit; at the apex the normal is the axis.
-    #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
         let local = (ray.origin - self.base) + ray.direction * t;
         let along = dot(local, self.axis);
@@ -207,10 +216,87 @@ impl Cone {
     }
 
     /// A box around the cone.
-    #[must_use]
-    pub(in crate::render) fn bounds(&self) -> Bounds {
+    fn bounds(&self) -> Option<Bounds> {
         let apex = Bounds::around(self.base + self.axis * self.height, 0.0);
-        Bounds::around_disc(self.base, self.axis, self.radius).union(apex)
+        Some(Bounds::around_disc(self.base, self.axis, self.radius).union(apex))
+    }
+}
+
+impl Twin for Cone {
+    type Plain<R: Real> = Box<PlainCone<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(Box::new(PlainCone::new(self)))
+    }
+}
+
+/// The parts of the twin: side and base.
+const PLAIN_PARTS: [u32; 2] = [0, 1];
+
+/// Its twin: the quadratic of ρ² = (k·m)², with m the height left to the apex, and a disc.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainCone<R> {
+    base: Vector<R>,
+    axis: Vector<R>,
+    height: R,
+    /// Radius over height.
+    slope: R,
+    cap: PlainDisc<R>,
+}
+
+impl<R: Real> PlainCone<R> {
+    fn new(cone: &Cone) -> Self {
+        let Cone {
+            base,
+            axis,
+            height,
+            radius,
+        } = *cone;
+        Self {
+            base: Vector::of(base),
+            axis: Vector::of(axis),
+            height: R::of(height),
+            slope: R::of(radius / height),
+            cap: PlainDisc::new(base, -axis, radius),
+        }
+    }
+}
+
+impl<R: Real> Plain<R> for PlainCone<R> {
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let [side, base] = PLAIN_PARTS;
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
+        // Subtract the square of the cone's own radius, slope·(height − above − rise·t).
+        let (width, narrowing) = (self.slope * (self.height - above), self.slope * rise);
+        let a = across.dot(across) - narrowing * narrowing;
+        let b = R::of(2.0) * (from_axis.dot(across) + width * narrowing);
+        let c = from_axis.dot(from_axis) - width * width;
+        let none = R::of(f64::NAN);
+        let within = |t: R| {
+            let height = above + rise * t;
+            if height >= R::of(0.0) && height <= self.height {
+                t
+            } else {
+                none
+            }
+        };
+        let [first, second] = quadratic(a, b, c)?.map(within);
+        ray.first([
+            (first, side),
+            (second, side),
+            (self.cap.parameter(ray), base),
+        ])
+    }
+
+    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+        if prim_id == PLAIN_PARTS[1] {
+            return self.cap.normal();
+        }
+        let local = point - self.base;
+        let from_axis = local - self.axis * local.dot(self.axis);
+        (from_axis.normalized() + self.axis * self.slope).normalized()
     }
 }
 
@@ -234,14 +320,14 @@ mod tests {
                 origin: eye,
                 direction: (cone.base + up * along + aside - eye).normalize(),
             };
-            let Some(t) = cone.intersect(&ray) else {
+            let Some((t, _)) = cone.crossing(&ray) else {
                 continue;
             };
-            let at = cone.interaction(&ray, t);
+            let at = cone.interaction(&ray, t, 0);
             let mirrored = reflect(ray.direction, at.normal);
             seen += 1;
             again += i32::from(
-                mirrored.dot(at.normal) > 0.0 && cone.intersect(&at.ray(mirrored)).is_some(),
+                mirrored.dot(at.normal) > 0.0 && cone.crossing(&at.ray(mirrored)).is_some(),
             );
         }
         assert!(seen > 2000 && again == 0, "{again} of {seen}");

@@ -8,7 +8,16 @@
 use crate::math::{Vec3, cross, dot, unit};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::disc::PlainDisc;
+use crate::render::shape::geometry::Geometry;
 use crate::render::shape::interval::{Interval, between_planes, roots};
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quadratic;
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::Shear;
+use std::sync::Arc;
 
 /// A prepared cylinder with two caps.
 #[derive(Clone, Copy, Debug)]
@@ -40,12 +49,7 @@ impl Cylinder {
         }
     }
 
-    /// The first root above 0.
-    #[must_use]
-    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        self.crossing(ray).map(|(t, _)| t)
-    }
-
+    /// The first root above 0, and its part.
     fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
         let f = ray.origin - self.base;
         let caps = between_planes(
@@ -94,10 +98,15 @@ impl Cylinder {
             leave: (leave, Part::Side),
         })
     }
+}
+
+impl Geometry for Cylinder {
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.crossing(ray).map(|(t, _)| (t, 0))
+    }
 
     /// The point at `t`, moved onto the part that was hit.
-    #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
         // Project the point onto the cap or the side.
         let local = (ray.origin - self.base) + ray.direction * t;
@@ -120,9 +129,80 @@ impl Cylinder {
     }
 
     /// A box around the cylinder.
-    #[must_use]
-    pub(in crate::render) fn bounds(&self) -> Bounds {
+    fn bounds(&self) -> Option<Bounds> {
         let disc = |center| Bounds::around_disc(center, self.axis, self.radius);
-        disc(self.base).union(disc(self.base + self.axis * self.height))
+        Some(disc(self.base).union(disc(self.base + self.axis * self.height)))
+    }
+}
+
+impl Twin for Cylinder {
+    type Plain<R: Real> = Box<PlainCylinder<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(Box::new(PlainCylinder::new(self)))
+    }
+}
+
+/// The parts of the twin: side, base and top.
+const PLAIN_PARTS: [u32; 3] = [0, 1, 2];
+
+/// Its twin: the quadratic of what is left of ray and point across the axis, and two
+/// discs.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainCylinder<R> {
+    base: Vector<R>,
+    axis: Vector<R>,
+    height: R,
+    radius: R,
+    caps: [PlainDisc<R>; 2],
+}
+
+impl<R: Real> PlainCylinder<R> {
+    fn new(cylinder: &Cylinder) -> Self {
+        let Cylinder {
+            base,
+            axis,
+            height,
+            radius,
+        } = *cylinder;
+        let cap = |center: Vec3, normal: Vec3| PlainDisc::new(center, normal, radius);
+        Self {
+            base: Vector::of(base),
+            axis: Vector::of(axis),
+            height: R::of(height),
+            radius: R::of(radius),
+            caps: [cap(base, -axis), cap(base + axis * height, axis)],
+        }
+    }
+}
+
+impl<R: Real> Plain<R> for PlainCylinder<R> {
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let [side, base, top] = PLAIN_PARTS;
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
+        let b = R::of(2.0) * from_axis.dot(across);
+        let c = from_axis.dot(from_axis) - self.radius * self.radius;
+        let none = R::of(f64::NAN);
+        let within = |t: R| {
+            let height = above + rise * t;
+            if height >= R::of(0.0) && height <= self.height {
+                t
+            } else {
+                none
+            }
+        };
+        let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
+        let [low, high] = self.caps.map(|cap| cap.parameter(ray));
+        ray.first([(first, side), (second, side), (low, base), (high, top)])
+    }
+
+    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+        let local = point - self.base;
+        match prim_id {
+            1 | 2 => self.caps[prim_id as usize - 1].normal(),
+            _ => (local - self.axis * local.dot(self.axis)).normalized(),
+        }
     }
 }

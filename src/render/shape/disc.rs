@@ -3,7 +3,14 @@
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::plane::Plane;
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::plane::{PlainPlane, Plane};
+use crate::render::shape::triangle::Shear;
+use std::sync::Arc;
 
 /// A prepared disc, rim included.
 #[derive(Clone, Copy, Debug)]
@@ -43,5 +50,79 @@ impl Disc {
     #[must_use]
     pub(in crate::render) fn bounds(&self) -> Bounds {
         Bounds::around_disc(self.center, self.plane.normal(), self.radius)
+    }
+}
+
+impl Geometry for Disc {
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.interaction(ray, t)
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds())
+    }
+}
+
+impl Twin for Disc {
+    type Plain<R: Real> = PlainDisc<R>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(PlainDisc::new(
+            self.center,
+            self.plane.normal(),
+            self.radius,
+        ))
+    }
+}
+
+/// Its twin: the plane, and the distance from the centre.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainDisc<R> {
+    plane: PlainPlane<R>,
+    center: Vector<R>,
+    radius: R,
+}
+
+impl<R: Real> PlainDisc<R> {
+    pub(in crate::render::shape) fn new(center: Vec3, unit_normal: Vec3, radius: f64) -> Self {
+        Self {
+            plane: PlainPlane::new(center, unit_normal),
+            center: Vector::of(center),
+            radius: R::of(radius),
+        }
+    }
+
+    /// Where the line meets the disc, wherever that is along it; not a number beside the disc.
+    #[inline]
+    pub(in crate::render::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+        let t = self.plane.parameter(ray);
+        let local = ray.at(t) - self.center;
+        if local.dot(local) <= self.radius * self.radius {
+            t
+        } else {
+            R::of(f64::NAN)
+        }
+    }
+
+    /// The unit normal.
+    #[inline]
+    pub(in crate::render::shape) fn normal(&self) -> Vector<R> {
+        self.plane.unit()
+    }
+}
+
+impl<R: Real> Plain<R> for PlainDisc<R> {
+    #[inline]
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let t = self.parameter(ray);
+        ray.counts(t).then_some((t, 0))
+    }
+
+    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+        self.normal()
     }
 }

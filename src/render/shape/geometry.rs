@@ -3,7 +3,6 @@
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::instance::{Asked, Details};
 use crate::render::shape::triangle::Shear;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
@@ -40,15 +39,21 @@ pub trait Geometry: Sized + Send + Sync {
 
     /// Whether its points have texture coordinates.
     #[must_use]
-    fn has_uv(&self) -> bool;
+    fn has_uv(&self) -> bool {
+        false
+    }
 
     /// Whether its shading normals are not the geometric ones.
     #[must_use]
-    fn has_shading_normals(&self) -> bool;
+    fn has_shading_normals(&self) -> bool {
+        false
+    }
 
     /// What the shape knows of the point beyond its geometry, as far as that is asked.
     #[must_use]
-    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details;
+    fn details(&self, _ray: &Ray, _at: &Interaction, _prim_id: u32, _asked: Asked) -> Details {
+        Details::default()
+    }
 
     /// How many flat parts it has that can be lights; each is a `prim_id` of
     /// [`Geometry::intersect`].
@@ -78,4 +83,57 @@ pub trait Geometry: Sized + Send + Sync {
     /// A box around it, for shapes that have an end.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
+}
+
+/// The requested [`Details`] beyond normal and colour; others may be omitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Asked {
+    /// The texture coordinates.
+    pub uv: bool,
+    /// The tangent and its side.
+    pub tangent: bool,
+}
+
+impl Asked {
+    /// Nothing more.
+    pub const NONE: Self = Self {
+        uv: false,
+        tangent: false,
+    };
+
+    /// All there is.
+    pub const ALL: Self = Self {
+        uv: true,
+        tangent: true,
+    };
+}
+
+/// The shading attributes of a point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Details {
+    /// The unit shading normal, where it is not the geometric one.
+    pub normal: Option<Vec3>,
+    /// The texture coordinates.
+    pub uv: Option<[f64; 2]>,
+    /// A direction along the surface in which u grows and v stays.
+    pub tangent: Option<Vec3>,
+    /// ±1: the second axis of normal maps is `side·(normal × tangent)`.
+    pub side: f64,
+    /// The second set of texture coordinates.
+    pub second_uv: Option<[f64; 2]>,
+    /// The colour of the corners, with alpha.
+    pub color: Option<[f64; 4]>,
+}
+
+impl Default for Details {
+    fn default() -> Self {
+        Self {
+            normal: None,
+            uv: None,
+            tangent: None,
+            side: 1.0,
+            second_uv: None,
+            color: None,
+        }
+    }
 }

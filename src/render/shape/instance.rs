@@ -4,7 +4,11 @@
 use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::mesh::PreparedMesh;
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::mesh::{PlainMesh, PreparedMesh};
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::{Plain, Twin};
 use crate::render::shape::tie::{self, Nearest, Tie};
 use crate::render::shape::triangle::{Shear, Triangle};
 use std::sync::Arc;
@@ -66,11 +70,6 @@ impl Instance {
         instance
     }
 
-    /// The rows of the inverse of the axes.
-    pub(in crate::render) fn inverse(&self) -> [Vec3; 3] {
-        self.inverse
-    }
-
     /// A bound on the error of a point transformed between the two spaces.
     fn rounding(&self, local: Vec3) -> f64 {
         16.0 * crate::math::U * (self.sizes.dot(local.abs()) + self.origin.abs().element_sum())
@@ -107,9 +106,45 @@ impl Instance {
         }
     }
 
-    /// The smallest root above 0 that is not beyond `t_max`, and its triangle.
-    #[must_use]
-    pub fn intersect(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+    /// Breaks the tie between the roots as close as the one at `t`.
+    #[cold]
+    fn settle(&self, ray: &Ray, shear: &Shear, t: f64) -> Option<(f64, u32)> {
+        let mut tie = Tie::new();
+        self.visit_roots(ray, shear, t, &mut |t, prim_id| {
+            tie.add(
+                t,
+                tie::error(ray, t, &self.interaction(ray, t, prim_id)),
+                prim_id,
+            )
+        });
+        tie.first()
+    }
+
+    /// The tangent along u, and the side of the bitangent.
+    fn tangent(
+        &self,
+        triangle: &Triangle,
+        corners: [u32; 3],
+        uvs: Option<[[f64; 2]; 3]>,
+        weights: [f64; 3],
+    ) -> (Option<Vec3>, f64) {
+        let (tangent, side) = match corner_values(&self.mesh.attributes.tangents, corners) {
+            None => (
+                uvs.and_then(|uvs| triangle.tangent(uvs)),
+                uvs.map_or(1.0, handedness),
+            ),
+            Some(tangents) => {
+                let [x, y, z, w] = blend(tangents, weights);
+                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
+            }
+        };
+        let side = if self.mirrors { -side } else { side };
+        (tangent.map(|tangent| self.vector_to_world(tangent)), side)
+    }
+}
+
+impl Geometry for Instance {
+    fn intersect(&self, ray: &Ray, _: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let ray = self.to_object(ray);
         let shear = Shear::new(&ray);
         let mut best = (t_max, u32::MAX);
@@ -124,47 +159,24 @@ impl Instance {
         (best.1 != u32::MAX).then_some(best)
     }
 
-    /// As [`Instance::intersect`], but ties within rounding go to the first triangle.
-    #[must_use]
-    pub(in crate::render) fn closest_hit(&self, ray: &Ray, t_max: f64) -> Option<(f64, u32)> {
+    fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let local = self.to_object(ray);
-        let shear = Shear::new(&local);
+        let local_shear = Shear::new(&local);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
         self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
-            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &shear) {
+            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &local_shear) {
                 nearest.add(t, item);
             }
             nearest.t
         });
         match nearest.key {
             u32::MAX => None,
-            _ if nearest.is_tied() => self.settle(ray, nearest.t),
+            _ if nearest.is_tied() => self.settle(ray, shear, nearest.t),
             prim_id => Some((nearest.t, prim_id)),
         }
     }
 
-    /// Breaks the tie between the roots as close as the one at `t`.
-    #[cold]
-    fn settle(&self, ray: &Ray, t: f64) -> Option<(f64, u32)> {
-        let mut tie = Tie::new();
-        self.visit_roots(ray, t, &mut |t, prim_id| {
-            tie.add(
-                t,
-                tie::error(ray, t, &self.interaction(ray, t, prim_id)),
-                prim_id,
-            )
-        });
-        tie.first()
-    }
-
-    /// Calls `visit` with all roots above 0 and their triangles, up to `t_max` and a little
-    /// farther.
-    pub(in crate::render) fn visit_roots(
-        &self,
-        ray: &Ray,
-        t_max: f64,
-        visit: &mut dyn FnMut(f64, u32),
-    ) {
+    fn visit_roots(&self, ray: &Ray, _: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
         let local = self.to_object(ray);
         let shear = Shear::new(&local);
         let Some(hierarchy) = self.mesh.hierarchy() else {
@@ -178,16 +190,7 @@ impl Instance {
         });
     }
 
-    /// The root above 0 of triangle `prim_id`.
-    #[inline]
-    pub(in crate::render) fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
-        let ray = self.to_object(ray);
-        self.mesh.triangles()[prim_id as usize].intersect(&ray, &Shear::new(&ray))
-    }
-
-    /// The point at `t` on triangle `prim_id`.
-    #[must_use]
-    pub fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let local_ray = self.to_object(ray);
         let local = self.mesh.triangles()[prim_id as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
@@ -202,34 +205,19 @@ impl Instance {
         )
     }
 
-    /// Whether the mesh has texture coordinates.
-    pub(in crate::render) fn has_uv(&self) -> bool {
+    fn has_uv(&self) -> bool {
         !self.mesh.attributes.uvs.is_empty()
     }
 
-    /// How many triangles it has.
-    pub(in crate::render) fn parts(&self) -> usize {
-        self.mesh.triangles().len()
-    }
-
-    /// The corners of triangle `prim_id` in the world.
-    pub(in crate::render) fn corners(&self, prim_id: u32) -> [Vec3; 3] {
-        self.mesh.triangles()[prim_id as usize]
-            .vertices()
-            .map(|corner| self.to_world(corner))
-    }
-
-    /// Whether the mesh has normals of its own.
-    pub(in crate::render) fn has_shading_normals(&self) -> bool {
+    fn has_shading_normals(&self) -> bool {
         !self.mesh.attributes.normals.is_empty()
     }
 
-    /// The requested details of a point of triangle `prim_id`.
-    pub(in crate::render) fn details(&self, point: Vec3, prim_id: u32, asked: Asked) -> Details {
+    fn details(&self, _: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
         let triangle = &self.mesh.triangles()[prim_id as usize];
         let mesh = &self.mesh.attributes;
         let corners = self.mesh.corners(prim_id);
-        let normals = at(&mesh.normals, corners);
+        let normals = corner_values(&mesh.normals, corners);
         let is_even = normals.is_none_or(|[a, b, c]| a == b && a == c);
         let has_no_coordinates =
             mesh.uvs.is_empty() && mesh.second_uvs.is_empty() && mesh.tangents.is_empty();
@@ -238,7 +226,7 @@ impl Instance {
             true => [1.0, 0.0, 0.0],
             false => triangle.weights(
                 self.to_object(&Ray {
-                    origin: point,
+                    origin: at.point,
                     direction: Vec3::ZERO,
                 })
                 .origin,
@@ -253,7 +241,7 @@ impl Instance {
         let uvs = if asked == Asked::NONE {
             None
         } else {
-            at(&mesh.uvs, corners)
+            corner_values(&mesh.uvs, corners)
         };
         let (tangent, side) = if asked.tangent {
             self.tangent(triangle, corners, uvs, weights)
@@ -261,7 +249,7 @@ impl Instance {
             (None, 1.0)
         };
         let second_uvs = if asked.uv {
-            at(&mesh.second_uvs, corners)
+            corner_values(&mesh.second_uvs, corners)
         } else {
             None
         };
@@ -271,93 +259,31 @@ impl Instance {
             tangent,
             side,
             second_uv: second_uvs.map(|uvs| interpolate(uvs, weights)),
-            color: at(&mesh.colors, corners).map(|colors| blend(colors, weights)),
+            color: corner_values(&mesh.colors, corners).map(|colors| blend(colors, weights)),
         }
     }
 
-    /// The tangent along u, and the side of the bitangent.
-    fn tangent(
-        &self,
-        triangle: &Triangle,
-        corners: [u32; 3],
-        uvs: Option<[[f64; 2]; 3]>,
-        weights: [f64; 3],
-    ) -> (Option<Vec3>, f64) {
-        let (tangent, side) = match at(&self.mesh.attributes.tangents, corners) {
-            None => (
-                uvs.and_then(|uvs| triangle.tangent(uvs)),
-                uvs.map_or(1.0, handedness),
-            ),
-            Some(tangents) => {
-                let [x, y, z, w] = blend(tangents, weights);
-                (Some(Vec3::new(x, y, z)), 1.0_f64.copysign(w))
-            }
-        };
-        let side = if self.mirrors { -side } else { side };
-        (tangent.map(|tangent| self.vector_to_world(tangent)), side)
+    fn triangles(&self) -> usize {
+        self.mesh.triangles().len()
     }
 
-    /// A box around it.
-    pub(in crate::render) fn bounds(&self) -> Bounds {
-        self.bounds
+    fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
+        let corners = self.mesh.triangles()[prim_id as usize].vertices();
+        Some(corners.map(|corner| self.to_world(corner)))
     }
 
-    /// A bound on the error of its vertices.
-    pub(in crate::render) fn error_bound(&self) -> f64 {
+    fn error_bound(&self) -> f64 {
         self.error_bound
     }
-}
 
-/// The requested [`Details`] beyond normal and colour; others may be omitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Asked {
-    /// The texture coordinates.
-    pub uv: bool,
-    /// The tangent and its side.
-    pub tangent: bool,
-}
+    #[inline]
+    fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
+        let ray = self.to_object(ray);
+        self.mesh.triangles()[prim_id as usize].intersect(&ray, &Shear::new(&ray))
+    }
 
-impl Asked {
-    /// Nothing more.
-    pub const NONE: Self = Self {
-        uv: false,
-        tangent: false,
-    };
-
-    /// All there is.
-    pub const ALL: Self = Self {
-        uv: true,
-        tangent: true,
-    };
-}
-
-/// The shading attributes of a point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Details {
-    /// The unit shading normal, where it is not the geometric one.
-    pub normal: Option<Vec3>,
-    /// The texture coordinates.
-    pub uv: Option<[f64; 2]>,
-    /// A direction along the surface in which u grows and v stays.
-    pub tangent: Option<Vec3>,
-    /// ±1: the second axis of normal maps is `side·(normal × tangent)`.
-    pub side: f64,
-    /// The second set of texture coordinates.
-    pub second_uv: Option<[f64; 2]>,
-    /// The colour of the corners, with alpha.
-    pub color: Option<[f64; 4]>,
-}
-
-impl Default for Details {
-    fn default() -> Self {
-        Self {
-            normal: None,
-            uv: None,
-            tangent: None,
-            side: 1.0,
-            second_uv: None,
-            color: None,
-        }
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds)
     }
 }
 
@@ -369,7 +295,7 @@ fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
 
 /// What a column, which may be empty, says of three corners.
 #[inline]
-fn at<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
+fn corner_values<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
     (!column.is_empty()).then(|| {
         [
             column.at(a as usize),
@@ -391,4 +317,71 @@ fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
 pub(in crate::render) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
     let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
     [mean(0), mean(1)]
+}
+
+impl Twin for Instance {
+    type Plain<R: Real> = Box<PlainInstance<R>>;
+
+    fn plain<R: Real>(&self, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(Box::new(PlainInstance {
+            mesh: Arc::clone(mesh?),
+            origin: Vector::of(self.origin),
+            rows: self.inverse.map(Vector::of),
+        }))
+    }
+}
+
+/// Its triangles in plain arithmetic, in the hierarchy of the robust ones.
+#[derive(Clone, Debug)]
+pub(in crate::render) struct PlainInstance<R> {
+    mesh: Arc<PlainMesh<R>>,
+    origin: Vector<R>,
+    /// The rows of the map from the world to the object, without its origin.
+    rows: [Vector<R>; 3],
+}
+
+impl<R: Real> PlainInstance<R> {
+    /// The line in object space; its `t` are those of the world.
+    fn to_object(&self, ray: &PlainRay<R>) -> PlainRay<R> {
+        let rows = |v: Vector<R>| {
+            let [x, y, z] = self.rows.map(|row| row.dot(v));
+            Vector { x, y, z }
+        };
+        PlainRay {
+            origin: rows(ray.origin - self.origin),
+            direction: rows(ray.direction),
+            length2: ray.length2,
+        }
+    }
+}
+
+impl<R: Real> Plain<R> for PlainInstance<R> {
+    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+        let ray = self.to_object(ray);
+        let robust_ray = Ray {
+            origin: ray.origin.wide(),
+            direction: ray.direction.wide(),
+        };
+        let mut best = (t_max, u32::MAX);
+        self.mesh
+            .robust
+            .hierarchy()?
+            .walk::<false>(&robust_ray, t_max, |item| {
+                if let Some(t) = self.mesh.triangles[item as usize]
+                    .intersect(&ray)
+                    .map(R::wide)
+                    && (t < best.0 || (t == best.0 && item < best.1))
+                {
+                    best = (t, item);
+                }
+                best.0
+            });
+        (best.1 != u32::MAX).then_some((R::of(best.0), best.1))
+    }
+
+    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
+        let n = self.mesh.triangles[prim_id as usize].normal();
+        let [x, y, z] = self.rows;
+        (x * n.x + y * n.y + z * n.z).normalized()
+    }
 }

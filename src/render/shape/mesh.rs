@@ -2,8 +2,9 @@
 
 use crate::math::{Column, Shared, Vec3};
 use crate::render::accel::bvh4::Bvh4;
-use crate::render::shape::triangle::Triangle;
-use std::sync::OnceLock;
+use crate::render::shape::plain::real::Real;
+use crate::render::shape::triangle::{PlainTriangle, Triangle};
+use std::sync::{Arc, OnceLock};
 
 /// What a mesh says of its corners but for their places; an empty column says nothing. All is
 /// shared with the scene.
@@ -80,5 +81,28 @@ impl PreparedMesh {
         self.hierarchy
             .get_or_init(|| Bvh4::build(self.triangles.len(), 0.0, corners))
             .as_ref()
+    }
+}
+
+/// A mesh ready to be hit by plain formulas, in object coordinates.
+#[derive(Debug)]
+pub struct PlainMesh<R> {
+    /// The robust mesh: the same triangles in the same order, their hierarchy, and what is known
+    /// of them.
+    pub(in crate::render) robust: Arc<PreparedMesh>,
+    pub(in crate::render::shape) triangles: Vec<PlainTriangle<R>>,
+}
+
+impl<R: Real> PlainMesh<R> {
+    pub(in crate::render) fn new(robust: PreparedMesh) -> Self {
+        let triangles = robust
+            .triangles()
+            .iter()
+            .map(|triangle| PlainTriangle::new(triangle.vertices()))
+            .collect();
+        Self {
+            robust: Arc::new(robust),
+            triangles,
+        }
     }
 }

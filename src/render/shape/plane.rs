@@ -2,7 +2,15 @@
 //! distance.
 
 use crate::math::{Vec3, cross, dot, two_difference, unit_scale};
+use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::Shear;
+use std::sync::Arc;
 
 /// How a plane stands.
 #[derive(Clone, Copy, Debug)]
@@ -110,5 +118,71 @@ impl Plane {
         let Normal { raw, square, unit } = self.normal;
         let point = near + raw * (self.distance(near) / square);
         Interaction::new(ray, point, unit, self.anchor, 0.0)
+    }
+}
+
+impl Geometry for Plane {
+    #[inline]
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.interaction(ray, t)
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        None
+    }
+}
+
+impl Twin for Plane {
+    type Plain<R: Real> = PlainPlane<R>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(PlainPlane::new(self.anchor, self.normal()))
+    }
+}
+
+/// Its twin: N·p = N·c.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainPlane<R> {
+    normal: Vector<R>,
+    /// N·c.
+    level: R,
+}
+
+impl<R: Real> PlainPlane<R> {
+    pub(in crate::render) fn new(center: Vec3, unit_normal: Vec3) -> Self {
+        let normal = Vector::of(unit_normal);
+        Self {
+            normal,
+            level: normal.dot(Vector::of(center)),
+        }
+    }
+
+    /// The unit normal.
+    #[inline]
+    pub(in crate::render::shape) fn unit(&self) -> Vector<R> {
+        self.normal
+    }
+
+    /// Where the line meets the plane.
+    #[inline]
+    pub(in crate::render::shape) fn parameter(&self, ray: &PlainRay<R>) -> R {
+        (self.level - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction)
+    }
+}
+
+impl<R: Real> Plain<R> for PlainPlane<R> {
+    #[inline]
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let t = self.parameter(ray);
+        ray.counts(t).then_some((t, 0))
+    }
+
+    #[inline]
+    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+        self.normal
     }
 }

@@ -7,7 +7,14 @@
 use crate::math::{Vec3, cross, is_flat};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::triangle::{Shear, Triangle};
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quadratic;
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::{PlainTriangle, Shear, Triangle};
+use std::sync::Arc;
 
 /// A prepared quadrilateral.
 #[derive(Clone, Copy, Debug)]
@@ -210,5 +217,112 @@ impl Patch {
             .sum::<f64>();
         let reach = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
         Interaction::new(ray, point, normal, q00, extent + reach)
+    }
+}
+
+impl Geometry for Quad {
+    fn intersect(&self, ray: &Ray, shear: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.intersect(ray, shear)
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
+        self.interaction(ray, t, prim_id)
+    }
+
+    fn has_uv(&self) -> bool {
+        true
+    }
+
+    fn details(&self, ray: &Ray, at: &Interaction, prim_id: u32, _: Asked) -> Details {
+        let [u, v] = self.uv(ray, at.point, prim_id);
+        Details {
+            uv: Some([u, v]),
+            tangent: self.tangent(v),
+            ..Details::default()
+        }
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds())
+    }
+}
+
+impl Twin for Quad {
+    type Plain<R: Real> = Box<PlainQuad<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(Box::new(match self {
+            Self::Flat { halves, .. } => PlainQuad::Flat(
+                halves
+                    .map(|half| half.map(|(triangle, _)| PlainTriangle::new(triangle.vertices()))),
+            ),
+            Self::Patch(Patch { vertices }) => PlainQuad::Patch(vertices.map(Vector::of)),
+        }))
+    }
+}
+
+/// Its twin: two triangles in plain arithmetic, or the same patch.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) enum PlainQuad<R> {
+    Flat([Option<PlainTriangle<R>>; 2]),
+    Patch([Vector<R>; 4]),
+}
+
+impl<R: Real> Plain<R> for PlainQuad<R> {
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        match self {
+            Self::Flat(halves) => {
+                let hits = (0..)
+                    .zip(halves)
+                    .filter_map(|(prim_id, half)| Some((half.as_ref()?.intersect(ray)?, prim_id)));
+                ray.first(hits)
+            }
+            Self::Patch(vertices) => plain_crossing(*vertices, ray).map(|(t, _)| (t, 0)),
+        }
+    }
+
+    fn normal(&self, ray: &PlainRay<R>, _: Vector<R>, prim_id: u32) -> Vector<R> {
+        match self {
+            Self::Flat(halves) => {
+                let half = halves[prim_id as usize & 1].or(halves[0]);
+                half.map_or(-ray.direction, |triangle| triangle.normal())
+            }
+            Self::Patch(vertices) => {
+                let [q00, q10, q11, q01] = *vertices;
+                let [u, v] = plain_crossing(*vertices, ray).map_or([R::of(0.5); 2], |(_, uv)| uv);
+                plain_lerp(q10 - q00, q11 - q01, v)
+                    .cross(plain_lerp(q01 - q00, q11 - q10, u))
+                    .normalized()
+            }
+        }
+    }
+}
+
+fn plain_lerp<R: Real>(from: Vector<R>, to: Vector<R>, prim_id: R) -> Vector<R> {
+    from + (to - from) * prim_id
+}
+
+/// The first crossing of a patch that counts, with its u and v.
+fn plain_crossing<R: Real>(vertices: [Vector<R>; 4], ray: &PlainRay<R>) -> Option<(R, [R; 2])> {
+    let [q00, q10, q11, q01] = vertices.map(|vertex| vertex - ray.origin);
+    let d = ray.direction;
+    let (left, right) = (q01 - q00, q11 - q10);
+    let unit = |x: R| x >= R::of(0.0) && x <= R::of(1.0);
+    // Solve a + b·u + c·u² = 0 for the lines of constant u that the ray meets.
+    let a = q00.cross(d).dot(left);
+    let c = (q10 - q00).cross(q01 - q11).dot(d);
+    let b = q10.cross(d).dot(right) - a - c;
+    let along = |u: R| {
+        // Meet the ray with the line at u.
+        let (from, rung) = (plain_lerp(q00, q10, u), plain_lerp(left, right, u));
+        let normal = d.cross(rung);
+        let (size, across) = (normal.dot(normal), normal.cross(from));
+        let (t, v) = (across.dot(rung) / size, across.dot(d) / size);
+        (unit(u) && unit(v) && ray.counts(t)).then_some((t, [u, v]))
+    };
+    let [first, second] = quadratic(c, b, a)?.map(along);
+    match (first, second) {
+        (Some(first), Some(second)) => Some(if second.0 < first.0 { second } else { first }),
+        (first, second) => first.or(second),
     }
 }

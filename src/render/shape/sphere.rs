@@ -5,8 +5,18 @@
 //! perpendicular, the roots from the stable quadratic. Where its first-order error bound says that
 //! the sign or the root reported is in doubt, it is computed again.
 
-use crate::math::{DoubleDouble, U, Vec3};
+use crate::math::{DoubleDouble, U, Vec3, acos, atan2};
+use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quadratic;
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::Shear;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// A root is computed again when rounding may have been amplified by more than this.
 const AMPLIFIED: f64 = 48.0;
@@ -148,5 +158,83 @@ impl Sphere {
             self.center + normal * self.radius
         };
         Interaction::new(ray, point, normal, self.center, self.radius)
+    }
+}
+
+/// A sphere with a texture on it.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturedSphere {
+    /// The sphere.
+    pub sphere: Sphere,
+    /// The rows of the rotation to the directions of its texture.
+    pub texture_from_world: [Vec3; 3],
+}
+
+impl Geometry for TexturedSphere {
+    #[inline]
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.sphere.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.sphere.interaction(ray, t)
+    }
+
+    fn has_uv(&self) -> bool {
+        true
+    }
+
+    /// u = φ/2π and v = 1 − θ/π of the direction from the centre, turned by the rotation of the
+    /// texture.
+    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+        let [x, y, z] = self.texture_from_world;
+        let direction = at.normal;
+        let d = Vec3::new(x.dot(direction), y.dot(direction), z.dot(direction));
+        let turns = atan2(d.y, d.x) / TAU;
+        let u = if turns < 0.0 { turns + 1.0 } else { turns };
+        let v = 1.0 - acos(d.z.clamp(-1.0, 1.0)) / PI;
+        let tangent = (y * d.x - x * d.y).try_normalize();
+        Details {
+            uv: Some([u, v]),
+            tangent,
+            ..Details::default()
+        }
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(Bounds::around(self.sphere.center, self.sphere.radius))
+    }
+}
+
+impl Twin for TexturedSphere {
+    type Plain<R: Real> = PlainSphere<R>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(PlainSphere {
+            center: Vector::of(self.sphere.center),
+            radius: R::of(self.sphere.radius),
+        })
+    }
+}
+
+/// Its twin, by b² − 4ac.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainSphere<R> {
+    center: Vector<R>,
+    radius: R,
+}
+
+impl<R: Real> Plain<R> for PlainSphere<R> {
+    #[inline]
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let f = ray.origin - self.center;
+        let b = R::of(2.0) * f.dot(ray.direction);
+        let c = f.dot(f) - self.radius * self.radius;
+        let roots = quadratic(ray.length2, b, c)?;
+        roots.into_iter().find(|t| ray.counts(*t)).map(|t| (t, 0))
+    }
+
+    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
+        (point - self.center).normalized()
     }
 }

@@ -10,7 +10,15 @@
 use crate::math::{Vec3, cross, ldexp};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quartic;
+use crate::render::shape::plain::{Plain, Twin};
 use crate::render::shape::plane::Normal;
+use crate::render::shape::triangle::Shear;
+use std::sync::Arc;
 
 /// Steps of a bracketed search: bisection alone would need 60.
 const MAX_STEPS: usize = 100;
@@ -243,5 +251,69 @@ impl Torus {
         let disc = Bounds::around_disc(self.center, self.axis, self.major);
         let tube = Vec3::splat(self.minor);
         Bounds::around(disc.min - tube, 0.0).union(Bounds::around(disc.max + tube, 0.0))
+    }
+}
+
+impl Geometry for Torus {
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.interaction(ray, t)
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(self.bounds())
+    }
+}
+
+impl Twin for Torus {
+    type Plain<R: Real> = PlainTorus<R>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(PlainTorus {
+            center: Vector::of(self.center),
+            axis: Vector::of(self.axis),
+            major: R::of(self.major),
+            minor: R::of(self.minor),
+        })
+    }
+}
+
+/// Its twin: the quartic in t, solved in closed form where the ray starts.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainTorus<R> {
+    center: Vector<R>,
+    /// A unit vector.
+    axis: Vector<R>,
+    major: R,
+    minor: R,
+}
+
+impl<R: Real> Plain<R> for PlainTorus<R> {
+    /// The first root of (|p|² + R² − r²)² = 4R²ρ² along the line that counts.
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let (two, four) = (R::of(2.0), R::of(4.0));
+        let f = ray.origin - self.center;
+        let d = ray.direction;
+        let (above, rise) = (f.dot(self.axis), d.dot(self.axis));
+        let (a, b, f2) = (d.dot(d), f.dot(d), f.dot(f));
+        let (major2, minor2) = (self.major * self.major, self.minor * self.minor);
+        let k = f2 + major2 - minor2;
+
+        // Compute the coefficients, divided by that of t⁴.
+        let c4 = a * a;
+        let c3 = four * a * b / c4;
+        let c2 = (two * a * k + four * b * b - four * major2 * (a - rise * rise)) / c4;
+        let c1 = (four * b * k - R::of(8.0) * major2 * (b - above * rise)) / c4;
+        let c0 = (k * k - four * major2 * (f2 - above * above)) / c4;
+        ray.first(quartic(c3, c2, c1, c0).map(|t| (t, 0)))
+    }
+
+    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, _: u32) -> Vector<R> {
+        let local = point - self.center;
+        let from_axis = local - self.axis * local.dot(self.axis);
+        (local - from_axis.normalized() * self.major).normalized()
     }
 }

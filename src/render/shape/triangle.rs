@@ -6,8 +6,16 @@
 //! The plane of the triangle then gives t.
 
 use crate::math::{U, Vec3, difference_of_products};
+use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::instance::interpolate;
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::{Plain, Twin};
 use crate::render::shape::plane::Normal;
+use std::sync::Arc;
 
 /// The change of coordinates that turns a ray's direction into the z axis: a permutation and a
 /// shear.
@@ -157,5 +165,117 @@ impl Triangle {
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         self.normal.through(self.vertices[0]).interaction(ray, t)
+    }
+}
+
+/// A triangle with a texture on it.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturedTriangle {
+    /// The triangle.
+    pub triangle: Triangle,
+    /// The texture coordinates of its corners.
+    pub uvs: Option<[[f64; 2]; 3]>,
+}
+
+impl Geometry for TexturedTriangle {
+    #[inline]
+    fn intersect(&self, ray: &Ray, shear: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.triangle.intersect(ray, shear).map(|t| (t, 0))
+    }
+
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        self.triangle.interaction(ray, t)
+    }
+
+    fn has_uv(&self) -> bool {
+        self.uvs.is_some()
+    }
+
+    /// uv between those of the corners.
+    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+        let Some(uvs) = self.uvs else {
+            return Details::default();
+        };
+        Details {
+            uv: Some(interpolate(uvs, self.triangle.weights(at.point))),
+            tangent: self.triangle.tangent(uvs),
+            ..Details::default()
+        }
+    }
+
+    fn triangles(&self) -> usize {
+        1
+    }
+
+    fn corners(&self, _: u32) -> Option<[Vec3; 3]> {
+        Some(*self.triangle.vertices())
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        Some(Bounds::of(self.triangle.vertices()))
+    }
+}
+
+impl Twin for TexturedTriangle {
+    type Plain<R: Real> = PlainTriangle<R>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(PlainTriangle::new(self.triangle.vertices()))
+    }
+}
+
+/// Its twin: Möller, Trumbore, "Fast, minimum storage ray/triangle intersection" (JGT 2, 1997).
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainTriangle<R> {
+    corner: Vector<R>,
+    edges: [Vector<R>; 2],
+}
+
+impl<R: Real> PlainTriangle<R> {
+    pub(in crate::render::shape) fn new(vertices: &[Vec3; 3]) -> Self {
+        let [a, b, c] = vertices.map(Vector::of);
+        Self {
+            corner: a,
+            edges: [b - a, c - a],
+        }
+    }
+
+    #[inline]
+    pub(in crate::render::shape) fn intersect(&self, ray: &PlainRay<R>) -> Option<R> {
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let [first, second] = self.edges;
+        let across = ray.direction.cross(second);
+        let determinant = first.dot(across);
+        if determinant == zero {
+            return None;
+        }
+        let inverse = one / determinant;
+        let from_corner = ray.origin - self.corner;
+        let u = from_corner.dot(across) * inverse;
+        if u < zero || u > one {
+            return None;
+        }
+        let upward = from_corner.cross(first);
+        let v = ray.direction.dot(upward) * inverse;
+        if v < zero || u + v > one {
+            return None;
+        }
+        let t = second.dot(upward) * inverse;
+        ray.counts(t).then_some(t)
+    }
+
+    pub(in crate::render::shape) fn normal(&self) -> Vector<R> {
+        self.edges[0].cross(self.edges[1]).normalized()
+    }
+}
+
+impl<R: Real> Plain<R> for PlainTriangle<R> {
+    #[inline]
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        self.intersect(ray).map(|t| (t, 0))
+    }
+
+    fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
+        self.normal()
     }
 }

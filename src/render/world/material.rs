@@ -10,7 +10,7 @@ use crate::render::material::standard::{
     Alpha, AnisotropyLayer, ClearcoatLayer, IridescenceLayer, MapSource, NormalMap, Number,
     Reflection, Rgba, SheenLayer, StandardMaterial, Tint,
 };
-use crate::render::shape::instance::Asked;
+use crate::render::shape::geometry::Asked;
 use crate::render::texture::bilinear::Bump;
 use crate::render::texture::sampled::{ColorSpace, UvSets};
 use crate::valid::{self, Maps, Phong, Standard};

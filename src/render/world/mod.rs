@@ -6,7 +6,6 @@ pub(in crate::render) mod any;
 mod flattened;
 mod light;
 mod material;
-mod plain;
 mod prepare;
 pub(in crate::render) mod settings;
 pub(in crate::render) mod shape;

@@ -3,17 +3,13 @@
 use crate::math::Vec3;
 use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
-use crate::render::shape::cone::Cone;
-use crate::render::shape::cylinder::Cylinder;
-use crate::render::shape::disc::Disc;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Instance;
-use crate::render::shape::mesh::{Attributes, PreparedMesh};
-use crate::render::shape::plane::Plane;
-use crate::render::shape::quad::Quad;
-use crate::render::shape::sphere::Sphere;
-use crate::render::shape::torus::Torus;
-use crate::render::shape::triangle::Triangle;
+use crate::render::shape::kinds::*;
+use crate::render::shape::mesh::{Attributes, PlainMesh, PreparedMesh};
+use crate::render::shape::plain::PlainShape;
+use crate::render::shape::plain::real::Real;
+use crate::render::shape::sphere::{self, TexturedSphere};
+use crate::render::shape::triangle::{self, TexturedTriangle};
 use crate::valid;
 use std::sync::Arc;
 
@@ -54,49 +50,101 @@ impl Prepare for Shape {
         PreparedMesh::new(positions, triangles, attributes)
     }
 
-    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
-        Some(match shape {
-            valid::Shape::Sphere(sphere) => Self::Sphere(
-                Sphere {
-                    center: sphere.center,
-                    radius: sphere.radius.get(),
-                },
-                sphere.texture_from_world.as_deref().copied().unwrap_or([
-                    Vec3::X,
-                    Vec3::Y,
-                    Vec3::Z,
-                ]),
-            ),
-            valid::Shape::Plane(plane) => Self::Plane(Plane::new(plane.center, plane.normal)),
-            valid::Shape::Triangle(triangle) => Self::Triangle(
-                Triangle::new(triangle.vertices)?,
-                triangle.uvs.as_deref().copied(),
-            ),
-            valid::Shape::Quad(quad) => Self::Quad(Box::new(Quad::new(quad.vertices))),
-            valid::Shape::Disc(disc) => {
-                Self::Disc(Disc::new(disc.center, disc.normal, disc.radius.get()))
+        prepared(shape, meshes)
+    }
+}
+
+/// A proven shape of one kind.
+trait Proven {
+    /// What stands for it in a world.
+    type Prepared;
+
+    /// Prepares it; `None` if no ray hits it.
+    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Self::Prepared>;
+}
+
+/// Prepares each shape in its own way, or by the values of its row.
+macro_rules! prepare {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        fn prepared(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Shape> {
+            Some(match shape {
+                $(valid::Shape::$Name(shape) => Shape::$Name(shape.prepared(meshes)?.into()),)*
+            })
+        }
+
+        $(by_values!($Name $how $values);)*
+    };
+}
+
+/// Prepares a shape of the values of its row, in their order.
+macro_rules! by_values {
+    ($Name:ident own $values:tt) => {};
+    ($Name:ident ruled {
+        $type:literal $($value:ident: $rule:ident $key:literal $($words:literal)?;)*
+    }) => {
+        impl Proven for valid::$Name {
+            type Prepared = $Name;
+
+            fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<$Name> {
+                Some($Name::new($(number!($rule self.$value)),*))
             }
-            valid::Shape::Cylinder(cylinder) => Self::Cylinder(Cylinder::new(
-                cylinder.base,
-                cylinder.axis,
-                cylinder.height.get(),
-                cylinder.radius.get(),
-            )),
-            valid::Shape::Cone(cone) => {
-                Self::Cone(Cone::new(cone.base, cone.up, cone.radius.get()))
-            }
-            valid::Shape::Torus(torus) => Self::Torus(Torus::new(
-                torus.center,
-                torus.axis,
-                torus.major.get(),
-                torus.minor.get(),
-            )),
-            valid::Shape::Instance(instance) => Self::Instance(Box::new(Instance::new(
-                &meshes[instance.mesh],
-                instance.world_from_object,
-            ))),
+        }
+    };
+}
+
+/// A proven value as a number or a vector of them.
+macro_rules! number {
+    (length $value:expr) => {
+        $value.get()
+    };
+    ($rule:ident $value:expr) => {
+        $value
+    };
+}
+
+shapes!(prepare);
+
+impl Proven for valid::Sphere {
+    type Prepared = TexturedSphere;
+
+    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedSphere> {
+        let rows = self.texture_from_world.as_deref().copied();
+        Some(TexturedSphere {
+            sphere: sphere::Sphere {
+                center: self.center,
+                radius: self.radius.get(),
+            },
+            texture_from_world: rows.unwrap_or(Vec3::AXES),
         })
+    }
+}
+
+impl Proven for valid::Triangle {
+    type Prepared = TexturedTriangle;
+
+    /// `None` for a triangle whose area the arithmetic can't tell from 0: no ray hits it.
+    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<TexturedTriangle> {
+        Some(TexturedTriangle {
+            triangle: triangle::Triangle::new(self.vertices)?,
+            uvs: self.uvs.as_deref().copied(),
+        })
+    }
+}
+
+impl Proven for valid::Quad {
+    type Prepared = Quad;
+
+    fn prepared(&self, _: &[Arc<PreparedMesh>]) -> Option<Quad> {
+        Some(Quad::new(self.vertices))
+    }
+}
+
+impl Proven for valid::Instance {
+    type Prepared = Instance;
+
+    fn prepared(&self, meshes: &[Arc<PreparedMesh>]) -> Option<Instance> {
+        Some(Instance::new(&meshes[self.mesh], self.world_from_object))
     }
 }
 
@@ -108,16 +156,34 @@ impl Prepare for Basic {
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
-        match Shape::prepare(shape, meshes)? {
-            Shape::Sphere(sphere, rows) => Some(Self::Sphere(sphere, rows)),
-            Shape::Plane(plane) => Some(Self::Plane(plane)),
-            Shape::Triangle(triangle, uvs) => Some(Self::Triangle(triangle, uvs)),
-            Shape::Quad(_)
-            | Shape::Disc(_)
-            | Shape::Cylinder(_)
-            | Shape::Cone(_)
-            | Shape::Torus(_)
-            | Shape::Instance(_) => None,
+        let prepared = Shape::prepare(shape, meshes)?;
+        if let Shape::Sphere(sphere) = prepared {
+            Some(Self::Sphere(sphere))
+        } else if let Shape::Plane(plane) = prepared {
+            Some(Self::Plane(plane))
+        } else if let Shape::Triangle(triangle) = prepared {
+            Some(Self::Triangle(triangle))
+        } else {
+            None
         }
+    }
+}
+
+impl<R: Real> Prepare for PlainShape<R> {
+    type Mesh = PlainMesh<R>;
+
+    fn prepare_mesh(mesh: &valid::Mesh) -> PlainMesh<R> {
+        PlainMesh::new(Shape::prepare_mesh(mesh))
+    }
+
+    fn prepare(shape: &valid::Shape, meshes: &[Arc<PlainMesh<R>>]) -> Option<Self> {
+        let robust = |mesh: &Arc<PlainMesh<R>>| Arc::clone(&mesh.robust);
+        let robust = Shape::prepare(shape, &meshes.iter().map(robust).collect::<Vec<_>>())?;
+        let mesh = if let valid::Shape::Instance(instance) = shape {
+            Some(&meshes[instance.mesh])
+        } else {
+            None
+        };
+        Self::new(robust, mesh)
     }
 }

@@ -7,7 +7,7 @@ use crate::render::material::point::MaterialPoint;
 use crate::render::material::standard::{Alpha, StandardMaterial};
 use crate::render::ray::Interaction;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details};
+use crate::render::shape::geometry::{Asked, Details};
 use crate::render::world::Hit;
 
 /// The maximum number of skipped surfaces along a ray.

@@ -5,8 +5,8 @@ use crate::render::film::Seeds;
 use crate::render::film::pixel::SampleId;
 use crate::render::integrator::aov::{CameraHit, First, FirstHit};
 use crate::render::sampler::Key;
+use crate::render::shape::geometry::Asked;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::Asked;
 
 impl<'run, S: Geometry, const F: u32> FirstHit<'run> for Tracer<'run, S, F> {
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {

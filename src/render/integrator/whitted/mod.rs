@@ -15,7 +15,7 @@ use crate::render::film::heartbeat::{Heartbeat, OnPixel};
 use crate::render::ray::Ray;
 use crate::render::sampler::Key;
 use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details};
+use crate::render::shape::geometry::{Asked, Details};
 use crate::render::texture::bilinear::{TextureFrame, look_up};
 use crate::render::world::settings::Mode;
 use crate::render::world::{Hit, World};

@@ -1,85 +1,114 @@
 //! The formulas of the textbooks, in f64 or f32, beside the robust ones: what accuracy costs, and
-//! what it saves.
+//! what it saves. Each shape has them in its own file, as its twin.
 //!
 //! Hits within 1e-5 are taken for the surface a ray starts on, and rays start at the point itself.
 //! What is not a question of arithmetic (texture coordinates, shading normals, boxes) is asked of
 //! the robust shape.
 
-pub(in crate::render) mod cone;
-pub(in crate::render) mod cylinder;
-pub(in crate::render) mod instance;
-pub(in crate::render) mod plane;
-pub(in crate::render) mod quad;
-mod ray;
+pub(in crate::render) mod ray;
 pub(in crate::render) mod real;
-mod roots;
-pub(in crate::render) mod sphere;
-pub(in crate::render) mod torus;
-pub(in crate::render) mod triangle;
+pub(in crate::render) mod roots;
 
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::Shape;
-use crate::render::shape::geometry::Geometry;
-use crate::render::shape::instance::{Asked, Details};
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::kinds::*;
+use crate::render::shape::mesh::PlainMesh;
 use crate::render::shape::triangle::Shear;
 use ray::PlainRay;
 use real::{Real, Vector};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// How rays meet a shape by plain formulas.
+pub(in crate::render) trait Plain<R>: Clone + Debug + Send + Sync {
+    /// The first root that counts, and the part of the shape it is on; roots beyond `t_max` may be
+    /// left out.
+    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)>;
+
+    /// The normal at a point of a part.
+    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R>;
+}
+
+impl<R, P: Plain<R>> Plain<R> for Box<P> {
+    #[inline]
+    fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+        (**self).intersect(ray, t_max)
+    }
+
+    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+        (**self).normal(ray, point, prim_id)
+    }
+}
+
+/// A robust shape that has a plain twin.
+pub(in crate::render) trait Twin {
+    /// The twin; a large one in a box.
+    type Plain<R: Real>: Plain<R>;
+
+    /// The twin, of the same numbers; `mesh` is that of an instance. `None` for an instance of
+    /// none.
+    fn plain<R: Real>(&self, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>>;
+}
 
 /// A shape of any kind, ready to be hit by the plain formulas in `R`.
 #[derive(Clone, Debug)]
-pub struct PlainShape<R> {
-    pub(in crate::render) form: PlainForm<R>,
+pub struct PlainShape<R: Real> {
+    form: PlainForm<R>,
     /// Answers what is not a question of arithmetic.
-    pub(in crate::render) robust: Box<Shape>,
+    robust: Box<Shape>,
 }
 
-/// How rays meet it.
-#[derive(Clone, Debug)]
-pub(in crate::render) enum PlainForm<R> {
-    Sphere(sphere::Sphere<R>),
-    Plane(plane::Plane<R>),
-    Triangle(triangle::Triangle<R>),
-    Quad(Box<quad::Quad<R>>),
-    Disc(plane::Disc<R>),
-    Cylinder(Box<cylinder::Cylinder<R>>),
-    Cone(Box<cone::Cone<R>>),
-    Torus(torus::Torus<R>),
-    Instance(Box<instance::Instance<R>>),
-}
-
-impl<R: Real> PlainForm<R> {
-    fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
-        match self {
-            Self::Sphere(sphere) => sphere.normal(point),
-            Self::Plane(plane) => plane.normal,
-            Self::Triangle(triangle) => triangle.normal(),
-            Self::Quad(quad) => quad.normal(ray, prim_id),
-            Self::Disc(disc) => disc.plane.normal,
-            Self::Cylinder(cylinder) => cylinder.normal(point, prim_id),
-            Self::Cone(cone) => cone.normal(point, prim_id),
-            Self::Torus(torus) => torus.normal(point),
-            Self::Instance(instance) => instance.normal(prim_id),
+/// Declares the twins of all shapes.
+macro_rules! declare {
+    ($($(#[$doc:meta])* $Name:ident $word:ident $Store:ident $how:ident $values:tt)*) => {
+        /// How rays meet it.
+        #[derive(Clone, Debug)]
+        enum PlainForm<R: Real> {
+            $($Name(<$Name as Twin>::Plain<R>),)*
         }
+
+        impl<R: Real> PlainForm<R> {
+            fn of(robust: &Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
+                Some(match robust {
+                    $(Shape::$Name(shape) => Self::$Name(shape.plain(mesh)?),)*
+                })
+            }
+
+            #[inline]
+            fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
+                match self {
+                    $(Self::$Name(shape) => Plain::intersect(shape, ray, t_max),)*
+                }
+            }
+
+            fn normal(&self, ray: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+                match self {
+                    $(Self::$Name(shape) => Plain::normal(shape, ray, point, prim_id),)*
+                }
+            }
+        }
+    };
+}
+
+shapes!(declare);
+
+impl<R: Real> PlainShape<R> {
+    /// The twin of a shape; `mesh` is that of an instance. `None` for an instance of none.
+    pub(in crate::render) fn new(robust: Shape, mesh: Option<&Arc<PlainMesh<R>>>) -> Option<Self> {
+        Some(Self {
+            form: PlainForm::of(&robust, mesh)?,
+            robust: Box::new(robust),
+        })
     }
 }
 
 impl<R: Real> Geometry for PlainShape<R> {
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        let ray = PlainRay::of(ray);
-        let hit = match &self.form {
-            PlainForm::Sphere(sphere) => sphere.intersect(&ray),
-            PlainForm::Plane(plane) => plane.intersect(&ray),
-            PlainForm::Triangle(triangle) => triangle.intersect(&ray).map(|t| (t, 0)),
-            PlainForm::Quad(quad) => quad.intersect(&ray),
-            PlainForm::Disc(disc) => disc.intersect(&ray),
-            PlainForm::Cylinder(cylinder) => cylinder.intersect(&ray),
-            PlainForm::Cone(cone) => cone.intersect(&ray),
-            PlainForm::Torus(torus) => torus.intersect(&ray),
-            PlainForm::Instance(instance) => return instance.intersect(&ray, t_max),
-        };
+        let hit = self.form.intersect(&PlainRay::of(ray), t_max);
         hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
 

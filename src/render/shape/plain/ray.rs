@@ -6,16 +6,16 @@ use crate::render::ray::Ray;
 
 /// A ray in the numbers of the plain formulas.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PlainRay<R> {
-    pub(super) origin: Vector<R>,
-    pub(super) direction: Vector<R>,
+pub(in crate::render) struct PlainRay<R> {
+    pub(in crate::render::shape) origin: Vector<R>,
+    pub(in crate::render::shape) direction: Vector<R>,
     /// The square of the direction's length in the world.
-    pub(super) length2: R,
+    pub(in crate::render::shape) length2: R,
 }
 
 impl<R: Real> PlainRay<R> {
     #[inline]
-    pub(super) fn of(ray: &Ray) -> Self {
+    pub(in crate::render::shape) fn of(ray: &Ray) -> Self {
         let direction = Vector::of(ray.direction);
         Self {
             origin: Vector::of(ray.origin),
@@ -25,20 +25,23 @@ impl<R: Real> PlainRay<R> {
     }
 
     #[inline]
-    pub(super) fn at(&self, t: R) -> Vector<R> {
+    pub(in crate::render::shape) fn at(&self, t: R) -> Vector<R> {
         self.origin + self.direction * t
     }
 
     /// Whether a root is a number and lies beyond [`NEAREST`].
     #[inline]
-    pub(super) fn counts(&self, t: R) -> bool {
+    pub(in crate::render::shape) fn counts(&self, t: R) -> bool {
         let zero = R::of(0.0);
         t > zero && t * t * self.length2 > R::of(NEAREST * NEAREST) && t < R::of(f64::INFINITY)
     }
 
     /// The first of some roots that counts, each with the part it is on.
     #[inline]
-    pub(super) fn first(&self, roots: impl IntoIterator<Item = (R, u32)>) -> Option<(R, u32)> {
+    pub(in crate::render::shape) fn first(
+        &self,
+        roots: impl IntoIterator<Item = (R, u32)>,
+    ) -> Option<(R, u32)> {
         let nearer = |best: Option<(R, u32)>, root: (R, u32)| match best {
             Some(best) if best.0 <= root.0 => Some(best),
             _ => Some(root),

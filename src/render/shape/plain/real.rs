@@ -110,9 +110,9 @@ fn narrow(x: f64) -> f32 {
 /// A vector or a point.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Vector<R> {
-    pub(super) x: R,
-    pub(super) y: R,
-    pub(super) z: R,
+    pub(in crate::render::shape) x: R,
+    pub(in crate::render::shape) y: R,
+    pub(in crate::render::shape) z: R,
 }
 
 impl<R: Real> Vector<R> {
@@ -127,17 +127,17 @@ impl<R: Real> Vector<R> {
     }
 
     #[inline]
-    pub(super) fn wide(self) -> Vec3 {
+    pub(in crate::render::shape) fn wide(self) -> Vec3 {
         Vec3::new(self.x.wide(), self.y.wide(), self.z.wide())
     }
 
     #[inline]
-    pub(super) fn dot(self, other: Self) -> R {
+    pub(in crate::render::shape) fn dot(self, other: Self) -> R {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     #[inline]
-    pub(super) fn cross(self, other: Self) -> Self {
+    pub(in crate::render::shape) fn cross(self, other: Self) -> Self {
         Self {
             x: self.y * other.z - self.z * other.y,
             y: self.z * other.x - self.x * other.z,
@@ -147,7 +147,7 @@ impl<R: Real> Vector<R> {
 
     /// The vector of length 1 along this one; not a number for one without a length.
     #[inline]
-    pub(super) fn normalized(self) -> Self {
+    pub(in crate::render::shape) fn normalized(self) -> Self {
         self * (R::of(1.0) / self.dot(self).sqrt())
     }
 }
