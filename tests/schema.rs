@@ -71,7 +71,7 @@ fn documents() -> Vec<(String, Value)> {
     let mut open = vec![
         root().join("scenes"),
         root().join("tests/diagnostics"),
-        root().join("tests/ir/shapes"),
+        root().join("tests/render/record"),
     ];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {

@@ -34,7 +34,7 @@ pub(crate) fn trials() -> Vec<Trial> {
 
 /// The scenes, by name: those of `scenes/`, and one for each shape.
 fn scenes() -> Vec<(String, PathBuf)> {
-    let found = [("", "scenes"), ("shape-", "tests/ir/shapes")]
+    let found = [("", "scenes"), ("shape-", "tests/render/record")]
         .into_iter()
         .flat_map(|(prefix, folder)| {
             let folder = root(folder);

@@ -36,7 +36,7 @@ fn texts() -> Vec<(PathBuf, String)> {
     let mut open = vec![
         root.join("scenes"),
         root.join("tests/diagnostics"),
-        root.join("tests/ir/shapes"),
+        root.join("tests/render/record"),
     ];
     let mut found = Vec::new();
     while let Some(path) = open.pop() {

@@ -103,14 +103,20 @@ fn nearest(line: &Line, candidates: Vec<(DoubleDouble, Wide)>) -> Option<(Double
 
 /// What is true of a ray and a shape; `None` for shapes that have no truth here.
 pub(crate) fn truth(shape: &ir::Shape, ray: &Ray) -> Option<Truth> {
-    let (found, anchor, extent) = match shape {
-        ir::Shape::Sphere(s) => (sphere(s, ray), s.center, s.radius),
-        ir::Shape::Plane(s) => (plane(s.center, wide(s.normal), ray), s.center, 0.0),
-        ir::Shape::Triangle(s) => (triangle(s.vertices, ray), s.vertices[0], 0.0),
-        ir::Shape::Cylinder(s) => (cylinder(s, ray), s.base, s.radius),
-        ir::Shape::Cone(s) => (cone(s, ray), s.base, s.radius),
-        ir::Shape::Torus(s) => (torus(s, ray), s.center, 2.0 * (s.major + s.minor)),
-        ir::Shape::Quad(_) | ir::Shape::Disc(_) | ir::Shape::Instance(_) => return None,
+    let (found, anchor, extent) = if let ir::Shape::Sphere(s) = shape {
+        (sphere(s, ray), s.center, s.radius)
+    } else if let ir::Shape::Plane(s) = shape {
+        (plane(s.center, wide(s.normal), ray), s.center, 0.0)
+    } else if let ir::Shape::Triangle(s) = shape {
+        (triangle(s.vertices, ray), s.vertices[0], 0.0)
+    } else if let ir::Shape::Cylinder(s) = shape {
+        (cylinder(s, ray), s.base, s.radius)
+    } else if let ir::Shape::Cone(s) = shape {
+        (cone(s, ray), s.base, s.radius)
+    } else if let ir::Shape::Torus(s) = shape {
+        (torus(s, ray), s.center, 2.0 * (s.major + s.minor))
+    } else {
+        return None;
     };
     let Some((t, normal)) = found else {
         return Some(Truth {

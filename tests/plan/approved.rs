@@ -18,19 +18,17 @@ const SCENES: u64 = 250;
 fn scene(seed: u64) -> Scene {
     let mut scene = Dice::new(seed).scene();
     match seed % 4 {
-        1 => scene
-            .surfaces
-            .iter_mut()
-            .for_each(|surface| match &mut surface.shape {
-                Shape::Sphere(Sphere { radius, .. }) | Shape::Disc(Disc { radius, .. }) => {
-                    *radius *= 1e-4
-                }
-                Shape::Cylinder(Cylinder { radius, .. }) | Shape::Cone(Cone { radius, .. }) => {
-                    *radius *= 1e-3
-                }
-                Shape::Torus(Torus { minor, .. }) => *minor *= 1e-3,
-                Shape::Plane(_) | Shape::Triangle(_) | Shape::Quad(_) | Shape::Instance(_) => {}
-            }),
+        1 => scene.surfaces.iter_mut().for_each(|surface| {
+            let shape = &mut surface.shape;
+            if let Shape::Sphere(Sphere { radius, .. }) | Shape::Disc(Disc { radius, .. }) = shape {
+                *radius *= 1e-4;
+            } else if let Shape::Cylinder(Cylinder { radius, .. })
+            | Shape::Cone(Cone { radius, .. })
+            | Shape::Torus(Torus { minor: radius, .. }) = shape
+            {
+                *radius *= 1e-3;
+            }
+        }),
         2 if seed % 8 == 2 => {
             scene.camera.eye[0] += 1e15;
             scene.camera.center[0] += 1e15;

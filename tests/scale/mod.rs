@@ -1,6 +1,7 @@
 //! Scenes made larger or smaller, for suites that state laws of scale.
 
 use rtc::ir::{self, Scene, Shape};
+use serde_json::Value;
 
 /// Every length of the scene times a factor; what is a direction or a colour stays.
 pub(crate) fn scaled(scene: &Scene, factor: f64) -> Scene {
@@ -67,59 +68,31 @@ fn scale_light(light: &mut ir::Light, factor: f64) {
     }
 }
 
-/// Every length of a shape times a factor.
+/// Every length of a shape times a factor: all numbers but those of directions, of textures, and of
+/// references.
 pub(crate) fn scale_shape(shape: &mut Shape, factor: f64) {
-    match shape {
-        Shape::Sphere(ir::Sphere {
-            center,
-            radius,
-            texture_from_world: _,
-        })
-        | Shape::Disc(ir::Disc {
-            center,
-            normal: _,
-            radius,
-        }) => {
-            scale(center, factor);
-            *radius *= factor;
+    const UNSCALED: [&str; 5] = ["axis", "normal", "uvs", "textureFromWorld", "mesh"];
+    let mut tree = serde_json::to_value(&*shape).expect("a shape is numbers");
+    let values = tree
+        .as_object_mut()
+        .and_then(|kinds| kinds.values_mut().next());
+    let values = values
+        .and_then(Value::as_object_mut)
+        .expect("a shape has values");
+    for (name, value) in values.iter_mut() {
+        if !UNSCALED.contains(&name.as_str()) {
+            scale_numbers(value, factor);
         }
-        Shape::Plane(ir::Plane { center, normal: _ }) => scale(center, factor),
-        Shape::Triangle(ir::Triangle { vertices, uvs: _ }) => {
-            vertices.iter_mut().for_each(|v| scale(v, factor))
-        }
-        Shape::Quad(ir::Quad { vertices }) => vertices.iter_mut().for_each(|v| scale(v, factor)),
-        Shape::Cylinder(ir::Cylinder {
-            base,
-            axis: _,
-            height,
-            radius,
-        }) => {
-            scale(base, factor);
-            *height *= factor;
-            *radius *= factor;
-        }
-        Shape::Cone(ir::Cone { base, up, radius }) => {
-            scale(base, factor);
-            scale(up, factor);
-            *radius *= factor;
-        }
-        Shape::Torus(ir::Torus {
-            center,
-            axis: _,
-            major,
-            minor,
-        }) => {
-            scale(center, factor);
-            *major *= factor;
-            *minor *= factor;
-        }
-        Shape::Instance(ir::Instance {
-            mesh: _,
-            world_from_object,
-        }) => {
-            world_from_object
-                .iter_mut()
-                .for_each(|column| scale(column, factor));
-        }
+    }
+    *shape = serde_json::from_value(tree).expect("the same values, scaled");
+}
+
+fn scale_numbers(value: &mut Value, factor: f64) {
+    if let Some(number) = value.as_f64() {
+        *value = (number * factor).into();
+    } else if let Some(items) = value.as_array_mut() {
+        items
+            .iter_mut()
+            .for_each(|item| scale_numbers(item, factor));
     }
 }

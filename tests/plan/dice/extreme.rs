@@ -219,18 +219,7 @@ impl Dice {
         let shapes = scene
             .surfaces
             .iter_mut()
-            .filter_map(|surface| match &mut surface.shape {
-                Shape::Plane(ir::Plane { normal, .. }) | Shape::Disc(ir::Disc { normal, .. }) => {
-                    Some(normal)
-                }
-                Shape::Cylinder(ir::Cylinder { axis, .. })
-                | Shape::Torus(ir::Torus { axis, .. }) => Some(axis),
-                Shape::Sphere(_)
-                | Shape::Triangle(_)
-                | Shape::Quad(_)
-                | Shape::Cone(_)
-                | Shape::Instance(_) => None,
-            });
+            .filter_map(|surface| direction(&mut surface.shape));
         let lights = scene.lights.iter_mut().filter_map(|light| match light {
             Light::Punctual(ir::Punctual {
                 emitter: Emitter::Sun { direction },
@@ -277,39 +266,39 @@ impl Dice {
                 .map(|component| component * factor.max(1.0));
             return;
         }
-        match &mut scene.surfaces[index].shape {
-            Shape::Sphere(ir::Sphere { radius, .. }) | Shape::Disc(ir::Disc { radius, .. }) => {
-                *radius *= factor
-            }
-            Shape::Plane(ir::Plane { center, .. }) => center[self.roll(3) as usize] *= factor,
-            Shape::Triangle(ir::Triangle { vertices, .. }) => {
-                vertices[0][self.roll(3) as usize] *= factor
-            }
-            Shape::Quad(ir::Quad { vertices }) => {
-                vertices[self.roll(4) as usize][self.roll(3) as usize] *= factor
-            }
-            Shape::Cylinder(ir::Cylinder { height, radius, .. }) => {
-                *(if self.chance(2) { height } else { radius }) *= factor;
-            }
-            Shape::Cone(ir::Cone { up, radius, .. }) => {
-                *radius *= factor;
-                *up = up.map(|component| {
-                    if self.chance(2) {
-                        component / factor
-                    } else {
-                        component
-                    }
-                });
-            }
-            Shape::Torus(ir::Torus { major, minor, .. }) => {
-                *(if self.chance(2) { major } else { minor }) *= factor
-            }
-            Shape::Instance(ir::Instance {
-                world_from_object, ..
-            }) => {
-                let column = &mut world_from_object[self.roll(4) as usize];
-                *column = column.map(|component| component * factor);
-            }
+        self.distort_shape(&mut scene.surfaces[index].shape, factor);
+    }
+
+    fn distort_shape(&mut self, shape: &mut Shape, factor: f64) {
+        if let Shape::Sphere(ir::Sphere { radius, .. }) | Shape::Disc(ir::Disc { radius, .. }) =
+            shape
+        {
+            *radius *= factor;
+        } else if let Shape::Plane(ir::Plane { center, .. }) = shape {
+            center[self.roll(3) as usize] *= factor;
+        } else if let Shape::Triangle(ir::Triangle { vertices, .. }) = shape {
+            vertices[0][self.roll(3) as usize] *= factor;
+        } else if let Shape::Quad(ir::Quad { vertices }) = shape {
+            vertices[self.roll(4) as usize][self.roll(3) as usize] *= factor;
+        } else if let Shape::Cylinder(ir::Cylinder { height, radius, .. }) = shape {
+            *(if self.chance(2) { height } else { radius }) *= factor;
+        } else if let Shape::Cone(ir::Cone { up, radius, .. }) = shape {
+            *radius *= factor;
+            *up = up.map(|component| {
+                if self.chance(2) {
+                    component / factor
+                } else {
+                    component
+                }
+            });
+        } else if let Shape::Torus(ir::Torus { major, minor, .. }) = shape {
+            *(if self.chance(2) { major } else { minor }) *= factor;
+        } else if let Shape::Instance(ir::Instance {
+            world_from_object, ..
+        }) = shape
+        {
+            let column = &mut world_from_object[self.roll(4) as usize];
+            *column = column.map(|component| component * factor);
         }
     }
 
@@ -323,5 +312,18 @@ impl Dice {
         format!("1e{}", i64::from(self.roll(2 * most + 1)) - i64::from(most))
             .parse()
             .unwrap()
+    }
+}
+
+/// The direction of a shape whose length has no meaning.
+fn direction(shape: &mut Shape) -> Option<&mut [f64; 3]> {
+    if let Shape::Plane(ir::Plane { normal, .. }) | Shape::Disc(ir::Disc { normal, .. }) = shape {
+        Some(normal)
+    } else if let Shape::Cylinder(ir::Cylinder { axis, .. })
+    | Shape::Torus(ir::Torus { axis, .. }) = shape
+    {
+        Some(axis)
+    } else {
+        None
     }
 }
