@@ -56,6 +56,13 @@ macro_rules! shapes {
                 up: step "up" "height of a cone";
                 radius: length "radius" "radius";
             }
+            /// A paraboloid with a cap at its base.
+            Paraboloid paraboloid Inline ruled {
+                "paraboloid"
+                base: point "position";
+                up: step "up" "height of a paraboloid";
+                radius: length "radius" "radius";
+            }
             /// A torus.
             Torus torus Inline ruled {
                 "torus"
@@ -306,6 +313,29 @@ impl Bounded for Cone {
         let base = Vec3::from_array(*base);
         visit(base, *radius);
         visit(base + Vec3::from_array(*up), 0.0);
+    }
+}
+
+/// A paraboloid with a cap at its base.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Paraboloid {
+    /// The centre of its base.
+    pub base: [f64; 3],
+    /// From the centre of the base to the vertex.
+    pub up: [f64; 3],
+    /// The radius of the base, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub radius: f64,
+}
+
+impl Bounded for Paraboloid {
+    /// Its profile lies between the rim, and the vertex and half the radius beside it.
+    fn cubes(&self, _: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3, f64)) {
+        let Self { base, up, radius } = self;
+        let base = Vec3::from_array(*base);
+        visit(base, *radius);
+        visit(base + Vec3::from_array(*up), 0.5 * *radius);
     }
 }
 

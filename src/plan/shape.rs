@@ -7,7 +7,7 @@ use super::precision::Formula;
 use super::space::{Flat, Space};
 use crate::math::{Basis, Vec3, cos_sin_turns, unit};
 use crate::valid::{
-    Cone, Cylinder, Disc, Instance, Plane, Proof, Quad, Shape, Sphere, Torus, Triangle,
+    Cone, Cylinder, Disc, Instance, Paraboloid, Plane, Proof, Quad, Shape, Sphere, Torus, Triangle,
 };
 
 /// What the rules ask of a shape.
@@ -216,6 +216,28 @@ impl ShapeFacts for Cone {
 
     fn formula(&self, _: &Proof) -> (Vec3, Formula) {
         (self.base, Formula::Round(self.radius.get()))
+    }
+}
+
+impl ShapeFacts for Paraboloid {
+    fn body(&self, _: &[Space]) -> Body {
+        let radius = self.radius.get();
+        let rim = ring(self.base, self.up, radius, 0.0);
+        // The profile lies between the rim, and the vertex and half the radius beside it.
+        let top = ring(self.base + self.up, self.up, 0.5 * radius, 0.0);
+        Body::within(rim.union(top), Hull::Convex)
+    }
+
+    fn thickness(&self) -> f64 {
+        self.up.abs().max_element().min(self.radius.get())
+    }
+
+    fn formula(&self, _: &Proof) -> (Vec3, Formula) {
+        (self.base, Formula::Round(self.radius.get()))
+    }
+
+    fn has_uv(&self, _: &Proof) -> bool {
+        true
     }
 }
 

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use rtc::diag::Sink;
 use rtc::emit;
 use rtc::ir::Lowered;
-use rtc::math::{Vec3, ldexp};
+use rtc::math::{U, Vec3, ldexp, unit_scale};
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Geometry, Interaction, Job, PlainShape, Prepare, Ray, Shear, World};
@@ -50,6 +50,21 @@ const SOLIDS: &[Solid] = &[
         distance: |p, z, rho| {
             let slant = (p.height * p.height + p.radius * p.radius).sqrt();
             ((rho - p.radius * (1.0 - z / p.height)) * p.height / slant).max(-z)
+        },
+    },
+    Solid {
+        words: |p| {
+            let place = format!(
+                "position: {}, up: {}",
+                text(p.base),
+                text(p.axis * p.height)
+            );
+            format!("type: paraboloid, {place}, radius: {:?}", p.radius)
+        },
+        distance: |p, z, rho| {
+            let bend = p.radius * p.radius / p.height;
+            let gradient = (4.0 * rho * rho + bend * bend).sqrt();
+            ((rho * rho - bend * (p.height - z)) / gradient).max(-z)
         },
     },
 ];
@@ -224,4 +239,97 @@ proptest! {
             prop_assert!(pruned.counts.rays() <= naive.counts.rays());
         }
     }
+}
+
+/// Points of paraboloids with all bits known: on one of bend k, z is height − (x² + y²)/k. With
+/// each its place, and its normal of any length.
+fn known_points() -> impl Iterator<Item = (Place, Vec3, Vec3)> {
+    let sizes = [
+        (4.0, 2.0),
+        (1024.0, 0.5),
+        (1.0 / 1024.0, 2.0),
+        (2.0, 1.0 / 65536.0),
+    ];
+    (0..800_u32).map(move |k| {
+        let (height, radius) = sizes[k as usize % 4];
+        let share = |salt: u32| f64::from((k * 7919 + salt) % 181) / 256.0 * radius;
+        let (x, y, bend) = (share(31), -share(77), radius * radius / height);
+        let turn = |v: Vec3| turned(v, k as usize % 3);
+        let base = Vec3::new(1.0, -3.0, 0.5) * f64::from(k % 5) * 64.0;
+        let point = base + turn(Vec3::new(x, y, height - (x * x + y * y) / bend));
+        let axis = turn(Vec3::Z);
+        let place = Place {
+            base,
+            axis,
+            height,
+            radius,
+        };
+        (place, point, turn(Vec3::new(2.0 * x, 2.0 * y, bend)))
+    })
+}
+
+/// The paraboloid, alone in a world.
+fn paraboloid(place: &Place) -> World {
+    world(&SOLIDS[2], place)
+}
+
+#[test]
+fn a_ray_to_a_known_point_of_a_paraboloid_has_its_t_and_normal() {
+    let mut worst = 0.0_f64;
+    for (k, (place, point, gradient)) in known_points().enumerate() {
+        let normal = gradient.normalize();
+        let away = Vec3::new(0.3, -0.5, 0.2 + (k % 7) as f64);
+        let out = away * normal.dot(away).signum();
+        // Of few bits, so that the way from there to the point is exact.
+        let step = (out * 1024.0).round() * [1.0, 64.0, 4096.0][k % 3] / 1024.0;
+        let ray = Ray {
+            origin: point + step,
+            direction: -step,
+        };
+        assert_eq!(ray.origin + ray.direction, point);
+        let (t, at) = hit(&paraboloid(&place), &ray).unwrap_or_else(|| panic!("{place:?} {ray:?}"));
+        let sizes = ray.origin.abs() + place.base.abs() + step.abs();
+        let extent = place.height + place.radius;
+        let kappa = (normal.abs().dot(sizes) + extent) / normal.dot(step).abs();
+        worst = worst.max((t - 1.0).abs() / (U * (1.0 + kappa)));
+        // The point rounds, and is off along the ray as t is; the gradient changes twice as much.
+        let moved = U * (sizes.element_sum() + kappa * step.length());
+        let turn = 8.0 * moved / gradient.length();
+        assert!(at.normal.distance(normal) < turn, "{} {normal}", at.normal);
+    }
+    assert!(worst < 2.0, "{worst} u·(1 + κ)");
+}
+
+#[test]
+fn a_tangent_ray_hits_a_paraboloid_and_one_beside_it_does_not() {
+    let scaled = |v: Vec3| unit_scale(v).expect("it has a length").0;
+    // Of the last size, more bits would be needed than there are.
+    for (place, point, normal) in known_points().filter(|(place, ..)| place.radius > 0.1) {
+        let along = scaled(turned(normal, 1).cross(normal));
+        let world = paraboloid(&place);
+        let found = |shift: f64| {
+            let origin = point - along * 16.0 + scaled(normal) * shift;
+            hit(
+                &world,
+                &Ray {
+                    origin,
+                    direction: along,
+                },
+            )
+            .map(|(t, _)| t)
+        };
+        let t = found(0.0);
+        assert!(
+            t.is_some_and(|t| (t - 16.0).abs() < 1e-6),
+            "{t:?} {place:?} {point}"
+        );
+        let least = 1.0 / 16_777_216.0;
+        assert_eq!(found(least), None, "{place:?} {point}");
+        assert!(found(-least).is_some(), "{place:?} {point}");
+    }
+}
+
+/// The components, some places on.
+fn turned(v: Vec3, by: usize) -> Vec3 {
+    Vec3::new(v[by % 3], v[(by + 1) % 3], v[(by + 2) % 3])
 }

@@ -100,6 +100,7 @@ pub(in crate::render) mod geometry;
 pub(in crate::render) mod instance;
 pub(in crate::render) mod interval;
 pub(in crate::render) mod mesh;
+pub(in crate::render) mod paraboloid;
 pub(in crate::render) mod plain;
 pub(in crate::render) mod plane;
 pub(in crate::render) mod quad;
@@ -114,6 +115,7 @@ pub(in crate::render) mod kinds {
     pub(in crate::render) use super::cylinder::Cylinder;
     pub(in crate::render) use super::disc::Disc;
     pub(in crate::render) use super::instance::Instance;
+    pub(in crate::render) use super::paraboloid::Paraboloid;
     pub(in crate::render) use super::plane::Plane;
     pub(in crate::render) use super::quad::Quad;
     pub(in crate::render) use super::sphere::TexturedSphere as Sphere;

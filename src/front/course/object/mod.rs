@@ -5,6 +5,7 @@ mod cylinder;
 mod disc;
 mod gltf;
 pub(super) mod mesh;
+mod paraboloid;
 mod plane;
 mod quad;
 pub(super) mod solid;
@@ -78,6 +79,7 @@ kinds! {
     disc Disc "circle" "disc" "disk";
     cylinder Cylinder "cylinder";
     cone Cone "cone";
+    paraboloid Paraboloid "paraboloid";
     torus Torus "torus";
     solid Cuboid "box";
     solid Tetrahedron "tetrahedron";

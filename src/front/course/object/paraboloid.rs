@@ -1,0 +1,51 @@
+//! The paraboloid.
+
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::Positive;
+use crate::front::course::record::{keys, record};
+use crate::front::course::value::{Point, Text, Vector};
+use crate::ir;
+
+record! {
+    /// A paraboloid with a cap at its base.
+    struct Paraboloid, "paraboloid" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// The centre of the base.
+        position: Spanned<Point>, required, keys!["position" "center"];
+        /// From the centre of the base to the vertex; its length is the height.
+        up: Spanned<Vector>, required, keys!["up"];
+        /// The radius of the base, above 0.
+        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        /// What it is made of.
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+    }
+}
+
+impl Lower for Paraboloid {
+    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+        let Paraboloid {
+            kind,
+            position,
+            up,
+            radius,
+            material,
+        } = self;
+        let shape = ir::Paraboloid {
+            base: position.value.0,
+            up: up.value.0,
+            radius: radius.value.0,
+        };
+        let places = [
+            ("base", position.span),
+            ("up", up.span),
+            ("radius", radius.span),
+        ];
+        if let Some(clothes) = lowering.clothe(kind, material) {
+            lowering.put(&clothes, ir::Shape::Paraboloid(shape), &places);
+        }
+    }
+}

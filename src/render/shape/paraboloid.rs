@@ -1,0 +1,339 @@
+//! The capped paraboloid: the stretch inside the infinite paraboloid and the stretch between base
+//! and vertex, intersected. After Pharr, Jakob, Humphreys, "Physically Based Rendering" (3rd ed.), §3.5.
+//!
+//! With m the depth of a point below the vertex and k = radius²/height, it is inside where
+//! F = ρ² − k·m ≤ 0. The ray is first moved to the point nearest to the axis, so that the terms of
+//! the quadratic have the size of the paraboloid. Where a first-order bound on the error of the
+//! discriminant leaves its sign in doubt, or its root with few digits, all is computed again in
+//! double-double, from the numbers as given.
+
+use crate::math::{
+    Basis, DoubleDouble, U, Vec3, atan2, cross, difference_of_products, dot, ldexp, unit_scale,
+};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::disc::PlainDisc;
+use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::interval::{Interval, between_planes, roots};
+use crate::render::shape::mesh::PlainMesh;
+use crate::render::shape::plain::ray::PlainRay;
+use crate::render::shape::plain::real::{Real, Vector};
+use crate::render::shape::plain::roots::quadratic;
+use crate::render::shape::plain::{Plain, Twin};
+use crate::render::shape::triangle::Shear;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// The roots are computed again if the discriminant is less than this many times its error.
+const AMPLIFIED: f64 = 1024.0;
+
+/// The rounding error of double-double that a discriminant may have, in units of its terms; a ray
+/// that is tangent to within it hits.
+const PRECISE: f64 = 128.0 * U * U;
+
+/// A prepared paraboloid with a cap at its base.
+#[derive(Clone, Copy, Debug)]
+pub struct Paraboloid {
+    base: Vec3,
+    /// From the base to the vertex as given, times a power of two, and that power.
+    up: Vec3,
+    scale: f64,
+    /// The unit vector along it.
+    axis: Vec3,
+    height: f64,
+    radius: f64,
+    /// radius²/height: twice the radius of curvature at the vertex.
+    bend: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Side,
+    Base,
+}
+
+/// F along a ray, `a·t² − 2·b·t + c`, with the discriminant b² − a·c and a bound on its error.
+struct Quadratic {
+    a: f64,
+    b: f64,
+    c: f64,
+    discriminant: f64,
+    error_bound: f64,
+}
+
+impl Paraboloid {
+    /// The paraboloid over the disc around `base`, with its vertex at `base + up`; `up` must not be
+    /// zero.
+    #[must_use]
+    pub fn new(base: Vec3, up: Vec3, radius: f64) -> Self {
+        let (scaled, exponent) = unit_scale(up).unwrap_or((up, 0));
+        let length = dot(scaled, scaled).sqrt();
+        let height = ldexp(length, exponent);
+        Self {
+            base,
+            up: scaled,
+            scale: ldexp(1.0, exponent),
+            axis: scaled / length,
+            height,
+            radius,
+            bend: radius * (radius / height),
+        }
+    }
+
+    /// The first root above 0, and its part.
+    fn crossing(&self, ray: &Ray) -> Option<(f64, Part)> {
+        let start = ray.origin - self.base;
+        let parts = [Part::Base, Part::Side];
+        let ends = between_planes(self.axis, self.height, start, ray.direction, parts)?;
+        self.inside(ray, start, &ends)?.and(ends)?.first_in_front()
+    }
+
+    /// The stretch inside the infinite paraboloid, accurate between the base and the vertex.
+    fn inside(&self, ray: &Ray, start: Vec3, ends: &Interval<Part>) -> Option<Interval<Part>> {
+        let d = ray.direction;
+        // Move the ray to the point nearest to the axis, but not beyond base and vertex.
+        let (from_axis, across) = (cross(start, self.axis), cross(d, self.axis));
+        let nearest = (-from_axis.dot(across) / across.dot(across))
+            .max(ends.enter.0)
+            .min(ends.leave.0);
+        let Quadratic {
+            a,
+            b,
+            c,
+            discriminant,
+            error_bound,
+        } = self.quadratic(start, d, nearest);
+        if discriminant < -error_bound {
+            return None;
+        }
+        if a > 0.0 && discriminant > AMPLIFIED * error_bound {
+            let (first, second) = roots(a, b, c, discriminant);
+            return Some(side(nearest + first, nearest + second));
+        }
+        self.inside_precisely(ray, nearest)
+    }
+
+    /// F along the ray moved by `nearest`.
+    fn quadratic(&self, start: Vec3, d: Vec3, nearest: f64) -> Quadratic {
+        let k = self.bend;
+        let f = start + d * nearest;
+        let (w, x) = (cross(f, self.axis), cross(d, self.axis));
+        let depth = self.height - dot(self.axis, f);
+        let half_rise = 0.5 * k * dot(self.axis, d);
+        let a = x.dot(x);
+        let b = -(w.dot(x) + half_rise);
+        let c = w.dot(w) - k * depth;
+
+        // Bound the error of each coefficient by the sizes of what it is made of, then that of the
+        // discriminant.
+        let pace = d.abs().element_sum();
+        let size = (start.abs() + f.abs()).element_sum() + pace * nearest.abs();
+        let across = w.length();
+        let a_error = 20.0 * pace * x.length();
+        let b_error = pace * (32.0 * size + 16.0 * k);
+        let c_error = 40.0 * across * size + k * (20.0 * size + 12.0 * self.height);
+        let error = 2.0 * b.abs() * b_error + a * c_error + c.abs() * a_error;
+        Quadratic {
+            a,
+            b,
+            c,
+            discriminant: difference_of_products(b, b, a, c),
+            error_bound: U * (error + U * b_error * b_error),
+        }
+    }
+
+    /// As [`Self::inside`] in double-double. With u the way to the vertex as given, and p that of a
+    /// point from the base, F·u² = |p × u|² − radius²·(u² − p·u): no square root, no rounded axis.
+    #[cold]
+    #[inline(never)]
+    fn inside_precisely(&self, ray: &Ray, nearest: f64) -> Option<Interval<Part>> {
+        let number = DoubleDouble::from;
+        let d = ray.direction.to_array().map(number);
+        let u = self.up.to_array().map(number);
+        let shift = number(nearest);
+        let f =
+            [0, 1, 2].map(|k| DoubleDouble::difference(ray.origin[k], self.base[k]) + d[k] * shift);
+        let (w, x) = (wide_cross(f, u), wide_cross(d, u));
+        let square = number(self.radius) * number(self.radius);
+        let [above, rise] = [f, d].map(|v| wide_dot(v, u) / number(self.scale));
+        let a = wide_dot(x, x);
+        let zero = number(0.0);
+        let b = zero - (wide_dot(w, x) + square * rise * number(0.5));
+        let c = wide_dot(w, w) - square * (wide_dot(u, u) - above);
+
+        // Compute the roots without cancellation; a ray along the axis has one.
+        let at = |s: DoubleDouble| (shift + s).to_f64();
+        if a.to_f64() == 0.0 {
+            let root = at(c / (b + b));
+            return Some(match b.to_f64() < 0.0 {
+                true => side(f64::NEG_INFINITY, root),
+                false => side(root, f64::INFINITY),
+            });
+        }
+        let discriminant = b * b - a * c;
+        let rounding = PRECISE * (b * b + a * wide_dot(w, w)).to_f64();
+        if discriminant.to_f64().is_nan() || discriminant.to_f64() < -rounding {
+            return None;
+        }
+        let root = discriminant.sqrt();
+        if b.to_f64() >= 0.0 {
+            let q = b + root;
+            let first = if q.to_f64() == 0.0 { zero } else { c / q };
+            Some(side(at(first), at(q / a)))
+        } else {
+            let q = b - root;
+            Some(side(at(q / a), at(c / q)))
+        }
+    }
+
+    /// A point near the side, moved onto it along the gradient of F, and the normal there.
+    fn onto_side(&self, local: Vec3, along: f64) -> (Vec3, Vec3) {
+        let radial = self.radial(local, along);
+        let gradient = radial * 2.0 + self.axis * self.bend;
+        let length = gradient.length();
+        let normal = gradient / length;
+        let f = radial.dot(radial) - self.bend * (self.height - along);
+        (local - normal * (f / length), normal)
+    }
+
+    /// The way to a point from the axis.
+    fn radial(&self, local: Vec3, along: f64) -> Vec3 {
+        let radial = local - self.axis * along;
+        // Repeat the step: in a needle, the rest along the axis is amplified by height/radius.
+        radial - self.axis * dot(self.axis, radial)
+    }
+}
+
+/// The stretch between two points of the side.
+fn side(enter: f64, leave: f64) -> Interval<Part> {
+    Interval {
+        enter: (enter, Part::Side),
+        leave: (leave, Part::Side),
+    }
+}
+
+fn wide_dot(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> DoubleDouble {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn wide_cross(a: [DoubleDouble; 3], b: [DoubleDouble; 3]) -> [DoubleDouble; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+impl Geometry for Paraboloid {
+    fn intersect(&self, ray: &Ray, _: &Shear, _: f64) -> Option<(f64, u32)> {
+        self.crossing(ray).map(|(t, _)| (t, 0))
+    }
+
+    /// The point at `t`, moved onto the part that was hit.
+    fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
+        let part = self.crossing(ray).map_or(Part::Side, |(_, part)| part);
+        let local = (ray.origin - self.base) + ray.direction * t;
+        let along = dot(local, self.axis);
+        let (local, normal) = match part {
+            Part::Base => (local - self.axis * along, -self.axis),
+            Part::Side => self.onto_side(local, along),
+        };
+        let extent = self.height + self.radius;
+        Interaction::new(ray, self.base + local, normal, self.base, extent)
+    }
+
+    fn has_uv(&self) -> bool {
+        true
+    }
+
+    /// u = φ/2π about the axis. On the side, v is the depth below the vertex in heights; on the cap,
+    /// the distance from the axis in radii: 1 at the rim on both.
+    fn details(&self, _: &Ray, at: &Interaction, _: u32, _: Asked) -> Details {
+        let local = at.point - self.base;
+        let along = dot(local, self.axis);
+        let radial = self.radial(local, along);
+        let Basis {
+            tangent: x,
+            bitangent: y,
+            ..
+        } = Basis::around(self.axis);
+        let turns = atan2(radial.dot(y), radial.dot(x)) / TAU;
+        let u = if turns < 0.0 { turns + 1.0 } else { turns };
+        let is_cap = at.normal.dot(self.axis) < -0.5;
+        let v = if is_cap {
+            radial.length() / self.radius
+        } else {
+            (self.height - along) / self.height
+        };
+        Details {
+            uv: Some([u, v.clamp(0.0, 1.0)]),
+            tangent: self.axis.cross(radial).try_normalize(),
+            ..Details::default()
+        }
+    }
+
+    /// A box around the paraboloid: its profile is a parabola, which lies between the rim, and the
+    /// vertex and half the radius beside it.
+    fn bounds(&self) -> Option<Bounds> {
+        let disc = |center, radius| Bounds::around_disc(center, self.axis, radius);
+        let top = self.base + self.axis * self.height;
+        Some(disc(self.base, self.radius).union(disc(top, 0.5 * self.radius)))
+    }
+}
+
+impl Twin for Paraboloid {
+    type Plain<R: Real> = Box<PlainParaboloid<R>>;
+
+    fn plain<R: Real>(&self, _: Option<&Arc<PlainMesh<R>>>) -> Option<Self::Plain<R>> {
+        Some(Box::new(PlainParaboloid {
+            base: Vector::of(self.base),
+            axis: Vector::of(self.axis),
+            height: R::of(self.height),
+            bend: R::of(self.bend),
+            cap: PlainDisc::new(self.base, -self.axis, self.radius),
+        }))
+    }
+}
+
+/// The parts of the twin: side and base.
+const PLAIN_PARTS: [u32; 2] = [0, 1];
+
+/// Its twin: the quadratic of ρ² = k·m, with m the height left to the vertex, and a disc.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct PlainParaboloid<R> {
+    base: Vector<R>,
+    axis: Vector<R>,
+    height: R,
+    bend: R,
+    cap: PlainDisc<R>,
+}
+
+impl<R: Real> Plain<R> for PlainParaboloid<R> {
+    fn intersect(&self, ray: &PlainRay<R>, _: f64) -> Option<(R, u32)> {
+        let [side, base] = PLAIN_PARTS;
+        let f = ray.origin - self.base;
+        let (above, rise) = (f.dot(self.axis), ray.direction.dot(self.axis));
+        let (from_axis, across) = (f - self.axis * above, ray.direction - self.axis * rise);
+        let b = R::of(2.0) * from_axis.dot(across) + self.bend * rise;
+        let c = from_axis.dot(from_axis) - self.bend * (self.height - above);
+        let within = |t: R| {
+            if above + rise * t >= R::of(0.0) {
+                t
+            } else {
+                R::of(f64::NAN)
+            }
+        };
+        let [first, second] = quadratic(across.dot(across), b, c)?.map(within);
+        let cap = self.cap.parameter(ray);
+        ray.first([(first, side), (second, side), (cap, base)])
+    }
+
+    fn normal(&self, _: &PlainRay<R>, point: Vector<R>, prim_id: u32) -> Vector<R> {
+        if prim_id == PLAIN_PARTS[1] {
+            return self.cap.normal();
+        }
+        let local = point - self.base;
+        let from_axis = local - self.axis * local.dot(self.axis);
+        (from_axis * R::of(2.0) + self.axis * self.bend).normalized()
+    }
+}
