@@ -38,5 +38,6 @@ pub mod pipeline;
 pub mod plan;
 pub mod render;
 pub mod source;
+mod standard;
 pub mod study;
 pub mod valid;

@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 const FLOORS: &[(&str, u32)] = &[
     ("math", 0),
     ("color", 0),
+    ("standard", 0),
     ("image", 1),
     ("source", 1),
     ("diag", 2),

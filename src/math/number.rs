@@ -10,8 +10,21 @@ impl Positive {
 
     /// `None` unless the value is finite and above 0.
     #[must_use]
-    pub fn new(value: f64) -> Option<Self> {
-        (value > 0.0 && value.is_finite()).then_some(Self(value))
+    pub const fn new(value: f64) -> Option<Self> {
+        if value > 0.0 && value.is_finite() {
+            Some(Self(value))
+        } else {
+            None
+        }
+    }
+
+    /// The same number; 1 for one out of range.
+    #[must_use]
+    pub const fn or_one(value: f64) -> Self {
+        match Self::new(value) {
+            Some(number) => number,
+            None => Self::ONE,
+        }
     }
 
     /// The number.
@@ -35,7 +48,7 @@ impl NonNegative {
 
     /// The nearest to a value; 0 for what is no number.
     #[must_use]
-    pub fn saturating(value: f64) -> Self {
+    pub const fn saturating(value: f64) -> Self {
         Self(if value > 0.0 {
             value.min(f64::MAX)
         } else {
@@ -94,7 +107,7 @@ impl UnitInterval {
 
     /// The nearest to a value; 0 for what is no number.
     #[must_use]
-    pub fn saturating(value: f64) -> Self {
+    pub const fn saturating(value: f64) -> Self {
         Self(if value > 0.0 { value.min(1.0) } else { 0.0 })
     }
 

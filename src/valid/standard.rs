@@ -6,10 +6,84 @@ use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
 
-/// The material and its proof, from a table of its parameters: what each is once it is proven, by
-/// which check, under which name in findings.
-macro_rules! parameters {
-    ($($(#[$about:meta])* $field:ident: $type:ty = $check:ident($name:literal);)*) => {
+/// The type of a proven parameter of a kind of the table.
+macro_rules! proven {
+    (fraction) => { UnitInterval };
+    (number) => { f64 };
+    (non_negative) => { NonNegative };
+    (ior) => { NonNegative };
+    (index_of_refraction) => { Positive };
+    (distance) => { Option<Positive> };
+    (pair) => { [NonNegative; 2] };
+    (color) => { Vec3 };
+    (fraction_color) => { Vec3 };
+    (fractions) => { [UnitInterval; 4] };
+    (some_fractions) => { Option<[UnitInterval; 4]> };
+    (flag) => { bool };
+    (alpha) => { Alpha };
+    (map) => { Option<Map> };
+}
+
+/// A default of the table, proven.
+macro_rules! proven_default {
+    (fraction, $value:expr) => {
+        UnitInterval::saturating($value)
+    };
+    (non_negative, $value:expr) => {
+        NonNegative::saturating($value)
+    };
+    (ior, $value:expr) => {
+        NonNegative::saturating($value)
+    };
+    (index_of_refraction, $value:expr) => {
+        Positive::or_one($value)
+    };
+    (pair, $value:expr) => {
+        non_negatives($value)
+    };
+    (color, $value:expr) => {
+        Vec3::from_array($value)
+    };
+    (fraction_color, $value:expr) => {
+        Vec3::from_array($value)
+    };
+    (fractions, $value:expr) => {
+        unit_intervals($value)
+    };
+    ($kind:ident, $value:expr) => {
+        $value
+    };
+}
+
+const fn non_negatives([a, b]: [f64; 2]) -> [NonNegative; 2] {
+    [NonNegative::saturating(a), NonNegative::saturating(b)]
+}
+
+const fn unit_intervals([a, b, c, d]: [f64; 4]) -> [UnitInterval; 4] {
+    [
+        UnitInterval::saturating(a),
+        UnitInterval::saturating(b),
+        UnitInterval::saturating(c),
+        UnitInterval::saturating(d),
+    ]
+}
+
+/// The map that a parameter of a kind holds.
+macro_rules! map_of {
+    (map, $map:expr) => {
+        $map
+    };
+    ($kind:ident, $value:expr) => {
+        &None
+    };
+}
+
+/// The material and its proof, from the table of its parameters: the kind of each names its check.
+macro_rules! material {
+    ($(
+        $(#[doc = $about:literal])*
+        $field:ident: $kind:ident = $default:expr, $omitted:literal;
+    )*) => {
         /// The material of glTF, proven: the factors of its specification, by whose names they go,
         /// each in its range, and the maps that multiply them.
         #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +92,17 @@ macro_rules! parameters {
             reason = "each is named and described in the specification of glTF"
         )]
         pub struct Standard {
-            $($(#[$about])* pub $field: $type,)*
+            $($(#[doc = $about])* pub $field: proven!($kind),)*
+        }
+
+        impl Standard {
+            /// The default material of glTF: white, metallic and rough.
+            pub const DEFAULT: Self = Self { $($field: proven_default!($kind, $default),)* };
+
+            /// Every map it has.
+            pub fn maps(&self) -> impl Iterator<Item = &Map> {
+                [$(map_of!($kind, &self.$field)),*].into_iter().flatten()
+            }
         }
 
         pub(super) fn standard(
@@ -30,95 +114,15 @@ macro_rules! parameters {
             let ir::Standard { name: _, $($field,)* } = material;
             let at = place(Noun::Material, index, Field::Whole);
             let mut parameters = Parameters { at, counts, check };
-            $(let $field = parameters.$check($field, $name);)*
+            $(let $field = parameters.$kind($field, stringify!($field));)*
             Some(Standard { $($field: $field?,)* })
         }
     };
 }
 
-parameters! {
-    base_color: [UnitInterval; 4] = fractions("baseColor");
-    base_color_map: Option<Map> = map("baseColorMap");
-    metallic: UnitInterval = fraction("metallic");
-    roughness: UnitInterval = fraction("roughness");
-    metallic_roughness_map: Option<Map> = map("metallicRoughnessMap");
-    /// The reflectance at normal incidence and the glossiness (rgb, a), in place of metallic,
-    /// roughness and ior.
-    specular_glossiness: Option<[UnitInterval; 4]> = some_shares("specularGlossiness");
-    specular_glossiness_map: Option<Map> = map("specularGlossinessMap");
-    /// The radiance, strength included.
-    emissive: Vec3 = color("emissive");
-    emissive_map: Option<Map> = map("emissiveMap");
-    normal_map: Option<Map> = map("normalMap");
-    normal_scale: f64 = number("normalScale");
-    alpha: Alpha = alpha("alpha");
-    /// Whether the camera sees the back where paths are traced.
-    double_sided: bool = flag("doubleSided");
-    unlit: bool = flag("unlit");
-    /// At least 1, or 0 for an infinite one.
-    ior: NonNegative = ior("ior");
-    dispersion: NonNegative = non_negative("dispersion");
-    specular: UnitInterval = fraction("specular");
-    specular_map: Option<Map> = map("specularMap");
-    specular_color: Vec3 = color("specularColor");
-    specular_color_map: Option<Map> = map("specularColorMap");
-    transmission: UnitInterval = fraction("transmission");
-    transmission_map: Option<Map> = map("transmissionMap");
-    /// Above 0 the surface bounds a volume.
-    thickness: NonNegative = non_negative("thickness");
-    thickness_map: Option<Map> = map("thicknessMap");
-    /// None for infinite.
-    attenuation_distance: Option<Positive> = distance("attenuationDistance");
-    attenuation_color: Vec3 = fraction_color("attenuationColor");
-    clearcoat: UnitInterval = fraction("clearcoat");
-    clearcoat_map: Option<Map> = map("clearcoatMap");
-    clearcoat_roughness: UnitInterval = fraction("clearcoatRoughness");
-    clearcoat_roughness_map: Option<Map> = map("clearcoatRoughnessMap");
-    clearcoat_normal_map: Option<Map> = map("clearcoatNormalMap");
-    clearcoat_normal_scale: f64 = number("clearcoatNormalScale");
-    sheen_color: Vec3 = fraction_color("sheenColor");
-    sheen_color_map: Option<Map> = map("sheenColorMap");
-    sheen_roughness: UnitInterval = fraction("sheenRoughness");
-    sheen_roughness_map: Option<Map> = map("sheenRoughnessMap");
-    anisotropy: UnitInterval = fraction("anisotropy");
-    /// In radians.
-    anisotropy_rotation: f64 = number("anisotropyRotation");
-    anisotropy_map: Option<Map> = map("anisotropyMap");
-    iridescence: UnitInterval = fraction("iridescence");
-    iridescence_map: Option<Map> = map("iridescenceMap");
-    /// At least 1.
-    iridescence_ior: Positive = index_of_refraction("iridescenceIor");
-    /// From the least to the greatest, in nanometres.
-    iridescence_thickness: [NonNegative; 2] = pair("iridescenceThickness");
-    iridescence_thickness_map: Option<Map> = map("iridescenceThicknessMap");
-}
+crate::standard::parameters!(material);
 
 impl Standard {
-    /// Every map it has.
-    pub fn maps(&self) -> impl Iterator<Item = &Map> {
-        [
-            &self.base_color_map,
-            &self.metallic_roughness_map,
-            &self.specular_glossiness_map,
-            &self.emissive_map,
-            &self.normal_map,
-            &self.specular_map,
-            &self.specular_color_map,
-            &self.transmission_map,
-            &self.thickness_map,
-            &self.clearcoat_map,
-            &self.clearcoat_roughness_map,
-            &self.clearcoat_normal_map,
-            &self.sheen_color_map,
-            &self.sheen_roughness_map,
-            &self.anisotropy_map,
-            &self.iridescence_map,
-            &self.iridescence_thickness_map,
-        ]
-        .into_iter()
-        .flatten()
-    }
-
     /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
     /// within.
     #[must_use]
@@ -167,6 +171,7 @@ impl Parameters<'_, '_> {
     fn within(&mut self, value: f64, name: &str, [low, high]: Range) -> Option<f64> {
         let is_sound = low <= value && value <= high;
         if !is_sound {
+            let name = camel_case(name);
             let message =
                 format!("`{name}` of a material is `{value}`, and must be from {low} to {high}");
             let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
@@ -229,7 +234,7 @@ impl Parameters<'_, '_> {
             .map(|values| values.map(UnitInterval::saturating))
     }
 
-    fn some_shares(
+    fn some_fractions(
         &mut self,
         values: &Option<[f64; 4]>,
         name: &str,
@@ -277,4 +282,14 @@ impl Parameters<'_, '_> {
             texture::map(map, counts, at, check)
         })
     }
+}
+
+/// A name of a field as the IR text writes it.
+fn camel_case(name: &str) -> String {
+    let mut words = name.split('_');
+    let first = words.next().unwrap_or_default().to_owned();
+    words.fold(first, |whole, word| {
+        let (initial, rest) = word.split_at(word.len().min(1));
+        whole + &initial.to_uppercase() + rest
+    })
 }

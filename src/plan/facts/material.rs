@@ -1,7 +1,7 @@
 //! Materials as each integrator sees them: Phong's model by Whitted's, that of glTF by paths.
 
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
-use crate::valid::{Alpha, Map, Material, Phong, Standard, UvSet};
+use crate::valid::{Map, Material, Phong, Standard, UvSet};
 use std::num::NonZeroU32;
 
 /// The material as Whitted's integrator sees it: of that of glTF the colour without the light.
@@ -89,50 +89,11 @@ fn whole(texture: usize) -> Map {
 
 /// A white surface without reflection.
 pub const WHITE: Standard = Standard {
-    base_color: [UnitInterval::ONE; 4],
-    base_color_map: None,
     metallic: UnitInterval::ZERO,
-    roughness: UnitInterval::ONE,
-    metallic_roughness_map: None,
-    specular_glossiness: None,
-    specular_glossiness_map: None,
-    emissive: Vec3::ZERO,
-    emissive_map: None,
-    normal_map: None,
-    normal_scale: 1.0,
-    alpha: Alpha::Opaque,
     double_sided: true,
-    unlit: false,
     ior: NonNegative::ONE,
-    dispersion: NonNegative::ZERO,
     specular: UnitInterval::ZERO,
-    specular_map: None,
-    specular_color: Vec3::ONE,
-    specular_color_map: None,
-    transmission: UnitInterval::ZERO,
-    transmission_map: None,
-    thickness: NonNegative::ZERO,
-    thickness_map: None,
-    attenuation_distance: None,
-    attenuation_color: Vec3::ONE,
-    clearcoat: UnitInterval::ZERO,
-    clearcoat_map: None,
-    clearcoat_roughness: UnitInterval::ZERO,
-    clearcoat_roughness_map: None,
-    clearcoat_normal_map: None,
-    clearcoat_normal_scale: 1.0,
-    sheen_color: Vec3::ZERO,
-    sheen_color_map: None,
-    sheen_roughness: UnitInterval::ZERO,
-    sheen_roughness_map: None,
-    anisotropy: UnitInterval::ZERO,
-    anisotropy_rotation: 0.0,
-    anisotropy_map: None,
-    iridescence: UnitInterval::ZERO,
-    iridescence_map: None,
-    iridescence_ior: Positive::ONE,
-    iridescence_thickness: [NonNegative::ZERO; 2],
-    iridescence_thickness_map: None,
+    ..Standard::DEFAULT
 };
 
 #[cfg(test)]

@@ -1,0 +1,70 @@
+//! The table of the parameters of the glTF material (glTF 2.0, appendix B, and `KHR_materials_*`).
+//!
+//! A parameter is added here. The stages name a macro to which all rows are given, and make of them
+//! what they can: the fields of the IR, their proof, the objects of glTF.
+
+/// The parameters in the order of the IR: `field: kind = default, omitted;`.
+///
+/// The kind says which type a value has and from what range it is; `omitted` names the test by
+/// which an IR text leaves the value out.
+macro_rules! parameters {
+    ($then:ident) => {
+        $then! {
+            base_color: fractions = [1.0; 4], "never";
+            base_color_map: map = None, "Option::is_none";
+            metallic: fraction = 1.0, "never";
+            roughness: fraction = 1.0, "never";
+            metallic_roughness_map: map = None, "Option::is_none";
+            /// The reflectance at normal incidence and the glossiness (rgb, a) of
+            /// `KHR_materials_pbrSpecularGlossiness`, in place of metallic, roughness and ior.
+            specular_glossiness: some_fractions = None, "Option::is_none";
+            specular_glossiness_map: map = None, "Option::is_none";
+            /// The radiance, strength included.
+            emissive: color = [0.0; 3], "are_zero";
+            emissive_map: map = None, "Option::is_none";
+            normal_map: map = None, "Option::is_none";
+            normal_scale: number = 1.0, "is_one";
+            alpha: alpha = Alpha::Opaque, "is_default";
+            /// Whether the camera sees the back where paths are traced. It sees that of what
+            /// transmits, and all other rays meet it.
+            double_sided: flag = false, "is_default";
+            unlit: flag = false, "is_default";
+            ior: ior = 1.5, "never";
+            dispersion: non_negative = 0.0, "is_zero";
+            specular: fraction = 1.0, "is_one";
+            specular_map: map = None, "Option::is_none";
+            specular_color: color = [1.0; 3], "never";
+            specular_color_map: map = None, "Option::is_none";
+            transmission: fraction = 0.0, "is_zero";
+            transmission_map: map = None, "Option::is_none";
+            /// Above 0 the surface bounds a volume.
+            thickness: non_negative = 0.0, "is_zero";
+            thickness_map: map = None, "Option::is_none";
+            /// None for infinite.
+            attenuation_distance: distance = None, "Option::is_none";
+            attenuation_color: fraction_color = [1.0; 3], "never";
+            clearcoat: fraction = 0.0, "is_zero";
+            clearcoat_map: map = None, "Option::is_none";
+            clearcoat_roughness: fraction = 0.0, "is_zero";
+            clearcoat_roughness_map: map = None, "Option::is_none";
+            clearcoat_normal_map: map = None, "Option::is_none";
+            clearcoat_normal_scale: number = 1.0, "is_one";
+            sheen_color: fraction_color = [0.0; 3], "are_zero";
+            sheen_color_map: map = None, "Option::is_none";
+            sheen_roughness: fraction = 0.0, "is_zero";
+            sheen_roughness_map: map = None, "Option::is_none";
+            anisotropy: fraction = 0.0, "is_zero";
+            /// In radians.
+            anisotropy_rotation: number = 0.0, "is_zero";
+            anisotropy_map: map = None, "Option::is_none";
+            iridescence: fraction = 0.0, "is_zero";
+            iridescence_map: map = None, "Option::is_none";
+            iridescence_ior: index_of_refraction = 1.3, "never";
+            /// From the least to the greatest, in nanometres.
+            iridescence_thickness: pair = [100.0, 400.0], "never";
+            iridescence_thickness_map: map = None, "Option::is_none";
+        }
+    };
+}
+
+pub(crate) use parameters;
