@@ -67,4 +67,52 @@ macro_rules! parameters {
     };
 }
 
-pub(crate) use parameters;
+/// The extensions whose properties are parameters as they stand: `"name" { field: kind "property"; }`.
+macro_rules! extensions {
+    ($then:ident) => {
+        $then! {
+            "KHR_materials_ior" {
+                ior: non_negative "ior";
+            }
+            "KHR_materials_dispersion" {
+                dispersion: non_negative "dispersion";
+            }
+            "KHR_materials_specular" {
+                specular: fraction "specularFactor";
+                specular_map: map "specularTexture";
+                specular_color: color "specularColorFactor";
+                specular_color_map: map "specularColorTexture";
+            }
+            "KHR_materials_transmission" {
+                transmission: fraction "transmissionFactor";
+                transmission_map: map "transmissionTexture";
+            }
+            "KHR_materials_volume" {
+                thickness: non_negative "thicknessFactor";
+                thickness_map: map "thicknessTexture";
+                attenuation_distance: distance "attenuationDistance";
+                attenuation_color: fraction_color "attenuationColor";
+            }
+            "KHR_materials_clearcoat" {
+                clearcoat: fraction "clearcoatFactor";
+                clearcoat_map: map "clearcoatTexture";
+                clearcoat_roughness: fraction "clearcoatRoughnessFactor";
+                clearcoat_roughness_map: map "clearcoatRoughnessTexture";
+                clearcoat_normal_map: normal_map "clearcoatNormalTexture";
+            }
+            "KHR_materials_sheen" {
+                sheen_color: fraction_color "sheenColorFactor";
+                sheen_color_map: map "sheenColorTexture";
+                sheen_roughness: fraction "sheenRoughnessFactor";
+                sheen_roughness_map: map "sheenRoughnessTexture";
+            }
+            "KHR_materials_anisotropy" {
+                anisotropy: fraction "anisotropyStrength";
+                anisotropy_rotation: number "anisotropyRotation";
+                anisotropy_map: map "anisotropyTexture";
+            }
+        }
+    };
+}
+
+pub(crate) use {extensions, parameters};

@@ -139,16 +139,13 @@ impl Reader<'_, '_, '_, '_> {
             },
             double_sided: fields.truth("doubleSided"),
             unlit: extension(fields, "unlit").is_some(),
-            ior: number(extension(fields, "ior"), "ior", 1.5),
-            dispersion: number(extension(fields, "dispersion"), "dispersion", 0.0),
             ..Standard::default()
         };
         self.specular_glossiness(fields, &mut standard);
-        self.specular(fields, &mut standard);
-        self.transmission(fields, &mut standard);
-        self.clearcoat(fields, &mut standard);
-        self.sheen(fields, &mut standard);
-        self.anisotropy(fields, &mut standard);
+        self.extensions(fields, &mut standard);
+        let coat =
+            extension(fields, "clearcoat").and_then(|coat| coat.object("clearcoatNormalTexture"));
+        standard.clearcoat_normal_scale = number(coat, "scale", 1.0);
         self.iridescence(fields, &mut standard);
         standard
     }
@@ -161,52 +158,6 @@ impl Reader<'_, '_, '_, '_> {
         standard.specular_glossiness_map = self.map(own, "specularGlossinessTexture");
         standard.base_color = model.vector_or("diffuseFactor", [1.0; 4]);
         standard.base_color_map = self.map(own, "diffuseTexture");
-    }
-
-    fn specular(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "specular");
-        standard.specular = number(own, "specularFactor", 1.0);
-        standard.specular_map = self.map(own, "specularTexture");
-        standard.specular_color = vector(own, "specularColorFactor", 1.0);
-        standard.specular_color_map = self.map(own, "specularColorTexture");
-    }
-
-    fn transmission(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "transmission");
-        standard.transmission = number(own, "transmissionFactor", 0.0);
-        standard.transmission_map = self.map(own, "transmissionTexture");
-        let volume = extension(fields, "volume");
-        standard.thickness = number(volume, "thicknessFactor", 0.0);
-        standard.thickness_map = self.map(volume, "thicknessTexture");
-        standard.attenuation_distance =
-            volume.and_then(|volume| volume.number("attenuationDistance"));
-        standard.attenuation_color = vector(volume, "attenuationColor", 1.0);
-    }
-
-    fn clearcoat(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "clearcoat");
-        standard.clearcoat = number(own, "clearcoatFactor", 0.0);
-        standard.clearcoat_map = self.map(own, "clearcoatTexture");
-        standard.clearcoat_roughness = number(own, "clearcoatRoughnessFactor", 0.0);
-        standard.clearcoat_roughness_map = self.map(own, "clearcoatRoughnessTexture");
-        standard.clearcoat_normal_map = self.map(own, "clearcoatNormalTexture");
-        let normal = own.and_then(|own| own.object("clearcoatNormalTexture"));
-        standard.clearcoat_normal_scale = number(normal, "scale", 1.0);
-    }
-
-    fn sheen(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "sheen");
-        standard.sheen_color = vector(own, "sheenColorFactor", 0.0);
-        standard.sheen_color_map = self.map(own, "sheenColorTexture");
-        standard.sheen_roughness = number(own, "sheenRoughnessFactor", 0.0);
-        standard.sheen_roughness_map = self.map(own, "sheenRoughnessTexture");
-    }
-
-    fn anisotropy(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
-        let own = extension(fields, "anisotropy");
-        standard.anisotropy = number(own, "anisotropyStrength", 0.0);
-        standard.anisotropy_rotation = number(own, "anisotropyRotation", 0.0);
-        standard.anisotropy_map = self.map(own, "anisotropyTexture");
     }
 
     fn iridescence(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
@@ -232,6 +183,40 @@ fn number(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> f64 {
     fields.map_or(default, |fields| fields.number_or(key, default))
 }
 
-fn vector(fields: Option<Fields<'_, '_>>, key: &str, default: f64) -> [f64; 3] {
-    fields.map_or([default; 3], |fields| fields.vector_or(key, [default; 3]))
+/// Reads a property of an extension into a parameter of a kind of the table; an absent one leaves
+/// the default.
+macro_rules! read {
+    (map, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $reader.map(Some($own), $key)
+    };
+    (normal_map, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $reader.map(Some($own), $key)
+    };
+    (distance, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $own.number($key)
+    };
+    (color, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $own.vector_or($key, $parameter)
+    };
+    (fraction_color, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $own.vector_or($key, $parameter)
+    };
+    ($kind:ident, $parameter:expr, $reader:ident, $own:ident, $key:literal) => {
+        $parameter = $own.number_or($key, $parameter)
+    };
 }
+
+/// Reads all extensions of the table.
+macro_rules! extensions {
+    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
+        impl Reader<'_, '_, '_, '_> {
+            fn extensions(&mut self, fields: Fields<'_, '_>, standard: &mut Standard) {
+                $(if let Some(own) = fields.extension($name) {
+                    $(read!($kind, standard.$field, self, own, $key);)*
+                })*
+            }
+        }
+    };
+}
+
+crate::standard::extensions!(extensions);

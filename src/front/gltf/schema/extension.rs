@@ -19,7 +19,8 @@ pub(in super::super) struct Extension {
 
 /// The extension of this name.
 pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
-    EXTENSIONS.iter().find(|extension| extension.name == name)
+    let mut all = EXTENSIONS.iter().chain(OF_MATERIALS);
+    all.find(|extension| extension.name == name)
 }
 
 /// True if an asset may require the extension.
@@ -68,28 +69,20 @@ static EXTENSIONS: &[Extension] = &[
         "KHR_lights_punctual",
         &[("asset", &LIGHTS), ("node", &LIGHT_REFERENCE)],
     ),
-    known("KHR_materials_anisotropy", &[("material", &ANISOTROPY)]),
-    known("KHR_materials_clearcoat", &[("material", &CLEARCOAT)]),
-    known("KHR_materials_dispersion", &[("material", &DISPERSION)]),
     known(
         "KHR_materials_emissive_strength",
         &[("material", &EMISSIVE_STRENGTH)],
     ),
-    known("KHR_materials_ior", &[("material", &IOR)]),
     known("KHR_materials_iridescence", &[("material", &IRIDESCENCE)]),
     known(
         "KHR_materials_pbrSpecularGlossiness",
         &[("material", &SPECULAR_GLOSSINESS)],
     ),
-    known("KHR_materials_sheen", &[("material", &SHEEN)]),
-    known("KHR_materials_specular", &[("material", &SPECULAR)]),
-    known("KHR_materials_transmission", &[("material", &TRANSMISSION)]),
     known("KHR_materials_unlit", &[("material", &UNLIT)]),
     known(
         "KHR_materials_variants",
         &[("asset", &VARIANTS), ("primitive", &VARIANT_MAPPINGS)],
     ),
-    known("KHR_materials_volume", &[("material", &VOLUME)]),
     known("KHR_mesh_quantization", &[]),
     known(
         "KHR_meshopt_compression",
@@ -101,6 +94,53 @@ static EXTENSIONS: &[Extension] = &[
         &[("texture info", &TEXTURE_TRANSFORM)],
     ),
 ];
+
+/// What a property takes that is a parameter of a kind of the table.
+macro_rules! value {
+    (fraction) => {
+        Number(UNIT)
+    };
+    (number) => {
+        Number(FREE)
+    };
+    (non_negative) => {
+        Number(FACTOR)
+    };
+    (distance) => {
+        Number(POSITIVE)
+    };
+    (color) => {
+        Numbers(&[3], FACTOR)
+    };
+    (fraction_color) => {
+        Numbers(&[3], UNIT)
+    };
+    (map) => {
+        One(&TEXTURE_INFO)
+    };
+    (normal_map) => {
+        One(&NORMAL_TEXTURE)
+    };
+}
+
+/// The extensions of the table of parameters.
+macro_rules! of_materials {
+    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
+        static OF_MATERIALS: &[Extension] = &[$(Extension {
+            name: $name,
+            places: &[(
+                "material",
+                &Object {
+                    name: "extension",
+                    keys: &[$(optional($key, value!($kind))),*],
+                },
+            )],
+            supported: true,
+        }),*];
+    };
+}
+
+crate::standard::extensions!(of_materials);
 
 /// An extension object with these properties.
 const fn object(keys: &'static [Key]) -> Object {
@@ -150,21 +190,7 @@ static SPOT: Object = Object {
         optional("outerConeAngle", Number(RIGHT_ANGLE)),
     ],
 };
-static ANISOTROPY: Object = object(&[
-    optional("anisotropyStrength", Number(UNIT)),
-    optional("anisotropyRotation", Number(FREE)),
-    optional("anisotropyTexture", One(&TEXTURE_INFO)),
-]);
-static CLEARCOAT: Object = object(&[
-    optional("clearcoatFactor", Number(UNIT)),
-    optional("clearcoatTexture", One(&TEXTURE_INFO)),
-    optional("clearcoatRoughnessFactor", Number(UNIT)),
-    optional("clearcoatRoughnessTexture", One(&TEXTURE_INFO)),
-    optional("clearcoatNormalTexture", One(&NORMAL_TEXTURE)),
-]);
-static DISPERSION: Object = object(&[optional("dispersion", Number(FACTOR))]);
 static EMISSIVE_STRENGTH: Object = object(&[optional("emissiveStrength", Number(FACTOR))]);
-static IOR: Object = object(&[optional("ior", Number(FACTOR))]);
 static IRIDESCENCE: Object = object(&[
     optional("iridescenceFactor", Number(UNIT)),
     optional("iridescenceTexture", One(&TEXTURE_INFO)),
@@ -179,22 +205,6 @@ static SPECULAR_GLOSSINESS: Object = object(&[
     optional("specularFactor", Numbers(&[3], UNIT)),
     optional("glossinessFactor", Number(UNIT)),
     optional("specularGlossinessTexture", One(&TEXTURE_INFO)),
-]);
-static SHEEN: Object = object(&[
-    optional("sheenColorFactor", Numbers(&[3], UNIT)),
-    optional("sheenColorTexture", One(&TEXTURE_INFO)),
-    optional("sheenRoughnessFactor", Number(UNIT)),
-    optional("sheenRoughnessTexture", One(&TEXTURE_INFO)),
-]);
-static SPECULAR: Object = object(&[
-    optional("specularFactor", Number(UNIT)),
-    optional("specularTexture", One(&TEXTURE_INFO)),
-    optional("specularColorFactor", Numbers(&[3], FACTOR)),
-    optional("specularColorTexture", One(&TEXTURE_INFO)),
-]);
-static TRANSMISSION: Object = object(&[
-    optional("transmissionFactor", Number(UNIT)),
-    optional("transmissionTexture", One(&TEXTURE_INFO)),
 ]);
 static UNLIT: Object = object(&[]);
 static VARIANTS: Object = object(&[required("variants", Many(&VARIANT))]);
@@ -211,12 +221,6 @@ static MAPPING: Object = Object {
         optional("name", Text),
     ],
 };
-static VOLUME: Object = object(&[
-    optional("thicknessFactor", Number(FACTOR)),
-    optional("thicknessTexture", One(&TEXTURE_INFO)),
-    optional("attenuationDistance", Number(POSITIVE)),
-    optional("attenuationColor", Numbers(&[3], UNIT)),
-]);
 static VISIBILITY: Object = object(&[optional("visible", Truth)]);
 static TEXTURE_TRANSFORM: Object = object(&[
     optional("offset", Numbers(&[2], FREE)),
