@@ -115,4 +115,44 @@ macro_rules! extensions {
     };
 }
 
-pub(crate) use {extensions, parameters};
+/// The layers: lobes that a material may have beside those of its base.
+///
+/// Of each: its name, why a scene does not need it, the factor and the channels of the map that
+/// weigh it, its maps with the factors that they multiply, and whether light goes through it. The
+/// word before the braces is its field in the parameters of the BSDF.
+macro_rules! layers {
+    ($then:ident) => {
+        $then! {
+            /// `KHR_materials_clearcoat`.
+            Clearcoat = clearcoat {
+                told: "clearcoat", "no material has a clearcoat";
+                weight: clearcoat * clearcoat_map [0..1];
+                maps: clearcoat * clearcoat_map, clearcoat_roughness * clearcoat_roughness_map;
+                transmits: false;
+            }
+            /// `KHR_materials_sheen`.
+            Sheen = sheen {
+                told: "sheen", "no material has sheen";
+                weight: sheen_color * sheen_color_map [0..3];
+                maps: sheen_color * sheen_color_map, sheen_roughness * sheen_roughness_map;
+                transmits: false;
+            }
+            /// `KHR_materials_anisotropy`.
+            Anisotropy = anisotropy {
+                told: "anisotropy", "no material is anisotropic";
+                weight: anisotropy * anisotropy_map [2..3];
+                maps: anisotropy * anisotropy_map;
+                transmits: false;
+            }
+            /// `KHR_materials_iridescence`.
+            Iridescence = iridescence {
+                told: "iridescence", "no material is iridescent";
+                weight: iridescence * iridescence_map [0..1];
+                maps: iridescence * iridescence_map, iridescence * iridescence_thickness_map;
+                transmits: false;
+            }
+        }
+    };
+}
+
+pub(crate) use {extensions, layers, parameters};

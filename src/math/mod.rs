@@ -13,6 +13,7 @@ mod number;
 mod onb;
 mod rotation;
 mod turns;
+mod weight;
 
 pub use basis::{BasisFault, camera_basis, fallback_up, view_basis};
 pub use column::{Column, Shared};
@@ -27,6 +28,7 @@ pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
 pub use rotation::{axis_and_angle, turned_to_z};
 pub use turns::{cos_sin_turns, golden_turns};
+pub use weight::Weight;
 
 /// The unit round-off of f64, u = 2⁻⁵³.
 pub const U: f64 = f64::EPSILON / 2.0;

@@ -1,49 +1,83 @@
 //! The effects a picture may need, and what became of each.
 
+use super::layer::Layer;
 use super::rules::Rule;
 use crate::ir::Place;
 
-/// A part of the simulation that a scene may do without.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "each is named as in the books")]
-pub enum Effect {
-    DepthBuffer,
-    NormalBuffer,
-    Surfaces,
-    DirectLight,
-    Shadows,
-    SoftLight,
-    Highlight,
-    Mirror,
-    GlossyReflection,
-    Refraction,
-    Depth,
-    Textures,
-    NormalInterpolation,
-    NormalMapping,
-    Lens,
-    Supersampling,
-    Environment,
-    Emission,
-    Unlit,
-    Alpha,
-    Mis,
-    Microfacets,
-    Compensation,
-    Clearcoat,
-    Sheen,
-    Anisotropy,
-    Iridescence,
-    Volume,
-    Dispersion,
-    VertexColors,
-    EnvironmentMap,
+/// The effects, each with its name, as in the books; layers have names of their own.
+macro_rules! effects {
+    ($($effect:ident $name:literal,)*) => {
+        /// A part of the simulation that a scene may do without.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[expect(missing_docs, reason = "each is named as in the books")]
+        pub enum Effect {
+            $($effect,)*
+            Layer(Layer),
+        }
+
+        /// The place of each effect but the layers, which come after.
+        enum Index {
+            $($effect,)*
+            Layers,
+        }
+
+        impl Effect {
+            /// How many effects there are.
+            pub const COUNT: usize = Index::Layers as usize + Layer::ALL.len();
+
+            /// The place of the effect among all.
+            #[must_use]
+            #[inline]
+            pub const fn index(self) -> usize {
+                match self {
+                    $(Self::$effect => Index::$effect as usize,)*
+                    Self::Layer(layer) => Index::Layers as usize + layer as usize,
+                }
+            }
+
+            /// The name, as in the books.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$effect => $name,)*
+                    Self::Layer(layer) => layer.name(),
+                }
+            }
+        }
+    };
+}
+
+effects! {
+    DepthBuffer "depth buffer",
+    NormalBuffer "normal buffer",
+    Surfaces "surfaces",
+    DirectLight "direct light",
+    Shadows "shadows",
+    SoftLight "soft light",
+    Highlight "highlight",
+    Mirror "mirror",
+    GlossyReflection "glossy mirror",
+    Refraction "refraction",
+    Depth "bounces",
+    Textures "textures",
+    NormalInterpolation "corner normals",
+    NormalMapping "normal maps",
+    Lens "lens",
+    Supersampling "supersampling",
+    Environment "environment",
+    Emission "emission",
+    Unlit "unlit surfaces",
+    Alpha "alpha",
+    Mis "light weights",
+    Microfacets "microfacets",
+    Compensation "compensation",
+    Volume "absorption",
+    Dispersion "dispersion",
+    VertexColors "corner colours",
+    EnvironmentMap "environment map",
 }
 
 impl Effect {
-    /// How many effects there are.
-    pub const COUNT: usize = Self::EnvironmentMap as usize + 1;
-
     /// The effects that pictures of the course alone may have.
     pub const OF_THE_COURSE: [Self; 6] = [
         Self::DepthBuffer,
@@ -53,74 +87,42 @@ impl Effect {
         Self::Mirror,
         Self::GlossyReflection,
     ];
-
-    /// The effects that traced paths may have.
-    pub const OF_PATHS: [Self; 25] = [
-        Self::Surfaces,
-        Self::Environment,
-        Self::EnvironmentMap,
-        Self::Emission,
-        Self::Unlit,
-        Self::Alpha,
-        Self::DirectLight,
-        Self::Shadows,
-        Self::Mis,
-        Self::Depth,
-        Self::Microfacets,
-        Self::Compensation,
-        Self::Clearcoat,
-        Self::Sheen,
-        Self::Anisotropy,
-        Self::Iridescence,
-        Self::Refraction,
-        Self::Volume,
-        Self::Dispersion,
-        Self::Textures,
-        Self::VertexColors,
-        Self::NormalInterpolation,
-        Self::NormalMapping,
-        Self::Lens,
-        Self::Supersampling,
-    ];
-
-    /// The name, as in the books.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DepthBuffer => "depth buffer",
-            Self::NormalBuffer => "normal buffer",
-            Self::Surfaces => "surfaces",
-            Self::DirectLight => "direct light",
-            Self::Shadows => "shadows",
-            Self::SoftLight => "soft light",
-            Self::Highlight => "highlight",
-            Self::Mirror => "mirror",
-            Self::GlossyReflection => "glossy mirror",
-            Self::Refraction => "refraction",
-            Self::Depth => "bounces",
-            Self::Textures => "textures",
-            Self::NormalInterpolation => "corner normals",
-            Self::NormalMapping => "normal maps",
-            Self::Lens => "lens",
-            Self::Supersampling => "supersampling",
-            Self::Environment => "environment",
-            Self::Emission => "emission",
-            Self::Unlit => "unlit surfaces",
-            Self::Alpha => "alpha",
-            Self::Mis => "light weights",
-            Self::Microfacets => "microfacets",
-            Self::Compensation => "compensation",
-            Self::Clearcoat => "clearcoat",
-            Self::Sheen => "sheen",
-            Self::Anisotropy => "anisotropy",
-            Self::Iridescence => "iridescence",
-            Self::Volume => "absorption",
-            Self::Dispersion => "dispersion",
-            Self::VertexColors => "corner colours",
-            Self::EnvironmentMap => "environment map",
-        }
-    }
 }
+
+/// The effects of traced paths, with the layers of the table.
+macro_rules! of_paths {
+    ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
+        impl Effect {
+            /// The effects that traced paths may have.
+            pub const OF_PATHS: [Self; 21 + Layer::ALL.len()] = [
+                Self::Surfaces,
+                Self::Environment,
+                Self::EnvironmentMap,
+                Self::Emission,
+                Self::Unlit,
+                Self::Alpha,
+                Self::DirectLight,
+                Self::Shadows,
+                Self::Mis,
+                Self::Depth,
+                Self::Microfacets,
+                Self::Compensation,
+                $(Self::Layer(Layer::$layer),)*
+                Self::Refraction,
+                Self::Volume,
+                Self::Dispersion,
+                Self::Textures,
+                Self::VertexColors,
+                Self::NormalInterpolation,
+                Self::NormalMapping,
+                Self::Lens,
+                Self::Supersampling,
+            ];
+        }
+    };
+}
+
+crate::standard::layers!(of_paths);
 
 impl State {
     /// The state in a word.

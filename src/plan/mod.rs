@@ -12,6 +12,7 @@ mod effect;
 pub mod facts;
 mod features;
 mod findings;
+mod layer;
 mod light;
 mod path;
 mod precision;
@@ -26,6 +27,7 @@ mod window;
 
 pub use effect::{Effect, State, Verdict};
 pub use features::{Features, PathFeatures, Shapes};
+pub use layer::Layer;
 pub use path::{EnvironmentLeft, LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{PixelClass, Region};

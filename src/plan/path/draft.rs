@@ -8,6 +8,7 @@ use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
 use crate::plan::body::Body;
 use crate::plan::effect::Effect;
+use crate::plan::layer::Layer;
 use crate::plan::window::Shown;
 use crate::valid::{Alpha, Map, Mesh, PathSettings, Proof, Punctual, Shape, Standard, Surface};
 use std::ops::Range;
@@ -166,12 +167,9 @@ impl Draft<'_> {
             Effect::Refraction | Effect::Volume => {
                 self.bounces() && self.any(|material| is_asked_by(material, effect))
             }
-            Effect::Dispersion
-            | Effect::Microfacets
-            | Effect::Clearcoat
-            | Effect::Sheen
-            | Effect::Anisotropy
-            | Effect::Iridescence => self.any(|material| is_asked_by(material, effect)),
+            Effect::Dispersion | Effect::Microfacets | Effect::Layer(_) => {
+                self.any(|material| is_asked_by(material, effect))
+            }
             Effect::Compensation => {
                 self.path.multiple_scattering
                     && self.any(|material| is_asked_by(material, Effect::Microfacets))
@@ -290,6 +288,13 @@ impl Draft<'_> {
     }
 }
 
+/// Whether light goes through a material.
+pub(super) fn lets_light_through(m: &Standard) -> bool {
+    let mut layers = Layer::ALL.into_iter();
+    let by_layer = layers.any(|layer| layer.transmits() && layer.is_in(m));
+    by_layer || m.transmission > UnitInterval::ZERO
+}
+
 /// Whether a material asks for an effect; false for effects that no material has.
 pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
     let weighs = |weight: UnitInterval| weight > UnitInterval::ZERO;
@@ -301,16 +306,13 @@ pub(super) fn is_asked_by(m: &Standard, effect: Effect) -> bool {
             let is_dielectric = weighs(m.specular) || m.specular_glossiness.is_some();
             is_dielectric || weighs(m.metallic) || weighs(m.iridescence) || weighs(m.transmission)
         }
-        Effect::Refraction => weighs(m.transmission),
+        Effect::Refraction => lets_light_through(m),
         Effect::Volume => {
             let absorbs = m.attenuation_distance.is_some() && m.attenuation_color != Vec3::ONE;
-            weighs(m.transmission) && m.thickness.get() > 0.0 && absorbs
+            lets_light_through(m) && m.thickness.get() > 0.0 && absorbs
         }
         Effect::Dispersion => m.dispersion.get() > 0.0 && weighs(m.transmission),
-        Effect::Clearcoat => weighs(m.clearcoat),
-        Effect::Sheen => m.sheen_color != Vec3::ZERO,
-        Effect::Anisotropy => weighs(m.anisotropy),
-        Effect::Iridescence => weighs(m.iridescence),
+        Effect::Layer(layer) => layer.is_in(m),
         Effect::DepthBuffer
         | Effect::NormalBuffer
         | Effect::Surfaces

@@ -2,7 +2,8 @@
 //! the values of their textures there.
 
 use super::texture::{Area, TextureValues};
-use crate::math::{UnitInterval, Vec3};
+use crate::math::UnitInterval;
+use crate::plan::Layer;
 use crate::plan::shape::shape_facts;
 use crate::valid::{Map, Proof, Shape, Standard};
 
@@ -119,11 +120,15 @@ impl Uses {
 pub(super) fn is_delta(m: &Standard, multiple_scattering: bool) -> bool {
     let is_0 = |number: UnitInterval| number == UnitInterval::ZERO;
     let is_1 = |number: UnitInterval| number == UnitInterval::ONE;
-    let is_smooth = is_0(m.roughness) && is_0(m.anisotropy) && m.specular_glossiness.is_none();
+    let is_smooth = is_0(m.roughness) && m.specular_glossiness.is_none();
     let is_metal = is_1(m.metallic) && m.metallic_roughness_map.is_none();
     let is_glass = is_1(m.transmission) && m.transmission_map.is_none();
     let is_black = m.base_color[..3].iter().all(|channel| is_0(*channel));
     let has_smooth_coat = is_0(m.clearcoat) || is_0(m.clearcoat_roughness);
     let has_base = !(is_metal || is_glass || is_black);
-    !multiple_scattering && is_smooth && !has_base && has_smooth_coat && m.sheen_color == Vec3::ZERO
+    // A coat and a film may be smooth; other layers spread light.
+    let spreads = |layer: Layer| !matches!(layer, Layer::Clearcoat | Layer::Iridescence);
+    let mut layers = Layer::ALL.into_iter().filter(|layer| layer.is_in(m));
+    let is_delta = is_smooth && has_smooth_coat && !layers.any(spreads);
+    !multiple_scattering && is_delta && !has_base
 }

@@ -17,6 +17,7 @@ use super::body::bodies;
 use super::effect::{Effect, Verdict};
 use super::facts as facts_seen;
 use super::features::PathFeatures;
+use super::layer::Layer;
 use super::rules::Rules;
 use super::window::{Shown, Window};
 use crate::math::Vec3;
@@ -151,15 +152,7 @@ fn features(draft: &Draft<'_>, rules: Rules) -> PathFeatures {
         (PathFeatures::AIM, asks(&[Effect::DirectLight])),
         (PathFeatures::MICROFACETS, asks(&[Effect::Microfacets])),
         (PathFeatures::TRANSMISSION, draft.transmits()),
-        (
-            PathFeatures::LAYERS,
-            asks(&[
-                Effect::Clearcoat,
-                Effect::Sheen,
-                Effect::Anisotropy,
-                Effect::Iridescence,
-            ]),
-        ),
+        (PathFeatures::LAYERS, asks(&Layer::ALL.map(Effect::Layer))),
         (PathFeatures::SHADOWS, asks(&[Effect::Shadows])),
     ];
     let needed = all.into_iter().filter(|(_, is_asked)| *is_asked);

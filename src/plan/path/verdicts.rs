@@ -66,10 +66,7 @@ fn absence(effect: Effect) -> &'static str {
         Effect::Dispersion => "no material disperses light",
         Effect::Microfacets => "no material reflects at its boundary",
         Effect::Compensation => "no light bounces between microfacets",
-        Effect::Clearcoat => "no material has a clearcoat",
-        Effect::Sheen => "no material has sheen",
-        Effect::Anisotropy => "no material is anisotropic",
-        Effect::Iridescence => "no material is iridescent",
+        Effect::Layer(layer) => layer.absence(),
         Effect::Textures => "no material has a texture",
         Effect::NormalMapping => "no material has a normal map",
         Effect::NormalInterpolation => "no mesh has normals",
@@ -143,10 +140,7 @@ impl Draft<'_> {
             | Effect::Refraction
             | Effect::Volume
             | Effect::Dispersion
-            | Effect::Clearcoat
-            | Effect::Sheen
-            | Effect::Anisotropy
-            | Effect::Iridescence
+            | Effect::Layer(_)
             | Effect::DepthBuffer
             | Effect::NormalBuffer
             | Effect::SoftLight

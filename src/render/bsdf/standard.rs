@@ -2,6 +2,7 @@
 
 use super::fresnel::normal_reflectance;
 use crate::math::Vec3;
+use crate::plan::Layer;
 
 /// The material of glTF 2.0 and its KHR extensions at one point, but for emission, alpha and the
 /// volume inside.
@@ -106,3 +107,18 @@ impl StandardParameters {
         (self.specular_color * normal_reflectance(self.ior)).min(Vec3::ONE) * self.specular
     }
 }
+
+/// Which layers a material has at a point, from their table.
+macro_rules! layers {
+    ($($(#[doc = $about:literal])* $layer:ident = $slot:ident { $($row:tt)* })*) => {
+        impl StandardParameters {
+            /// Each layer, and whether the material has it here.
+            #[inline]
+            pub(in crate::render) fn layers(&self) -> [(Layer, bool); Layer::ALL.len()] {
+                [$((Layer::$layer, self.$slot.is_some())),*]
+            }
+        }
+    };
+}
+
+crate::standard::layers!(layers);

@@ -58,7 +58,7 @@ impl Counts {
     /// Counts an evaluation of an effect.
     #[inline]
     pub(in crate::render) fn add(&mut self, effect: Effect) {
-        self.evaluations[effect as usize] += 1;
+        self.evaluations[effect.index()] += 1;
     }
 
     /// How often an effect was simulated: its rays, or its evaluations.
@@ -88,14 +88,11 @@ impl Counts {
             | Effect::Mis
             | Effect::Microfacets
             | Effect::Compensation
-            | Effect::Clearcoat
-            | Effect::Sheen
-            | Effect::Anisotropy
-            | Effect::Iridescence
+            | Effect::Layer(_)
             | Effect::Volume
             | Effect::Dispersion
             | Effect::VertexColors
-            | Effect::EnvironmentMap => self.evaluations[effect as usize],
+            | Effect::EnvironmentMap => self.evaluations[effect.index()],
         }
     }
 

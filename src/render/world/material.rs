@@ -3,7 +3,7 @@
 
 use super::texture::Textures;
 use crate::math::{UnitInterval, Vec3, cos, ln, sin};
-use crate::plan::{Effect, PathPlan, Plan, Rule};
+use crate::plan::{Effect, Layer, PathPlan, Plan, Rule};
 use crate::render::bsdf::dispersed;
 use crate::render::material::phong::{PhongMaps, PhongMaterial};
 use crate::render::material::standard::{
@@ -191,27 +191,8 @@ fn shading_maps(m: &Standard) -> impl Iterator<Item = &valid::Map> {
             m.specular_color_map.as_ref(),
         ],
     };
-    let coat = [&m.clearcoat_map, &m.clearcoat_roughness_map];
-    let coat = coat
-        .into_iter()
-        .flatten()
-        .filter(|_| m.clearcoat > UnitInterval::ZERO);
-    let sheen = [&m.sheen_color_map, &m.sheen_roughness_map];
-    let sheen = sheen
-        .into_iter()
-        .flatten()
-        .filter(|_| m.sheen_color != Vec3::ZERO);
-    let film = [&m.iridescence_map, &m.iridescence_thickness_map];
-    let film = film
-        .into_iter()
-        .flatten()
-        .filter(|_| m.iridescence > UnitInterval::ZERO);
-    let stretch = m
-        .anisotropy_map
-        .iter()
-        .filter(|_| m.anisotropy > UnitInterval::ZERO);
     let base = reflection.into_iter().flatten().chain(&m.transmission_map);
-    base.chain(coat).chain(sheen).chain(film).chain(stretch)
+    base.chain(Layer::maps(m))
 }
 
 /// The coefficient of absorption of the medium inside, per unit of length.

@@ -3,9 +3,9 @@
 use super::PathRule;
 use crate::image::Texels;
 use crate::ir::{Field, Noun, Place};
-use crate::math::{UnitInterval, Vec3};
+use crate::math::Vec3;
 use crate::plan::body::{Body, Hull};
-use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft};
+use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_through};
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
 use crate::plan::space::{Flat, MARGIN, Sides, Space};
@@ -149,8 +149,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
         draft.scene.camera().eye,
         Vec3::splat(draft.scene.camera().lens.radius.get()),
     );
-    let keeps_rays_out =
-        material.transmission == UnitInterval::ZERO && material.alpha == Alpha::Opaque;
+    let keeps_rays_out = !lets_light_through(material) && material.alpha == Alpha::Opaque;
     let is_dark = material.emissive == Vec3::ZERO;
     let is_perspective = draft.scene.camera().projection == crate::valid::Projection::Perspective;
     let spares = match body.form {

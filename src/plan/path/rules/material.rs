@@ -2,6 +2,7 @@
 
 use super::PathRule;
 use crate::math::{NonNegative, UnitInterval, Vec3};
+use crate::plan::Layer;
 use crate::plan::facts;
 use crate::plan::path::draft::Draft;
 use crate::plan::rules::Rule;
@@ -28,17 +29,13 @@ fn without_zeros(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
         new.double_sided = !m.is_seen_from_one_side();
         new.transmission = UnitInterval::ZERO;
     }
-    if weighs(m.clearcoat) && is_zero(&m.clearcoat_map, 0) {
-        new.clearcoat = UnitInterval::ZERO;
+    for layer in Layer::ALL.into_iter().filter(|layer| layer.is_in(m)) {
+        let (map, channels) = layer.weight_map(m);
+        if draft.is_zero(index, map, channels) {
+            layer.remove(&mut new);
+        }
     }
-    if m.sheen_color != Vec3::ZERO && are_zero(&m.sheen_color_map) {
-        new.sheen_color = Vec3::ZERO;
-    }
-    if weighs(m.anisotropy) && is_zero(&m.anisotropy_map, 2) {
-        new.anisotropy = UnitInterval::ZERO;
-    }
-    let is_thin = m.iridescence_thickness == [NonNegative::ZERO; 2];
-    if weighs(m.iridescence) && (is_thin || is_zero(&m.iridescence_map, 0)) {
+    if m.iridescence_thickness == [NonNegative::ZERO; 2] {
         new.iridescence = UnitInterval::ZERO;
     }
     if weighs(m.specular) && is_zero(&m.specular_map, 3) {

@@ -3,6 +3,7 @@
 use super::PathRule;
 use crate::ir::{Field, Noun, Place};
 use crate::math::{UnitInterval, Vec3};
+use crate::plan::Layer;
 use crate::plan::path::draft::Draft;
 use crate::plan::path::facts::Presence;
 use crate::plan::rules::Rule;
@@ -24,7 +25,7 @@ fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
     let is_shaded = draft.max_depth > 0 && !m.unlit;
     let is_clear = !weighs(m.transmission);
     let is_metal_or_rough = is_shaded && (weighs(m.metallic) || weighs(m.roughness));
-    let conditions: [(&mut Option<Map>, bool); 17] = [
+    let conditions = [
         (&mut new.base_color_map, true),
         (
             &mut new.metallic_roughness_map,
@@ -44,35 +45,20 @@ fn without_unseen(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
         (&mut new.transmission_map, is_shaded && !is_clear),
         // No integrator reads the thickness of a volume: rays measure it.
         (&mut new.thickness_map, false),
-        (&mut new.clearcoat_map, is_shaded && weighs(m.clearcoat)),
-        (
-            &mut new.clearcoat_roughness_map,
-            is_shaded && weighs(m.clearcoat) && weighs(m.clearcoat_roughness),
-        ),
         (
             &mut new.clearcoat_normal_map,
             is_shaded && weighs(m.clearcoat),
         ),
-        (
-            &mut new.sheen_color_map,
-            is_shaded && m.sheen_color != Vec3::ZERO,
-        ),
-        (
-            &mut new.sheen_roughness_map,
-            is_shaded && m.sheen_color != Vec3::ZERO && weighs(m.sheen_roughness),
-        ),
-        (&mut new.anisotropy_map, is_shaded && weighs(m.anisotropy)),
-        (&mut new.iridescence_map, is_shaded && weighs(m.iridescence)),
-        (
-            &mut new.iridescence_thickness_map,
-            is_shaded && weighs(m.iridescence),
-        ),
     ];
-    for (map, shows) in conditions {
+    let keep = |map: &mut Option<Map>, shows: bool| {
         let has_places = |map: &Map| draft.uses[index].presence(map) != Presence::Never;
-        if !(shows && map.as_ref().is_some_and(has_places)) {
-            *map = None;
-        }
+        *map = map.filter(|map| shows && has_places(map));
+    };
+    for (map, shows) in conditions {
+        keep(map, shows);
+    }
+    for layer in Layer::ALL {
+        layer.each_map(&mut new, |map, shows| keep(map, is_shaded && shows));
     }
     new
 }

@@ -165,10 +165,9 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         count(Effect::Microfacets, bsdf.reflects());
         count(Effect::Compensation, bsdf.compensates());
         if Self::can(PathFeatures::LAYERS) {
-            count(Effect::Clearcoat, standard.clearcoat.is_some());
-            count(Effect::Sheen, standard.sheen.is_some());
-            count(Effect::Anisotropy, standard.anisotropy.is_some());
-            count(Effect::Iridescence, standard.iridescence.is_some());
+            for (layer, is_there) in standard.layers() {
+                count(Effect::Layer(layer), is_there);
+            }
         }
         debug_assert!(!material.is_unlit, "a path ends on an unlit surface");
     }

@@ -1,0 +1,40 @@
+//! Numbers and colours by which something is weighed.
+
+use super::{UnitInterval, Vec3};
+
+/// A factor that may be nothing.
+pub trait Weight: Copy {
+    /// The weight of what is not there.
+    const NOTHING: Self;
+
+    /// Whether it is more than nothing.
+    fn weighs(self) -> bool;
+}
+
+impl Weight for f64 {
+    const NOTHING: Self = 0.0;
+
+    #[inline]
+    fn weighs(self) -> bool {
+        self > 0.0
+    }
+}
+
+impl Weight for UnitInterval {
+    const NOTHING: Self = Self::ZERO;
+
+    #[inline]
+    fn weighs(self) -> bool {
+        self > Self::ZERO
+    }
+}
+
+/// A colour weighs something if any channel does.
+impl Weight for Vec3 {
+    const NOTHING: Self = Self::ZERO;
+
+    #[inline]
+    fn weighs(self) -> bool {
+        self != Self::ZERO
+    }
+}
