@@ -7,6 +7,8 @@ use rtc::ir::{
     PathSettings, Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
 };
 
+use serde_json::json;
+
 /// Textures that a map may show.
 const TEXTURES: u32 = 6;
 
@@ -163,8 +165,29 @@ impl Dice {
             anisotropy_map: self.path_map(),
             iridescence: self.pick(&[0.0, 0.0, 1.0]),
             iridescence_map: self.path_map(),
-            ..Standard::default()
+            ..self.unnamed()
         }
+    }
+
+    /// A material whose factors, colours and maps are all thrown, so that one that no scene above
+    /// names is met as well. They have dice of their own: a new one leaves the other throws alone.
+    fn unnamed(&self) -> Standard {
+        let mut dice = Self(!self.0);
+        let mut material = serde_json::to_value(Standard::default()).unwrap();
+        let schema = schemars::schema_for!(Standard);
+        for (name, property) in schema.get("properties").unwrap().as_object().unwrap() {
+            let default = property["default"].as_f64();
+            let value = match property["type"].as_str() {
+                Some("array") if property["maxItems"] == 3 => {
+                    json!(dice.pick(&[[0.0; 3], [0.5, 0.2, 0.9], [1.0; 3]]))
+                }
+                Some("number") if default.is_none() => json!(dice.weight()),
+                None if name.ends_with("Map") => json!(dice.path_map()),
+                Some(_) | None => continue,
+            };
+            material[name] = value;
+        }
+        serde_json::from_value(material).unwrap()
     }
 
     fn path_light(&mut self) -> ir::Light {
