@@ -20,7 +20,7 @@ macro_rules! parameters {
             specular_glossiness: some_fractions = None, "Option::is_none";
             specular_glossiness_map: map = None, "Option::is_none";
             /// The radiance, strength included.
-            emissive: color = [0.0; 3], "are_zero";
+            emissive: color = [0.0; 3], "is_zero";
             emissive_map: map = None, "Option::is_none";
             normal_map: map = None, "Option::is_none";
             normal_scale: number = 1.0, "is_one";
@@ -49,7 +49,7 @@ macro_rules! parameters {
             clearcoat_roughness_map: map = None, "Option::is_none";
             clearcoat_normal_map: map = None, "Option::is_none";
             clearcoat_normal_scale: number = 1.0, "is_one";
-            sheen_color: fraction_color = [0.0; 3], "are_zero";
+            sheen_color: fraction_color = [0.0; 3], "is_zero";
             sheen_color_map: map = None, "Option::is_none";
             sheen_roughness: fraction = 0.0, "is_zero";
             sheen_roughness_map: map = None, "Option::is_none";
@@ -155,4 +155,17 @@ macro_rules! layers {
     };
 }
 
-pub(crate) use {extensions, layers, parameters};
+/// The layers whose parts are numbers and colours times maps, and no more: `field: Prepared =>
+/// Parameters { part: kind(factor, map, channel); }`. The first part weighs the layer.
+macro_rules! plain_layers {
+    ($then:ident) => {
+        $then! {
+            sheen: SheenLayer => Sheen {
+                color: tint(sheen_color, sheen_color_map);
+                roughness: number(sheen_roughness, sheen_roughness_map, 3);
+            }
+        }
+    };
+}
+
+pub(crate) use {extensions, layers, parameters, plain_layers};

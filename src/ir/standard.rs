@@ -138,22 +138,28 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde hands over a reference"
-)]
-fn is_zero(value: &f64) -> bool {
-    value.to_bits() == 0
+/// A number, or several.
+trait Numbers {
+    /// Whether all are the number given, bit for bit.
+    fn are(&self, number: f64) -> bool;
 }
 
-fn are_zero(values: &[f64; 3]) -> bool {
-    values.iter().all(is_zero)
+impl Numbers for f64 {
+    fn are(&self, number: f64) -> bool {
+        self.to_bits() == number.to_bits()
+    }
 }
 
-#[expect(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "serde hands over a reference"
-)]
-fn is_one(value: &f64) -> bool {
-    value.to_bits() == 1.0_f64.to_bits()
+impl Numbers for [f64; 3] {
+    fn are(&self, number: f64) -> bool {
+        self.iter().all(|own| own.are(number))
+    }
+}
+
+fn is_zero(numbers: &impl Numbers) -> bool {
+    numbers.are(0.0)
+}
+
+fn is_one(numbers: &impl Numbers) -> bool {
+    numbers.are(1.0)
 }

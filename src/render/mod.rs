@@ -18,10 +18,8 @@ mod world;
 
 pub use accel::bounds::Bounds;
 pub use bsdf::optics::{highlight, reflect, refract};
-pub use bsdf::{
-    Anisotropy, Bsdf, BsdfSample, Clearcoat, Evaluation, Iridescence, Lobes, Sheen,
-    StandardParameters, dispersed,
-};
+pub use bsdf::standard::*;
+pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};
 pub use camera::{Camera, Projection, camera_ray, image_point, vogel};
 pub use film::heartbeat::{OnPixel, Step};
 pub use film::partial::{FilmError, PartialFilm};

@@ -45,6 +45,15 @@ fn returned(mean: Vec3, missing: f64) -> Vec3 {
     whole.clamp(Vec3::ZERO, Vec3::ONE)
 }
 
+/// A diffuse lobe by the fractions of light that pass at either direction and in the mean.
+fn product(here: f64, there: f64, mean: f64) -> f64 {
+    if mean > 0.0 {
+        (here * there / (mean * PI)).max(0.0)
+    } else {
+        0.0
+    }
+}
+
 impl Compensation {
     /// For a surface of which `metallic` is metal.
     #[must_use]
@@ -102,23 +111,24 @@ impl Compensation {
         self.base.left
     }
 
-    /// The BRDF of a base of the albedo given, and of the further bounces.
+    /// The albedo of white microfacets towards a direction.
+    pub(super) fn towards(&self, cosine: f64) -> Split {
+        tables().specular(self.roughness, cosine)
+    }
+
+    /// The BSDF of a white base, by the albedo [`Self::towards`] the light.
     #[must_use]
-    pub(super) fn f(&self, base: Vec3, cosine: f64) -> Vec3 {
-        let e = tables().specular(self.roughness, cosine);
-        let fraction = |here: f64, there: f64, mean: f64| {
-            if mean > 0.0 {
-                here * there / (mean * PI)
-            } else {
-                0.0
-            }
-        };
-        let below = fraction(
+    pub(super) fn base_f(&self, e: Split) -> f64 {
+        product(
             self.base.left,
             1.0 - self.base.covered(e),
             self.base.left_mean,
-        );
-        let again = fraction(self.missing, 1.0 - e.whole(), self.missing_mean);
-        base * below.max(0.0) + self.returned * again.max(0.0)
+        )
+    }
+
+    /// The BRDF of the further bounces, by the albedo [`Self::towards`] the light.
+    #[must_use]
+    pub(super) fn bounces_f(&self, e: Split) -> Vec3 {
+        self.returned * product(self.missing, 1.0 - e.whole(), self.missing_mean)
     }
 }

@@ -12,12 +12,12 @@ mod ggx;
 mod microfacet;
 pub(in crate::render) mod optics;
 mod sheen;
-mod standard;
+mod side;
+pub(in crate::render) mod standard;
 mod thin_film;
 mod warp;
 
 pub use fresnel::dispersed;
-pub use standard::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
 
 use crate::math::Vec3;
 use crate::plan::PathFeatures;
@@ -25,6 +25,8 @@ use coat::Coat;
 use compensation::Compensation;
 use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
 use sheen::Fibres;
+use side::Side;
+use standard::StandardParameters;
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
@@ -260,7 +262,10 @@ impl<const F: u32> Lobes<F> {
         // Add the diffuse base, and the multiple bounces.
         sum.f += match self.compensation() {
             None => self.diffuse * (weights.entering * FRAC_1_PI),
-            Some(compensation) => compensation.f(self.diffuse, wi.z),
+            Some(compensation) => {
+                let e = compensation.towards(wi.z);
+                self.diffuse * compensation.base_f(e) + compensation.bounces_f(e)
+            }
         };
         sum
     }
@@ -318,34 +323,5 @@ impl<const F: u32> Lobes<F> {
             pdf,
             delta: true,
         })
-    }
-}
-
-/// The rotation of the frame that brings the viewer above and the anisotropy along x.
-#[derive(Clone, Copy, Debug)]
-struct Side {
-    below: bool,
-    along: [f64; 2],
-}
-
-impl Side {
-    #[inline]
-    fn enter(self, w: Vec3) -> Vec3 {
-        let [c, s] = self.along;
-        Vec3::new(
-            c * w.x + s * w.y,
-            c * w.y - s * w.x,
-            if self.below { -w.z } else { w.z },
-        )
-    }
-
-    #[inline]
-    fn leave(self, w: Vec3) -> Vec3 {
-        let [c, s] = self.along;
-        Vec3::new(
-            c * w.x - s * w.y,
-            c * w.y + s * w.x,
-            if self.below { -w.z } else { w.z },
-        )
     }
 }

@@ -1,7 +1,7 @@
 //! The glTF material at a hit: factors times maps, the shading frame, emission and opacity.
 
 use crate::math::{Basis, Vec3};
-use crate::render::bsdf::{Anisotropy, Clearcoat, Iridescence, Sheen, StandardParameters};
+use crate::render::bsdf::standard::*;
 use crate::render::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
@@ -88,11 +88,8 @@ impl<'world> MaterialPoint<'world> {
             specular_color: Vec3::ONE,
             transmission: m.transmission.at(&self.uvs),
             thin_walled: !m.bounds_a_volume,
-            anisotropy: None,
-            clearcoat: None,
-            sheen: None,
-            iridescence: None,
             multiple_scattering: multiple,
+            ..StandardParameters::default()
         };
         self.reflect(&mut standard, channel);
         self.add_layers(&mut standard, frame, clearcoat);
@@ -129,15 +126,12 @@ impl<'world> MaterialPoint<'world> {
 
     fn add_layers(&self, standard: &mut StandardParameters, frame: &ShadingFrame, clearcoat: Vec3) {
         let (m, uvs) = (self.material, &self.uvs);
+        m.plain.add(standard, uvs);
         // Omit layers whose maps are 0 here.
         let coat = m.clearcoat.as_ref().map(|layer| Clearcoat {
             factor: layer.factor.at(uvs),
             roughness: layer.roughness.at(uvs),
             normal: frame.to_local(clearcoat),
-        });
-        let sheen = m.sheen.as_ref().map(|layer| Sheen {
-            color: layer.color.at(uvs),
-            roughness: layer.roughness.at(uvs),
         });
         let film = m.iridescence.as_ref().map(|layer| Iridescence {
             factor: layer.factor.at(uvs),
@@ -145,7 +139,6 @@ impl<'world> MaterialPoint<'world> {
             thickness: layer.min + layer.spread.at(uvs),
         });
         standard.clearcoat = coat.filter(|coat| coat.factor > 0.0);
-        standard.sheen = sheen.filter(|sheen| sheen.color != Vec3::ZERO);
         standard.iridescence = film.filter(|film| film.factor > 0.0);
         standard.anisotropy = frame.stretch;
     }

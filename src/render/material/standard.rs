@@ -1,6 +1,7 @@
 //! The glTF material, prepared: defaults are resolved, and each map holds its image.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, Weight};
+use crate::render::bsdf::standard::*;
 use crate::render::shape::geometry::Asked;
 use crate::render::texture::sampled::{Map, UvSets};
 
@@ -28,8 +29,8 @@ pub(in crate::render) struct StandardMaterial {
     /// The absorption coefficient of that medium, per unit of length.
     pub(in crate::render) absorption: Vec3,
     pub(in crate::render) normal: Option<NormalMap>,
+    pub(in crate::render) plain: PlainLayers,
     pub(in crate::render) clearcoat: Option<ClearcoatLayer>,
-    pub(in crate::render) sheen: Option<SheenLayer>,
     pub(in crate::render) anisotropy: Option<AnisotropyLayer>,
     pub(in crate::render) iridescence: Option<IridescenceLayer>,
 }
@@ -114,12 +115,59 @@ pub(in crate::render) struct ClearcoatLayer {
     pub(in crate::render) normal: Option<NormalMap>,
 }
 
-/// The sheen layer.
-#[derive(Clone, Debug)]
-pub(in crate::render) struct SheenLayer {
-    pub(in crate::render) color: Tint,
-    pub(in crate::render) roughness: Number,
+/// The prepared part of a layer, of a kind of the table.
+macro_rules! prepared {
+    (number) => {
+        Number
+    };
+    (tint) => {
+        Tint
+    };
 }
+
+/// The layers of the table that are made of numbers and colours alone.
+macro_rules! plain_layers {
+    ($($layer:ident: $prepared:ident => $parameters:ident {
+        $weight:ident: $weight_kind:ident($($of_weight:tt)*);
+        $($part:ident: $kind:ident($($of:tt)*);)*
+    })*) => {
+        /// The layers whose parts are numbers and colours times maps.
+        #[derive(Clone, Debug)]
+        pub(in crate::render) struct PlainLayers {
+            $(pub(in crate::render) $layer: Option<$prepared>,)*
+        }
+
+        impl PlainLayers {
+            /// Adds them to the parameters at a point.
+            #[inline]
+            pub(in crate::render) fn add(&self, standard: &mut StandardParameters, uvs: &UvSets) {
+                $(standard.$layer = self.$layer.as_ref().and_then(|layer| layer.at(uvs));)*
+            }
+        }
+
+        $(
+            #[derive(Clone, Debug)]
+            pub(in crate::render) struct $prepared {
+                pub(in crate::render) $weight: prepared!($weight_kind),
+                $(pub(in crate::render) $part: prepared!($kind),)*
+            }
+
+            impl $prepared {
+                /// The layer at a point; `None` where its map is 0.
+                #[inline]
+                fn at(&self, uvs: &UvSets) -> Option<$parameters> {
+                    let layer = $parameters {
+                        $weight: self.$weight.at(uvs),
+                        $($part: self.$part.at(uvs),)*
+                    };
+                    layer.$weight.weighs().then_some(layer)
+                }
+            }
+        )*
+    };
+}
+
+crate::standard::plain_layers!(plain_layers);
 
 /// The anisotropy of the highlights.
 #[derive(Clone, Debug)]

@@ -2,14 +2,11 @@
 //! everywhere worked out, maps with their images at hand.
 
 use super::texture::Textures;
-use crate::math::{UnitInterval, Vec3, cos, ln, sin};
+use crate::math::{UnitInterval, Vec3, Weight, cos, ln, sin};
 use crate::plan::{Effect, Layer, PathPlan, Plan, Rule};
 use crate::render::bsdf::dispersed;
 use crate::render::material::phong::{PhongMaps, PhongMaterial};
-use crate::render::material::standard::{
-    Alpha, AnisotropyLayer, ClearcoatLayer, IridescenceLayer, MapSource, NormalMap, Number,
-    Reflection, Rgba, SheenLayer, StandardMaterial, Tint,
-};
+use crate::render::material::standard::*;
 use crate::render::shape::geometry::Asked;
 use crate::render::texture::bilinear::Bump;
 use crate::render::texture::sampled::{ColorSpace, UvSets};
@@ -171,11 +168,8 @@ pub(super) fn standard(
         bounds_a_volume: m.thickness.get() > 0.0,
         absorption: absorption(m),
         normal: slots.normal(m.normal_map.as_ref(), m.normal_scale),
+        plain: slots.plain_layers(m),
         clearcoat: (m.clearcoat > UnitInterval::ZERO).then(|| slots.clearcoat(m)),
-        sheen: (m.sheen_color != Vec3::ZERO).then(|| SheenLayer {
-            color: slots.tint(m.sheen_color, m.sheen_color_map.as_ref()),
-            roughness: slots.number(m.sheen_roughness, m.sheen_roughness_map.as_ref(), 3),
-        }),
         anisotropy: (m.anisotropy > UnitInterval::ZERO).then(|| slots.anisotropy(m)),
         iridescence: (m.iridescence > UnitInterval::ZERO).then(|| slots.iridescence(m)),
     }
@@ -333,3 +327,28 @@ impl Slots<'_> {
         }
     }
 }
+
+/// Prepares the layers of the table that are made of numbers and colours alone.
+macro_rules! plain_layers {
+    ($($layer:ident: $prepared:ident => $parameters:ident {
+        $weight:ident: $weight_kind:ident($of_weight:ident, $weight_map:ident $(, $weight_channel:literal)?);
+        $($part:ident: $kind:ident($factor:ident, $map:ident $(, $channel:literal)?);)*
+    })*) => {
+        impl Slots<'_> {
+            fn plain_layers(&self, m: &Standard) -> PlainLayers {
+                PlainLayers {
+                    $($layer: m.$of_weight.weighs().then(|| $prepared {
+                        $weight: self.$weight_kind(
+                            m.$of_weight,
+                            m.$weight_map.as_ref()
+                            $(, $weight_channel)?
+                        ),
+                        $($part: self.$kind(m.$factor, m.$map.as_ref() $(, $channel)?),)*
+                    }),)*
+                }
+            }
+        }
+    };
+}
+
+crate::standard::plain_layers!(plain_layers);
