@@ -76,7 +76,7 @@ impl PathFeatures {
     pub const MICROFACETS: Self = Self(1 << 3);
     /// Light goes through surfaces.
     pub const TRANSMISSION: Self = Self(1 << 4);
-    /// Clearcoat, sheen, anisotropy or iridescence.
+    /// Layers of a material ([`super::Layer`]).
     pub const LAYERS: Self = Self(1 << 5);
     /// All of them.
     pub const EVERYTHING: Self = Self((1 << 6) - 1);
