@@ -63,6 +63,10 @@ macro_rules! parameters {
             /// From the least to the greatest, in nanometres.
             iridescence_thickness: pair = [100.0, 400.0], "never";
             iridescence_thickness_map: map = None, "Option::is_none";
+            diffuse_transmission: fraction = 0.0, "is_zero";
+            diffuse_transmission_map: map = None, "Option::is_none";
+            diffuse_transmission_color: fraction_color = [1.0; 3], "is_one";
+            diffuse_transmission_color_map: map = None, "Option::is_none";
         }
     };
 }
@@ -111,6 +115,12 @@ macro_rules! extensions {
                 anisotropy_rotation: number "anisotropyRotation";
                 anisotropy_map: map "anisotropyTexture";
             }
+            "KHR_materials_diffuse_transmission" {
+                diffuse_transmission: fraction "diffuseTransmissionFactor";
+                diffuse_transmission_map: map "diffuseTransmissionTexture";
+                diffuse_transmission_color: fraction_color "diffuseTransmissionColorFactor";
+                diffuse_transmission_color_map: map "diffuseTransmissionColorTexture";
+            }
         }
     };
 }
@@ -151,6 +161,14 @@ macro_rules! layers {
                 maps: iridescence * iridescence_map, iridescence * iridescence_thickness_map;
                 transmits: false;
             }
+            /// `KHR_materials_diffuse_transmission`.
+            DiffuseTransmission = diffuse_transmission {
+                told: "translucency", "no material is translucent";
+                weight: diffuse_transmission * diffuse_transmission_map [3..4];
+                maps: diffuse_transmission * diffuse_transmission_map,
+                    diffuse_transmission_color * diffuse_transmission_color_map;
+                transmits: true;
+            }
         }
     };
 }
@@ -163,6 +181,10 @@ macro_rules! plain_layers {
             sheen: SheenLayer => Sheen {
                 color: tint(sheen_color, sheen_color_map);
                 roughness: number(sheen_roughness, sheen_roughness_map, 3);
+            }
+            diffuse_transmission: DiffuseTransmissionLayer => DiffuseTransmission {
+                factor: number(diffuse_transmission, diffuse_transmission_map, 3);
+                color: tint(diffuse_transmission_color, diffuse_transmission_color_map);
             }
         }
     };

@@ -11,7 +11,10 @@ mod energy;
 mod known;
 
 use rtc::math::Vec3;
-use rtc::render::{Anisotropy, Bsdf, Clearcoat, Iridescence, Sheen, StandardParameters};
+use rtc::render::{
+    Anisotropy, Bsdf, Clearcoat, DiffuseTransmission, Iridescence, Sheen, StandardParameters,
+};
+use std::f64::consts::FRAC_1_PI;
 
 /// A point of the unit cube out of a rank-1 lattice, by the inverse powers of the plastic number of
 /// three dimensions.
@@ -73,6 +76,10 @@ fn variety() -> Vec<(&'static str, StandardParameters)> {
         factor: 0.7,
         ior: 1.3,
         thickness: 420.0,
+    };
+    let leaf = DiffuseTransmission {
+        factor: 0.6,
+        color: Vec3::new(0.3, 0.8, 1.0),
     };
     let (cosine, sine) = (0.3, 0.91_f64.sqrt());
     let brushed = Anisotropy {
@@ -152,6 +159,22 @@ fn variety() -> Vec<(&'static str, StandardParameters)> {
                 ..plain
             },
         ),
+        (
+            "leaf",
+            StandardParameters {
+                diffuse_transmission: Some(leaf),
+                ..plain
+            },
+        ),
+        (
+            "leaf of one scatter",
+            StandardParameters {
+                diffuse_transmission: Some(leaf),
+                sheen: Some(sheen),
+                multiple_scattering: false,
+                ..plain
+            },
+        ),
         ("body", body),
         (
             "diamond",
@@ -170,8 +193,62 @@ fn variety() -> Vec<(&'static str, StandardParameters)> {
                 clearcoat: Some(coat),
                 sheen: Some(sheen),
                 iridescence: Some(film),
+                diffuse_transmission: Some(leaf),
                 ..body
             },
         ),
     ]
+}
+
+/// `KHR_materials_diffuse_transmission`: the diffuse BRDF of the base colour, mixed with a diffuse
+/// BTDF of the colour of transmission.
+#[test]
+fn a_leaf_mixes_lambert_before_it_and_behind_it() {
+    let (base_color, color) = (Vec3::new(0.9, 0.4, 0.2), Vec3::new(0.3, 0.8, 1.0));
+    for (factor, transmission, metallic) in [(0.0, 0.0, 0.0), (0.25, 0.0, 0.0), (1.0, 0.6, 0.5)] {
+        let matt = StandardParameters {
+            base_color,
+            metallic,
+            transmission,
+            specular: 0.0,
+            ..StandardParameters::default()
+        };
+        let leaf = StandardParameters {
+            diffuse_transmission: Some(DiffuseTransmission { factor, color }),
+            ..matt
+        };
+        // Seen from either side, and lit from either.
+        for (o, i) in [(0.9, 0.2), (0.9, -0.2), (-0.3, -0.7), (-0.3, 0.7)] {
+            let f = |material| Bsdf::new(material, view(o)).evaluate(view(i)).f;
+            let diffuse = color * factor * (1.0 - metallic) * (1.0 - transmission);
+            let expected = if o * i < 0.0 {
+                f(&matt) + diffuse * FRAC_1_PI
+            } else {
+                let before = base_color * factor * (1.0 - metallic) * (1.0 - transmission);
+                f(&matt) - before * FRAC_1_PI
+            };
+            let error = (f(&leaf) - expected).abs().max_element();
+            assert!(error < 1e-3, "{factor} {transmission} {metallic} {o} {i}: {error}");
+        }
+    }
+}
+
+/// What a white leaf does not reflect it transmits, under its boundary too.
+#[test]
+fn a_white_leaf_in_a_white_sky_is_white_on_both_sides() {
+    for (factor, roughness) in [(0.3, 0.1), (0.3, 0.7), (1.0, 0.4)] {
+        let leaf = StandardParameters {
+            roughness,
+            diffuse_transmission: Some(DiffuseTransmission {
+                factor,
+                color: Vec3::ONE,
+            }),
+            ..StandardParameters::default()
+        };
+        for cosine in [0.9, 0.3, -0.6] {
+            let whole = albedo(&leaf, view(cosine), 1 << 14);
+            let error = (whole - Vec3::ONE).abs().max_element();
+            assert!(error < 0.005, "{factor} {roughness} {cosine}: {whole}");
+        }
+    }
 }

@@ -26,7 +26,7 @@ use compensation::Compensation;
 use microfacet::{LobeWeights, Microfacet, ScatteredDirection};
 use sheen::Fibres;
 use side::Side;
-use standard::StandardParameters;
+use standard::{DiffuseTransmission, StandardParameters};
 use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
@@ -38,6 +38,11 @@ const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
 /// Whether the features `F` hold one: known at compile time.
 const fn can<const F: u32>(feature: PathFeatures) -> bool {
     PathFeatures(F).contains(feature)
+}
+
+/// A direction on the other side of the surface.
+fn mirrored(w: Vec3) -> Vec3 {
+    Vec3::new(w.x, w.y, -w.z)
 }
 
 /// The BSDF for one pair of directions.
@@ -81,6 +86,8 @@ pub struct Lobes<const F: u32> {
     microfacet: Microfacet<F>,
     /// The albedo of the base where no microfacet reflects.
     diffuse: Vec3,
+    /// Its diffuse transmittance.
+    through: Option<Vec3>,
     compensation: Option<Compensation>,
     sheen: Option<Fibres>,
     coat: Option<Coat>,
@@ -92,26 +99,35 @@ pub struct Lobes<const F: u32> {
 struct LobePdf {
     cosine: f64,
     microfacet: f64,
+    through: f64,
     coat: f64,
 }
 
 impl LobePdf {
-    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base and the
-    /// microfacets, below sheen and coat.
+    /// Probabilities proportional to the estimated albedo of each lobe: the diffuse base, reflecting
+    /// and transmitting, and the microfacets, below sheen and coat.
     #[inline]
-    fn new(base: Vec3, weights: &LobeWeights, sheen: Option<&Fibres>, coat: Option<&Coat>) -> Self {
+    fn new(
+        base: Vec3,
+        mut through: f64,
+        weights: &LobeWeights,
+        sheen: Option<&Fibres>,
+        coat: Option<&Coat>,
+    ) -> Self {
         let mut cosine = base.max_element().max(0.0);
         let mut microfacet = weights.reflected.max_element() + weights.through.max_element();
         if let Some(sheen) = sheen {
             (cosine, microfacet) = (cosine * sheen.left + sheen.albedo, microfacet * sheen.left);
+            through *= sheen.left;
         }
         let coat = coat.map_or(0.0, |coat| coat.weight);
-        let whole = (cosine + microfacet) * (1.0 - coat) + coat;
+        let whole = (cosine + microfacet + through) * (1.0 - coat) + coat;
         let scale = if whole > 0.0 { 1.0 / whole } else { 0.0 };
         let below = scale * (1.0 - coat);
         Self {
             cosine: cosine * below,
             microfacet: microfacet * below,
+            through: through * below,
             coat: coat * scale,
         }
     }
@@ -148,18 +164,29 @@ impl<const F: u32> Lobes<F> {
             Coat::new(&coat, side.enter(normal), wo)
         });
         // Split the light between the lobes.
-        let diffuse =
-            standard.base_color * ((1.0 - standard.metallic) * (1.0 - standard.transmission));
+        let scattered = (1.0 - standard.metallic) * (1.0 - standard.transmission);
+        let mut diffuse = standard.base_color * scattered;
+        // Mix the diffuse reflection with the diffuse transmission.
+        let mix = standard.diffuse_transmission.filter(|_| can::<F>(LAYERS));
+        let through = mix.map(|DiffuseTransmission { factor, color }| {
+            diffuse *= 1.0 - factor;
+            color * (scattered * factor)
+        });
         let compensates = standard.multiple_scattering && !inside && !microfacet.is_dark();
         let compensation = compensates.then(|| microfacet.compensation(wo.z));
-        let base = match &compensation {
+        let entering = match &compensation {
             // The half-way vector is seldom as grazing as the view.
-            None => diffuse * microfacet.weights(1.0).entering,
-            Some(compensation) => diffuse * compensation.base_albedo() + compensation.albedo(),
+            None => microfacet.weights(1.0).entering,
+            Some(compensation) => compensation.base_albedo(),
+        };
+        let base = match &compensation {
+            None => diffuse * entering,
+            Some(compensation) => diffuse * entering + compensation.albedo(),
         };
         let sheen = sheen.and_then(|sheen| Fibres::new(&sheen, wo));
         let lobe_pdf = LobePdf::new(
             base,
+            through.map_or(0.0, |through| through.max_element() * entering),
             &microfacet.weights(wo.z),
             sheen.as_ref(),
             coat.as_ref(),
@@ -169,6 +196,7 @@ impl<const F: u32> Lobes<F> {
             wo,
             microfacet,
             diffuse,
+            through,
             compensation,
             sheen,
             coat,
@@ -204,11 +232,18 @@ impl<const F: u32> Lobes<F> {
         self.compensation().is_some()
     }
 
+    /// The diffuse transmittance, as [`Self::coat`].
+    #[inline]
+    fn through(&self) -> Option<Vec3> {
+        self.through.filter(|_| can::<F>(LAYERS))
+    }
+
     /// Whether all lobes are delta lobes, so that light sampling is useless.
     #[must_use]
     pub fn is_delta(&self) -> bool {
         let coat = self.coat().is_none_or(Coat::is_smooth);
-        self.lobe_pdf.cosine == 0.0 && self.microfacet.is_smooth() && coat
+        let is_diffuse = self.lobe_pdf.cosine + self.lobe_pdf.through != 0.0;
+        !is_diffuse && self.microfacet.is_smooth() && coat
     }
 
     /// The BSDF for light from `wi`, and the density with which [`Bsdf::sample`] samples `wi`.
@@ -232,6 +267,10 @@ impl<const F: u32> Lobes<F> {
         sum.pdf *= self.lobe_pdf.microfacet;
         if above {
             sum.pdf += self.lobe_pdf.cosine * cosine_density(wi);
+        } else if let Some(through) = self.through() {
+            let mirrored = mirrored(wi);
+            sum.f += through * self.base_f(mirrored);
+            sum.pdf += self.lobe_pdf.through * cosine_density(mirrored);
         }
         // Add the layers, from the inside out.
         if let Some(sheen) = self.sheen() {
@@ -243,6 +282,18 @@ impl<const F: u32> Lobes<F> {
             sum.pdf += self.lobe_pdf.coat * pdf;
         }
         sum
+    }
+
+    /// The BSDF of a white base, which transmits like it reflects: by the direction mirrored to the
+    /// side of the viewer.
+    fn base_f(&self, wi: Vec3) -> f64 {
+        match self.compensation() {
+            Some(compensation) => compensation.base_f(compensation.towards(wi.z)),
+            None => {
+                let h = (self.wo + wi).normalize();
+                self.microfacet.weights(self.wo.dot(h)).entering * FRAC_1_PI
+            }
+        }
     }
 
     /// The reflection of the microfacets and of the diffuse base, with the density of the
@@ -276,6 +327,7 @@ impl<const F: u32> Lobes<F> {
         let LobePdf {
             cosine,
             microfacet,
+            through,
             coat,
         } = self.lobe_pdf;
         let rest = [u[1], u[2]];
@@ -294,6 +346,11 @@ impl<const F: u32> Lobes<F> {
                     self.single(wi, weight * (left * (1.0 - covered)), microfacet * pdf)
                 }
             };
+        }
+        // Sample the diffuse transmission.
+        let left = left - microfacet;
+        if self.through().is_some() && left < through {
+            return self.in_lobe(mirrored(cosine_direction(rest)));
         }
         // Sample the coat.
         let layer = self.coat()?;

@@ -35,6 +35,8 @@ pub struct StandardParameters {
     pub sheen: Option<Sheen>,
     /// A thin film on top.
     pub iridescence: Option<Iridescence>,
+    /// The part of the diffuse light that leaves on the other side.
+    pub diffuse_transmission: Option<DiffuseTransmission>,
     /// Whether multiple bounces between microfacets are added; glTF's appendix B omits them.
     pub multiple_scattering: bool,
 }
@@ -79,6 +81,15 @@ pub struct Iridescence {
     pub thickness: f64,
 }
 
+/// `KHR_materials_diffuse_transmission`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiffuseTransmission {
+    /// The fraction of the diffuse light that is transmitted instead of reflected.
+    pub factor: f64,
+    /// The albedo of the transmitted part.
+    pub color: Vec3,
+}
+
 impl Default for StandardParameters {
     /// The defaults of glTF, but for the metal: white and rough, of glass's index.
     fn default() -> Self {
@@ -95,6 +106,7 @@ impl Default for StandardParameters {
             clearcoat: None,
             sheen: None,
             iridescence: None,
+            diffuse_transmission: None,
             multiple_scattering: true,
         }
     }

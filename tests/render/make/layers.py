@@ -1,6 +1,6 @@
 """The cases of tests/render/layer: materials of glTF on balls, one or four."""
 from asset import case, matt, pbr, shared_ball
-from files import letters, parts, png, pyramids
+from files import holes, letters, parts, png, pyramids
 
 SKY = "size=48x48 spp=16 env=files/sky.hdr"
 
@@ -91,3 +91,20 @@ balls("specular-glossiness", "The old model: glossiness 1, 0.7, 0.4 and 0 under 
     (1, 0.7, 0.4, 0)))
 balls("normal-map", "Pyramids on metal, of scale 1.", pbr((0.8, 0.8, 0.8), 1, 0.2, None, normalTexture={"index": 0}),
       images=[png(64, 32, pyramids)])
+
+
+@case("layer/diffuse-transmission", "Paper before a lamp and the shadow of a ball on its back: none of the light let "
+      "through, half in yellow, all where a map says, and half before glass.",
+      "size=48x48 spp=16 env-color=0.1,0.1,0.1")
+def _(a):
+    paper = {"diffuseTransmissionFactor": 0.5, "diffuseTransmissionColorFactor": [1, 0.8, 0.2]}
+    by_map = {"diffuseTransmissionFactor": 1, "diffuseTransmissionTexture": {"index": a.image(png(16, 16, holes))}}
+    cards = [{}, {"diffuse_transmission": paper}, {"diffuse_transmission": by_map},
+             {"diffuse_transmission": paper, "transmission": {"transmissionFactor": 0.7}}]
+    for k, extensions in enumerate(cards):
+        x, y = k % 2 * 1.1 - 1.05, 0.05 - k // 2 * 1.1
+        a.node(mesh=a.mesh(a.quad(pbr((0.2, 0.5, 0.9), 0, 0.5, extensions), (x, y), (x + 1, y + 1))))
+    ball = a.mesh({**shared_ball(a, False), "material": a.material(matt(0.5, 0.5, 0.5))})
+    a.node(mesh=ball, translation=[0, 0, -0.5], scale=[0.2] * 3)
+    a.light({"type": "point", "intensity": 12}, translation=[0, 0, -1.5])
+    a.camera()
