@@ -4,6 +4,7 @@
 //! do not know each other (`tests/tidy.rs` checks it).
 //!
 //! 1. [`math`], [`color`]: vectors, exact and robust arithmetic; colour spaces and tone curves.
+//!    `standard`: the table of the parameters of the glTF material, which every later room reads.
 //! 2. [`image`]: pixel files. [`source`]: files, spans into them, limits, and
 //!    [`source::tree`], the spanned tree that YAML and JSON become.
 //! 3. [`diag`]: one diagnostic type, the table of codes, the printers.
