@@ -8,6 +8,7 @@ mod closed;
 mod coverage;
 mod hierarchy;
 mod layers;
+mod leaves;
 mod sides;
 mod surfaces;
 
