@@ -190,4 +190,14 @@ macro_rules! plain_layers {
     };
 }
 
-pub(crate) use {extensions, layers, parameters, plain_layers};
+/// The map that a parameter of a kind of the table holds.
+macro_rules! map_of {
+    (map, $map:expr) => {
+        $map
+    };
+    ($kind:ident, $value:expr) => {
+        &None
+    };
+}
+
+pub(crate) use {extensions, layers, map_of, parameters, plain_layers};

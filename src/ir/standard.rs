@@ -1,6 +1,7 @@
 //! The material of glTF 2.0: metallic-roughness with the layers of its extensions.
 
 use super::TextureId;
+use crate::standard::{map_of, parameters};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -52,17 +53,7 @@ macro_rules! stored {
     (map) => { Option<Map> };
 }
 
-/// The map that a parameter of a kind holds.
-macro_rules! map_of {
-    (map, $map:expr) => {
-        $map
-    };
-    ($kind:ident, $value:expr) => {
-        &None
-    };
-}
-
-/// The same, to be changed.
+/// The map that a parameter of a kind holds, to be changed.
 macro_rules! map_mut_of {
     (map, $map:expr) => {
         $map.as_mut()
@@ -118,7 +109,7 @@ macro_rules! material {
     };
 }
 
-crate::standard::parameters!(material);
+parameters!(material);
 
 impl Standard {
     /// Whether a ray of the camera goes through the back. That of what transmits it may meet from

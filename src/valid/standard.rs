@@ -5,6 +5,7 @@ use super::texture::{self, Map};
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
+use crate::standard::{map_of, parameters};
 
 /// The type of a proven parameter of a kind of the table.
 macro_rules! proven {
@@ -68,16 +69,6 @@ const fn unit_intervals([a, b, c, d]: [f64; 4]) -> [UnitInterval; 4] {
     ]
 }
 
-/// The map that a parameter of a kind holds.
-macro_rules! map_of {
-    (map, $map:expr) => {
-        $map
-    };
-    ($kind:ident, $value:expr) => {
-        &None
-    };
-}
-
 /// The material and its proof, from the table of its parameters: the kind of each names its check.
 macro_rules! material {
     ($(
@@ -120,7 +111,7 @@ macro_rules! material {
     };
 }
 
-crate::standard::parameters!(material);
+parameters!(material);
 
 impl Standard {
     /// Whether a ray of the camera goes through the back. That of what transmits it may meet from

@@ -228,7 +228,10 @@ fn a_leaf_mixes_lambert_before_it_and_behind_it() {
                 f(&matt) - before * FRAC_1_PI
             };
             let error = (f(&leaf) - expected).abs().max_element();
-            assert!(error < 1e-3, "{factor} {transmission} {metallic} {o} {i}: {error}");
+            assert!(
+                error < 1e-3,
+                "{factor} {transmission} {metallic} {o} {i}: {error}"
+            );
         }
     }
 }

@@ -11,9 +11,8 @@ use crate::valid::{Alpha, Map, Standard};
 pub(super) const ZERO: PathRule = PathRule {
     rule: Rule::PathZero,
     name: "P-WEIGHT-ZERO",
-    text: "A layer whose weight is 0 adds nothing: transmission, clearcoat, sheen, anisotropy, \
-           iridescence, specular reflection or emission whose factor is 0, or whose texture is 0 in \
-           the channel that counts, wherever a surface lies on it.",
+    text: "Transmission, specular reflection, emission and layers of weight 0 add nothing: where the \
+           factor is 0, or the texture is 0 in the channel that counts, wherever a surface lies on it.",
     because: "its textures are 0 wherever a surface lies on them",
     apply: |draft| draft.simplify(without_zeros),
 };
