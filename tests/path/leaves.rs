@@ -53,6 +53,24 @@ fn what_stands_behind_a_leaf_hides_the_light_there() {
     assert_eq!(middle(&render(&scene)), Vec3::ZERO);
 }
 
+/// A convex body alone casts no shadow on its own outside, but on the light that goes through it.
+#[test]
+fn a_translucent_ball_alone_hides_the_light_behind_it() {
+    let mut scene = scene(16);
+    scene.settings.max_depth = 1;
+    add_sphere(&mut scene, [0.0; 3], 0.75, leaf(0.5));
+    let sun = |z| Punctual {
+        emitter: Emitter::Sun {
+            direction: [0.0, 0.0, z],
+        },
+        intensity: [3.0; 3],
+    };
+    add_light(&mut scene, sun(-1.0));
+    assert_eq!(middle(&render(&scene)), Vec3::ZERO);
+    add_light(&mut scene, sun(1.0));
+    assert!(middle(&render(&scene)).min_element() > 0.0);
+}
+
 #[test]
 fn a_shining_square_behind_a_leaf_is_found_by_all_strategies() {
     let mut scene = scene(1024);
