@@ -1,9 +1,9 @@
-//! The effects a picture may need, and what became of each.
+//! The effects of a picture, and the verdict on each.
 
 use super::rules::Rule;
 use crate::ir::Place;
 
-/// A part of the simulation that a scene may do without.
+/// A part of the simulation that not every scene needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[expect(missing_docs, reason = "each is named as in the books")]
 pub enum Effect {
@@ -41,10 +41,10 @@ pub enum Effect {
 }
 
 impl Effect {
-    /// How many effects there are.
+    /// The number of effects.
     pub const COUNT: usize = Self::EnvironmentMap as usize + 1;
 
-    /// The effects that pictures of the course alone may have.
+    /// The effects of pictures of the course alone.
     pub const OF_THE_COURSE: [Self; 6] = [
         Self::DepthBuffer,
         Self::NormalBuffer,
@@ -54,7 +54,7 @@ impl Effect {
         Self::GlossyReflection,
     ];
 
-    /// The effects that traced paths may have.
+    /// The effects of traced paths.
     pub const OF_PATHS: [Self; 25] = [
         Self::Surfaces,
         Self::Environment,
@@ -134,7 +134,7 @@ impl State {
     }
 }
 
-/// What became of an effect.
+/// The state of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// The picture needs it.
@@ -145,18 +145,18 @@ pub enum State {
     Absent,
 }
 
-/// What became of one effect, of the whole scene or of one light, material or surface.
+/// The verdict on one effect, of the whole scene or of one light, material or surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The effect.
     pub effect: Effect,
-    /// The entity it is of; none for that of the whole scene.
+    /// The entity; `None` for the whole scene.
     pub of: Option<Place>,
-    /// What became of it.
+    /// The state.
     pub state: State,
     /// The rule that left it out.
     pub rule: Option<Rule>,
-    /// Why, in plain words: one line, lower case, no full stop.
+    /// The reason in plain words: one line, lower case, no full stop.
     pub because: String,
     /// The values that decided.
     pub facts: Vec<Place>,

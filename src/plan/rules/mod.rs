@@ -104,7 +104,7 @@ impl Rule {
         self.row().0
     }
 
-    /// What it says, and why it is right.
+    /// The statement and the reason.
     #[must_use]
     pub fn text(self) -> &'static str {
         self.row().1
