@@ -1,5 +1,5 @@
-//! Which surfaces of a world the alpha test concerns: it decides in which order the transmittances
-//! of a shadow ray are multiplied.
+//! The alpha-tested surfaces of a world. They decide the order in which the transmittances along a
+//! shadow ray are multiplied.
 
 use super::flattened::flattened_surfaces;
 use crate::plan::facts::material;
@@ -17,8 +17,8 @@ pub(in crate::render) enum AlphaTested {
 }
 
 impl AlphaTested {
-    /// Those of a scene whose paths are traced. What a plan proves opaque, or leaves out, counts as
-    /// the scene has it, so that plans keep the order of products.
+    /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
+    /// leave them out, but that must not change the order of products.
     pub(super) fn of(scene: &Proof) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
