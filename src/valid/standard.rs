@@ -1,4 +1,4 @@
-//! The proof of the material of glTF: every factor within the range its specification gives.
+//! The proof of glTF's material: every factor is in the range of its specification.
 
 use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
@@ -6,12 +6,12 @@ use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
 
-/// The material and its proof, from a table of its parameters: what each is once it is proven, by
-/// which check, under which name in findings.
+/// The material and its proof, from a table of its parameters: the proven type, the check, and the
+/// name in findings.
 macro_rules! parameters {
     ($($(#[$about:meta])* $field:ident: $type:ty = $check:ident($name:literal);)*) => {
-        /// The material of glTF, proven: the factors of its specification, by whose names they go,
-        /// each in its range, and the maps that multiply them.
+        /// The material of glTF, proven: the factors of its specification, with the names used
+        /// there, each in its range, and the maps that multiply them.
         #[derive(Clone, Debug, PartialEq)]
         #[expect(
             missing_docs,
@@ -64,10 +64,10 @@ parameters! {
     specular_color_map: Option<Map> = map("specularColorMap");
     transmission: UnitInterval = fraction("transmission");
     transmission_map: Option<Map> = map("transmissionMap");
-    /// Above 0 the surface bounds a volume.
+    /// Above 0, the surface bounds a volume.
     thickness: NonNegative = non_negative("thickness");
     thickness_map: Option<Map> = map("thicknessMap");
-    /// None for infinite.
+    /// `None` is infinite.
     attenuation_distance: Option<Positive> = distance("attenuationDistance");
     attenuation_color: Vec3 = fraction_color("attenuationColor");
     clearcoat: UnitInterval = fraction("clearcoat");
@@ -88,7 +88,7 @@ parameters! {
     iridescence_map: Option<Map> = map("iridescenceMap");
     /// At least 1.
     iridescence_ior: Positive = index_of_refraction("iridescenceIor");
-    /// From the least to the greatest, in nanometres.
+    /// The minimum and the maximum, in nanometres.
     iridescence_thickness: [NonNegative; 2] = pair("iridescenceThickness");
     iridescence_thickness_map: Option<Map> = map("iridescenceThicknessMap");
 }
@@ -119,26 +119,26 @@ impl Standard {
         .flatten()
     }
 
-    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
-    /// within.
+    /// Whether camera rays skip the back. The back of a transmitting material is never skipped: a ray
+    /// may meet it from inside.
     #[must_use]
     pub fn is_seen_from_one_side(&self) -> bool {
         !self.double_sided && self.transmission == UnitInterval::ZERO
     }
 }
 
-/// How a surface covers what is behind it.
+/// The alpha mode: how much of the background a surface covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// All of it.
+    /// All.
     Opaque,
-    /// Where alpha is at least the number given.
+    /// All where alpha is at least the cutoff, nothing elsewhere.
     Mask(NonNegative),
-    /// To the fraction alpha.
+    /// The fraction alpha.
     Blend,
 }
 
-/// From and to which number.
+/// The least and the greatest number.
 type Range = [f64; 2];
 
 const SHARE: Range = [0.0, 1.0];
@@ -168,14 +168,14 @@ impl Parameters<'_, '_> {
         let is_sound = low <= value && value <= high;
         if !is_sound {
             let message =
-                format!("`{name}` of a material is `{value}`, and must be from {low} to {high}");
+                format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
             let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
             self.check.report(self.at, "", finding);
         }
         is_sound.then_some(value)
     }
 
-    /// Several of them; all faults are reported.
+    /// Several numbers in a range; all faults are reported.
     fn all_within<const N: usize>(
         &mut self,
         values: &[f64; N],

@@ -37,7 +37,7 @@ impl Geometry for Basic {
         tie::error(ray, t, &self.interaction(ray, t, prim_id))
     }
 
-    fn interaction(&self, ray: &Ray, t: f64, _part: u32) -> Interaction {
+    fn interaction(&self, ray: &Ray, t: f64, _prim_id: u32) -> Interaction {
         match self {
             Self::Sphere(sphere, _) => sphere.interaction(ray, t),
             Self::Plane(plane) => plane.interaction(ray, t),
@@ -57,7 +57,7 @@ impl Geometry for Basic {
         false
     }
 
-    fn details(&self, _ray: &Ray, at: &Interaction, _part: u32, _asked: Asked) -> Details {
+    fn details(&self, _ray: &Ray, at: &Interaction, _prim_id: u32, _asked: Asked) -> Details {
         match self {
             Self::Sphere(_, rows) => sphere_details(*rows, at.normal),
             Self::Triangle(triangle, Some(uvs)) => triangle_details(triangle, *uvs, at),
@@ -69,7 +69,7 @@ impl Geometry for Basic {
         usize::from(matches!(self, Self::Triangle(..)))
     }
 
-    fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
+    fn corners(&self, _prim_id: u32) -> Option<[Vec3; 3]> {
         if let Self::Triangle(triangle, _) = self {
             Some(*triangle.vertices())
         } else {

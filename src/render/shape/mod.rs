@@ -156,7 +156,7 @@ impl Geometry for Shape {
     fn triangles(&self) -> usize {
         match self {
             Self::Triangle(..) => 1,
-            Self::Instance(instance) => instance.parts(),
+            Self::Instance(instance) => instance.triangles(),
             Self::Sphere(..)
             | Self::Plane(_)
             | Self::Quad(_)

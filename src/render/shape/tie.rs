@@ -61,14 +61,14 @@ impl<K: Copy + Ord> Nearest<K> {
 
     /// The largest t of a hit that may tie.
     #[inline]
-    pub(in crate::render) fn reach(&self) -> f64 {
+    pub(in crate::render) fn limit(&self) -> f64 {
         self.t * CLOSE
     }
 
     /// Whether another hit may tie.
     #[inline]
     pub(in crate::render) fn is_tied(&self) -> bool {
-        self.next <= self.reach()
+        self.next <= self.limit()
     }
 }
 

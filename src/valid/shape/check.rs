@@ -7,7 +7,7 @@ use crate::ir::{self, Field, Noun, Place};
 use crate::math::{Positive, Vec3, unit};
 use crate::valid::check::{Check, EntityCounts, SMALLEST, place};
 
-/// `Some(None)` for a face without an area: nothing can hit it, so it is warned about and left out.
+/// `Some(None)` for a face without an area: no ray can hit it, so it is left out with a warning.
 pub(in crate::valid) fn surface(
     surface: &ir::Surface,
     index: usize,
@@ -77,7 +77,7 @@ impl SurfaceCheck<'_, '_> {
         if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
             let finding = Diagnostic::new(
                 &codes::BAD_ROTATION,
-                "the texture of a sphere is turned by no rotation",
+                "the texture of a sphere is turned by a matrix that is not a rotation",
             );
             self.check.report(self.at(Field::Whole), "", finding);
             return None;
@@ -138,7 +138,7 @@ impl SurfaceCheck<'_, '_> {
     /// Warns about a face that has no area.
     fn face(&mut self, sound: Option<Shape>, name: &str) -> Option<Shape> {
         if sound.is_none() {
-            let message = format!("a {name} has no area, so nothing shows of it");
+            let message = format!("a {name} has no area, so it is invisible");
             let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
             let finding = finding.hint("give it corners that are not in line, or remove it");
             self.check
@@ -234,10 +234,8 @@ impl SurfaceCheck<'_, '_> {
             .map(|axis| axis.abs().max_element())
             .fold(f64::INFINITY, f64::min);
         if volume < 1e-9 || smallest < SMALLEST {
-            let finding = Diagnostic::new(
-                &codes::BAD_ROTATION,
-                "a mesh is placed by a map that flattens it",
-            );
+            let finding =
+                Diagnostic::new(&codes::BAD_ROTATION, "the transform of a mesh flattens it");
             self.check
                 .report(self.at(Field::InstanceTransform), "", finding);
             return None;
@@ -249,7 +247,7 @@ impl SurfaceCheck<'_, '_> {
     }
 }
 
-/// Whether the rows are those of a rotation, to within 1e-6.
+/// Whether the rows are a rotation matrix, to within 1e-6.
 fn is_rotation(rows: [Vec3; 3]) -> bool {
     const SLACK: f64 = 1e-6;
     let close = |value: f64, wanted: f64| (value - wanted).abs() <= SLACK;

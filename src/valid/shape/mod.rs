@@ -11,11 +11,11 @@ use crate::math::{Positive, Vec3, is_flat};
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Its form and place.
+    /// The shape.
     pub shape: Shape,
     /// An index into [`super::Proof::materials`], in range.
     pub material: usize,
-    /// Its index in the IR, which holds triangles without an area as well.
+    /// Its index in the IR. The IR also has the triangles without an area.
     pub index: usize,
 }
 
@@ -38,7 +38,7 @@ pub enum Shape {
     Cone(Cone),
     /// A torus.
     Torus(Torus),
-    /// A mesh, placed.
+    /// An instance of a mesh.
     Instance(Box<Instance>),
 }
 
@@ -105,7 +105,7 @@ pub struct Cylinder {
     pub base: Vec3,
     /// The direction to the top, with its largest component in [1, 2).
     pub axis: Vec3,
-    /// From base to top.
+    /// The distance from base to top.
     pub height: Positive,
     /// Its radius.
     pub radius: Positive,
@@ -116,7 +116,7 @@ pub struct Cylinder {
 pub struct Cone {
     /// The centre of its base.
     pub base: Vec3,
-    /// From there to the apex; not zero.
+    /// The vector from there to the apex; not zero.
     pub up: Vec3,
     /// The radius of its base.
     pub radius: Positive,
@@ -129,17 +129,17 @@ pub struct Torus {
     pub center: Vec3,
     /// The direction of its axis, with its largest component in [1, 2).
     pub axis: Vec3,
-    /// From the centre to the middle of the tube.
+    /// The distance from the centre to the middle of the tube.
     pub major: Positive,
     /// The radius of the tube.
     pub minor: Positive,
 }
 
-/// A mesh, placed in the world.
+/// A mesh with its place in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance {
     /// An index into [`super::Proof::meshes`], in range.
     pub mesh: usize,
-    /// The images of the three axes, which span space, and of the origin.
+    /// The images of the three axes, linearly independent, and of the origin.
     pub world_from_object: [Vec3; 4],
 }

@@ -192,7 +192,7 @@ fn is_black(texels: &Texels) -> bool {
 
 fn intensity(light: &Punctual) -> Vec3 {
     match light {
-        Punctual::Sun(sun) => sun.irradiance,
+        Punctual::Directional(sun) => sun.irradiance,
         Punctual::Point(point) => point.intensity,
         Punctual::Spot(spot) => spot.intensity,
     }
@@ -201,7 +201,7 @@ fn intensity(light: &Punctual) -> Vec3 {
 /// The position of a light, unless it is infinitely far away.
 fn position(light: &Punctual) -> Option<Vec3> {
     match light {
-        Punctual::Sun(_) => None,
+        Punctual::Directional(_) => None,
         Punctual::Point(point) => Some(point.position),
         Punctual::Spot(spot) => Some(spot.position),
     }
@@ -224,7 +224,7 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
         Falloff::None | Falloff::Square => false,
     };
     match light {
-        Punctual::Sun(_) => false,
+        Punctual::Directional(_) => false,
         Punctual::Point(point) => is_beyond(point.position, point.falloff),
         Punctual::Spot(spot) => {
             let is_beside = is_beside(space, spot.position, spot.direction, spot.outer);
