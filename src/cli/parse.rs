@@ -252,7 +252,7 @@ mod tests {
         );
         assert_eq!(
             vector("0,1e300,0"),
-            Err("numbers of a scene are at most 1e60 in size".to_owned())
+            Err("numbers of a scene are at most 1e60 in absolute value".to_owned())
         );
         assert!(are_refused(
             vector,

@@ -1,9 +1,9 @@
-//! The formulas of the textbooks, in f64 or f32, beside the robust ones: what accuracy costs, and
-//! what it saves.
+//! The formulas of the textbooks, in f64 or f32, beside the robust ones: they show the cost and the
+//! benefit of accuracy.
 //!
-//! Hits within 1e-5 are taken for the surface a ray starts on, and rays start at the point itself.
-//! What is not a question of arithmetic (texture coordinates, shading normals, boxes) is asked of
-//! the robust shape.
+//! Hits nearer than 1e-5 are ignored: they are taken for the start of the ray, and rays start at
+//! the point itself. The robust shape answers all questions that do not depend on the arithmetic
+//! (texture coordinates, shading normals, boxes).
 
 pub(in crate::render) mod cone;
 pub(in crate::render) mod cylinder;
@@ -31,11 +31,11 @@ use real::{Real, Vector};
 #[derive(Clone, Debug)]
 pub struct PlainShape<R> {
     pub(in crate::render) form: PlainForm<R>,
-    /// Answers what is not a question of arithmetic.
+    /// Answers all that does not depend on the arithmetic.
     pub(in crate::render) robust: Box<Shape>,
 }
 
-/// How rays meet it.
+/// The form by the plain arithmetic.
 #[derive(Clone, Debug)]
 pub(in crate::render) enum PlainForm<R> {
     Sphere(sphere::Sphere<R>),
@@ -83,7 +83,7 @@ impl<R: Real> Geometry for PlainShape<R> {
         hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
 
-    /// The point as the ray gives it; rays from there start at the point itself.
+    /// The point on the ray; new rays start at the point itself.
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let ray = PlainRay::<R>::of(ray);
         let point = ray.at(R::of(t));
