@@ -8,6 +8,9 @@ use crate::render::shape::triangle::Shear;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
 pub trait Geometry: Sized + Send + Sync {
+    /// Whether triangles of instances can stand in the world one by one.
+    const FLATTENS: bool = true;
+
     /// The smallest root above 0 and its primitive; `shear` is that of the ray. Roots beyond `t_max`
     /// may be left out.
     #[must_use]

@@ -3,6 +3,7 @@
 
 use super::flattened::flattened_surfaces;
 use crate::plan::facts::material;
+use crate::render::shape::geometry::Geometry;
 use crate::valid::{Alpha, Material, Proof};
 
 /// The alpha-tested surfaces of a world.
@@ -19,14 +20,14 @@ pub(in crate::render) enum AlphaTested {
 impl AlphaTested {
     /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
     /// leave them out, but that must not change the order of products.
-    pub(super) fn of(scene: &Proof) -> Self {
+    pub(super) fn of<S: Geometry>(scene: &Proof) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
         let tested: Vec<bool> = tested.collect();
         let surfaces = scene.surfaces().iter().zip(flattened_surfaces(scene));
         let surfaces = surfaces.filter(|(surface, _)| tested[surface.material]);
         surfaces.fold(Self::None, |all, (_, is_flattened)| match all {
-            Self::None | Self::Triangles if is_flattened => Self::Triangles,
+            Self::None | Self::Triangles if is_flattened && S::FLATTENS => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,
         })
     }

@@ -4,7 +4,7 @@ use super::texture::Textures;
 use crate::plan::{EnvironmentLeft, Plan, facts};
 use crate::render::light::course::CourseLight;
 use crate::render::light::environment::Environment;
-use crate::render::light::punctual::{Falloff, PointLight, Punctual, SpotLight, DirectionalLight};
+use crate::render::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual, SpotLight};
 use crate::valid::{self, Proof};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is

@@ -173,7 +173,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
 /// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
 fn is_off(light: &Punctual, flat: &Flat) -> bool {
     match light {
-        Punctual::Sun(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
+        Punctual::Directional(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
         Punctual::Point(PointLight { position, .. })
         | Punctual::Spot(SpotLight { position, .. }) => {
             flat.sides(&point(*position)) != Sides::BOTH

@@ -66,6 +66,8 @@ impl<R: Real> PlainForm<R> {
 }
 
 impl<R: Real> Geometry for PlainShape<R> {
+    const FLATTENS: bool = false;
+
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let ray = PlainRay::of(ray);
