@@ -1,7 +1,5 @@
 //! Laws of the camera: its basis for any view, its sub-samples, and the points of its lens.
 
-#![expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
-
 use proptest::prelude::*;
 use rtc::math::{Vec3, camera_basis, cross, dot, pow};
 use rtc::render::{Camera, Projection, image_point, vogel};

@@ -1,7 +1,7 @@
 //! The one writer: a result appears whole or not at all.
 //!
-//! A file is made beside its target under another name when there is something to write, synced and
-//! renamed; what is not finished disappears.
+//! A file is written beside its target under another name, synced and renamed. An unfinished file
+//! is removed.
 
 use super::Failure;
 use super::input::Input;
@@ -28,7 +28,7 @@ pub(super) struct Output {
 
 enum Place {
     Stdout,
-    /// A device or a pipe, which can't be replaced.
+    /// A device or a pipe, which cannot be replaced.
     Stream(PathBuf),
     /// A file, which will have these permissions if there is one already.
     File(PathBuf, Option<Permissions>),
@@ -106,7 +106,7 @@ impl Place {
     }
 }
 
-/// Where a path leads through links to what is not there yet.
+/// The target of a path through links, which need not exist yet.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {

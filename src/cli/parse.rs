@@ -162,7 +162,7 @@ pub(super) fn stops(text: &str) -> Result<f64, String> {
     stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
 }
 
-pub(super) fn backdrop(text: &str) -> Result<BackgroundFill, String> {
+pub(super) fn background(text: &str) -> Result<BackgroundFill, String> {
     let numbers = || {
         text.split(',').map(|part| {
             part.trim()
@@ -252,7 +252,7 @@ mod tests {
         );
         assert_eq!(
             vector("0,1e300,0"),
-            Err("numbers of a scene are at most 1e60 in size".to_owned())
+            Err("numbers of a scene are at most 1e60 in absolute value".to_owned())
         );
         assert!(are_refused(
             vector,
@@ -260,11 +260,11 @@ mod tests {
         ));
         assert!(are_refused(color, &["-1", "1,2", "1,2,nan"]));
         assert_eq!(
-            backdrop("0.5,1, 2"),
+            background("0.5,1, 2"),
             Ok(BackgroundFill::Color([0.5, 1.0, 2.0]))
         );
         assert!(are_refused(
-            backdrop,
+            background,
             &["", "sky", "1,1", "1,1,1,1", "-1,0,0", "inf,0,0"]
         ));
     }

@@ -1,13 +1,13 @@
-//! The look: what becomes of a film of linear values on its way to a file: exposure, tone map, and
-//! what is behind all surfaces.
+//! The look: the conversion of a film of linear values for a file: exposure, tone map, and
+//! background.
 
 use super::{Image, Layers, Picture};
 use crate::color::Tone;
 
-/// What is behind all surfaces.
+/// The background.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BackgroundFill {
-    /// What the film shows there.
+    /// The background of the film.
     #[default]
     Film,
     /// Nothing.
@@ -16,24 +16,24 @@ pub enum BackgroundFill {
     Color([f64; 3]),
 }
 
-/// How colours and opacity stand to each other in a file.
+/// The association of colours and opacity in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Association {
-    /// Colours are those of what is there, as in PNG.
+    /// Colours are not multiplied by the opacity, as in PNG.
     Straight,
-    /// Colours are weighed by the opacity, as in EXR.
+    /// Colours are multiplied by the opacity, as in EXR.
     Associated,
 }
 
-/// How a film is turned into a picture.
+/// The conversion of a film into a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// The exposure in stops: values are multiplied by two to this power, at most 2^±64.
     pub stops: f64,
     /// The tone map.
     pub tone: Tone,
-    /// What is behind; but for [`BackgroundFill::Film`], the film must have been made with nothing
-    /// behind its surfaces.
+    /// The background. Except for [`BackgroundFill::Film`], the film must be rendered without a
+    /// background.
     pub background: BackgroundFill,
 }
 

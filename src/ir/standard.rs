@@ -6,7 +6,7 @@ use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A texture, and how a surface's texture coordinates lead to it.
+/// A texture, and the map from the coordinates of a surface to its own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub struct Map {
@@ -22,16 +22,16 @@ pub struct Map {
     pub texture_from_surface: Option<[[f64; 3]; 2]>,
 }
 
-/// How a surface covers what is behind it.
+/// The alpha mode: how much of the background a surface covers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
 #[serde(rename_all = "camelCase", deny_unknown_fields)]
 pub enum Alpha {
     /// All of it.
     #[default]
     Opaque,
-    /// Where alpha is at least the number given.
+    /// All where alpha is at least the cutoff, nothing elsewhere.
     Mask(f64),
-    /// To the share alpha.
+    /// The fraction alpha.
     Blend,
 }
 
@@ -112,8 +112,8 @@ macro_rules! material {
 parameters!(material);
 
 impl Standard {
-    /// Whether a ray of the camera goes through the back. That of what transmits it may meet from
-    /// within.
+    /// Whether camera rays skip the back. The back of a transmitting material is never skipped: a
+    /// ray may meet it from inside.
     #[must_use]
     pub fn is_seen_from_one_side(&self) -> bool {
         !self.double_sided && self.transmission == 0.0

@@ -1,5 +1,4 @@
-//! What the rules know of where a surface is: a box around it, the plane it lies in, whether it is
-//! a convex solid.
+//! The bounds of surfaces for the rules: a bounding box, the plane of a flat one, convexity.
 
 use super::shape::shape_facts;
 use super::space::{Flat, MARGIN, Sides, Space};
@@ -7,25 +6,25 @@ use crate::math::{Vec3, cross, unit};
 use crate::valid::{Instance, Mesh, Proof};
 use std::sync::Arc;
 
-/// Where a surface is.
+/// The bounds of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) enum Extent {
     /// Inside a box.
     Within(Space),
     /// In an unbounded plane.
     Plane(Flat),
-    /// Wherever its arithmetic may report a hit.
+    /// Anywhere its arithmetic may report a hit.
     Anywhere,
 }
 
-/// The form and place of a surface, as far as the rules use it.
+/// The shape and the bounds of a surface, as far as the rules use them.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) struct Body {
     pub(in crate::plan) extent: Extent,
     pub(in crate::plan) form: Hull,
 }
 
-/// A form with a property that rules rest on.
+/// A shape with a property that rules use.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plan) enum Hull {
     /// A bounded piece of a plane.
@@ -46,8 +45,8 @@ impl Body {
         }
     }
 
-    /// Grows the body by the error of its points. Where that is no small part of the thickness,
-    /// they may be anywhere on the surface, and its form says nothing of them.
+    /// Grows the body by the error of its points. If that is not small beside its thickness, its
+    /// shape says nothing of them.
     fn grow(&mut self, error_bound: f64, thickness: f64) {
         const SMALL: f64 = 1.0 / 1024.0;
         if let Extent::Within(space) = &mut self.extent {
@@ -66,7 +65,7 @@ impl Body {
         }
     }
 
-    /// From which sides things in a box, or anywhere, look at it.
+    /// The sides of it that face a box, or anything.
     pub(in crate::plan) fn sides_seen_from(&self, from: Option<&Space>) -> Sides {
         let Some(from) = from else { return Sides::BOTH };
         match self.form {
@@ -76,7 +75,7 @@ impl Body {
         }
     }
 
-    /// Whether a convex solid surely does not reach into a box.
+    /// Whether a convex solid certainly does not overlap a box.
     pub(in crate::plan) fn is_clear_of(&self, other: &Space) -> bool {
         let Some(space) = self.space() else {
             return false;
@@ -90,8 +89,8 @@ impl Body {
     }
 }
 
-/// The bodies of all surfaces, as rays meet them: those start at the eye or on another surface, and
-/// round by its coordinates.
+/// The bodies of all surfaces, grown by the rounding of rays: a ray starts at the eye or on another
+/// surface, and rounds by its coordinates.
 pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
     let extent = |mesh: &Arc<Mesh>| Space::of(mesh.positions.iter().map(Vec3::from_array));
     let meshes = scene.meshes().iter().map(extent).collect::<Vec<_>>();
@@ -111,8 +110,7 @@ pub(in crate::plan) fn bodies(scene: &Proof) -> Vec<Body> {
     bodies
 }
 
-/// The plane of a triangle, unless its corners are so nearly in line that rounding moves its
-/// normal.
+/// The plane of a triangle, unless its corners are too nearly in line for a reliable normal.
 pub(in crate::plan) fn face([a, b, c]: [Vec3; 3]) -> Hull {
     /// The least sine between two edges: the normal is then right to within 2⁻³⁶.
     const SLIVER: f64 = 1.0 / 65536.0;
@@ -134,8 +132,8 @@ pub(in crate::plan) fn ring(center: Vec3, axis: Vec3, radius: f64, tube: f64) ->
     )
 }
 
-/// The box of a mesh in the world. Rays go to its own space and back: the flatter the map, the more
-/// they round.
+/// The box of a mesh in the world. Rays are transformed to its own space and back: a flat transform
+/// has larger rounding errors.
 pub(in crate::plan) fn placed(instance: &Instance, mesh: &Space) -> Space {
     let [x, y, z, origin] = instance.world_from_object;
     let to_world = |p: Vec3| x * p.x + y * p.y + z * p.z + origin;

@@ -1,4 +1,4 @@
-//! The effects a picture may need, and what became of each.
+//! The effects of a picture, and the verdict on each.
 
 use super::layer::Layer;
 use super::rules::Rule;
@@ -136,7 +136,7 @@ impl State {
     }
 }
 
-/// What became of an effect.
+/// The state of an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// The picture needs it.
@@ -147,18 +147,18 @@ pub enum State {
     Absent,
 }
 
-/// What became of one effect, of the whole scene or of one light, material or surface.
+/// The verdict on one effect, of the whole scene or of one light, material or surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The effect.
     pub effect: Effect,
-    /// The entity it is of; none for that of the whole scene.
+    /// The entity; `None` for the whole scene.
     pub of: Option<Place>,
-    /// What became of it.
+    /// The state.
     pub state: State,
     /// The rule that left it out.
     pub rule: Option<Rule>,
-    /// Why, in plain words: one line, lower case, no full stop.
+    /// The reason in plain words: one line, lower case, no full stop.
     pub because: String,
     /// The values that decided.
     pub facts: Vec<Place>,

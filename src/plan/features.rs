@@ -1,5 +1,5 @@
-//! What an integrator can do: a set known at compile time, so that no branch is left for what a
-//! picture does not need.
+//! The features of integrators: sets known at compile time, so that the code for absent effects is
+//! compiled away.
 
 /// What sets of features have in common.
 macro_rules! set {
@@ -30,7 +30,7 @@ pub struct Features(pub u32);
 impl Features {
     /// The first hit only.
     pub const NONE: Self = Self(0);
-    /// Several samples a pixel, or several points of the lens.
+    /// Several samples per pixel, or several points of the lens.
     pub const CAMERA: Self = Self(1);
     /// Colour, ks and normal looked up on the surface.
     pub const MAPS: Self = Self(1 << 1);
@@ -46,13 +46,12 @@ impl Features {
     pub const BOUNCE: Self = Self(1 << 6);
     /// Soft lights and glossy lobes.
     pub const SAMPLED: Self = Self(1 << 7);
-    /// Whatever a rule would leave out at a hit is simulated as well, unless the plan has that
-    /// rule.
+    /// The work that rules leave out at hits, unless the plan has the rule.
     pub const NAIVE: Self = Self(1 << 8);
     /// All of them but the last.
     pub const EVERYTHING: Self = Self((1 << 8) - 1);
 
-    /// How many there are.
+    /// The number of features.
     #[must_use]
     pub const fn count(self) -> u32 {
         self.0.count_ones()
@@ -64,17 +63,17 @@ impl Features {
 pub struct PathFeatures(pub u32);
 
 impl PathFeatures {
-    /// Diffuse surfaces that light finds by itself.
+    /// Diffuse surfaces alone, without sampling of lights.
     pub const NONE: Self = Self(0);
-    /// Surfaces that a ray goes through by chance, or where a texture says so.
+    /// Alpha: surfaces that a ray passes at random, or by a mask.
     pub const ALPHA: Self = Self(1);
-    /// Lights are aimed at.
+    /// Lights are sampled.
     pub const AIM: Self = Self(1 << 1);
-    /// Something may hide a light.
+    /// Shadow rays.
     pub const SHADOWS: Self = Self(1 << 2);
-    /// Surfaces reflect at their boundary.
+    /// Microfacet reflection.
     pub const MICROFACETS: Self = Self(1 << 3);
-    /// Light goes through surfaces.
+    /// Transmission.
     pub const TRANSMISSION: Self = Self(1 << 4);
     /// Layers of a material ([`super::Layer`]).
     pub const LAYERS: Self = Self(1 << 5);
@@ -87,7 +86,7 @@ impl PathFeatures {
 pub enum Shapes {
     /// Spheres, planes and triangles.
     Basic,
-    /// All there are.
+    /// All shapes.
     All,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of a scene of the course before any rule, and what the rules found.
+//! The facts of a scene of the course before any rule, and the findings of the rules.
 
 use super::body::{Body, bodies};
 use super::light::LightFindings;
@@ -9,7 +9,7 @@ use super::{Features, facts, summary};
 use crate::math::Vec3;
 use crate::valid::{CourseLight, Mode, Pattern, Phong, Proof, Shape, Surface};
 
-/// What the rules start from.
+/// The facts before any rule.
 pub(super) struct Facts<'scene> {
     pub(super) scene: &'scene Proof,
     pub(super) rules: Rules,
@@ -17,9 +17,9 @@ pub(super) struct Facts<'scene> {
     pub(super) sources: Vec<CourseLight>,
     /// The materials as the integrator sees them.
     pub(super) materials: Vec<Phong>,
-    /// Per surface, where it is.
+    /// Per surface, its bounds.
     pub(super) bodies: Vec<Body>,
-    /// Per surface, what it shows.
+    /// Per surface, a summary of its material.
     pub(super) summaries: Vec<MaterialSummary>,
     /// Per texture, its value if it has only one.
     pub(super) constants: Vec<Option<Vec3>>,
@@ -74,7 +74,7 @@ impl<'scene> Facts<'scene> {
         self.rules.contains(Rule::NormalFlat) && self.even[instance.mesh]
     }
 
-    /// Whether all rays of a pixel's point start at the eye.
+    /// Whether all camera rays start at the eye.
     pub(super) fn is_pinhole(&self) -> bool {
         let lens = &self.scene.camera().lens;
         lens.radius.get() == 0.0
@@ -83,14 +83,14 @@ impl<'scene> Facts<'scene> {
     }
 }
 
-/// What the rules found.
+/// The findings of the rules.
 pub(super) struct Findings<'scene> {
     pub(super) facts: Facts<'scene>,
     pub(super) visibility: Visibility,
     pub(super) lights: LightFindings,
     /// Bounces planned.
     pub(super) max_depth: u32,
-    /// Bounces that the language asks for.
+    /// Bounces that the scene asks for.
     pub(super) asked: u32,
 }
 
@@ -99,12 +99,12 @@ impl Findings<'_> {
         &self.facts.scene.settings().mode
     }
 
-    /// The surfaces that are looked at, directly or in a mirror.
+    /// The surfaces that are seen, directly or in a mirror.
     pub(super) fn reached(&self) -> impl Iterator<Item = usize> {
         (0..self.facts.bodies.len()).filter(|surface| self.visibility.reached[*surface])
     }
 
-    /// Whether any surface that is looked at shows something.
+    /// Whether any seen surface adds something.
     pub(super) fn any(&self, shows: impl Fn(&MaterialSummary) -> bool) -> bool {
         self.reached()
             .any(|surface| shows(&self.facts.summaries[surface]))
@@ -133,7 +133,7 @@ impl Findings<'_> {
         }
     }
 
-    /// Whether the picture depends on what the texture of a surface's colour shows.
+    /// Whether the picture depends on the colour texture of a surface.
     pub(super) fn shows_color_map(&self, summary: &MaterialSummary) -> bool {
         let is_constant = summary
             .color_map
@@ -141,7 +141,7 @@ impl Findings<'_> {
         self.is_shaded() && !is_constant && (summary.ambient || summary.diffuse)
     }
 
-    /// Whether the picture depends on what the texture of a surface's ks shows.
+    /// Whether the picture depends on the ks texture of a surface.
     pub(super) fn shows_specular_map(&self, summary: &MaterialSummary) -> bool {
         let is_constant = summary
             .specular_map
@@ -169,7 +169,7 @@ impl Findings<'_> {
         self.max_depth > 0 && self.any(|summary| summary.glossy && summary.mirrors())
     }
 
-    /// Whether a pixel takes several rays, or rays that are not through its middle.
+    /// Whether a pixel has several rays, or rays that do not go through its centre.
     pub(super) fn is_sampled(&self) -> bool {
         let settings = self.facts.scene.settings();
         let several = settings.supersampling.get() > 1 || settings.pattern != Pattern::Grid;

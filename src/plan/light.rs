@@ -1,4 +1,4 @@
-//! What each light adds, and what may stand between it and each surface.
+//! The terms of each light, and the possible occluders between it and each surface.
 
 use super::body::{Body, Extent, Hull};
 use super::rules::Rule;
@@ -14,17 +14,17 @@ pub(super) struct LightFindings {
     pub(super) plans: Vec<LightPlan>,
     /// Per light, the rule that left out its direct terms.
     pub(super) rules: Vec<Option<Rule>>,
-    /// Per surface, whether it may stand between a light and a surface.
+    /// Per surface, whether it may cast a shadow.
     pub(super) casts: Vec<bool>,
-    /// A light and the surface that may stand between it and another.
+    /// A light, and a surface that may hide it from another.
     pub(super) shadow: Option<Shadow>,
-    /// Whether all shadow rays that were left out start on surfaces that stand alone.
+    /// Whether all omitted shadow rays start on surfaces that are alone.
     pub(super) alone: bool,
-    /// Whether there were too many lights and surfaces to ask which hides which.
+    /// Whether there were too many lights and surfaces to test all pairs.
     pub(super) capped: bool,
 }
 
-/// A shadow that may fall.
+/// A possible shadow.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shadow {
     pub(super) light: usize,
@@ -54,7 +54,7 @@ impl LightFindings {
         all
     }
 
-    /// Asks for each light and each surface it may reach what may stand between.
+    /// Finds possible occluders for each light and each surface it may light.
     fn find_shadows(&mut self, facts: &Facts<'_>, visibility: &Visibility) {
         let count = facts.bodies.len();
         let receives =
@@ -99,7 +99,7 @@ impl LightFindings {
         }
     }
 
-    /// Whether anything may stand between a light and a surface; remembers what.
+    /// Whether anything may hide a light from a surface. Records the occluder.
     fn find_casters(&mut self, facts: &Facts<'_>, visibility: &Visibility, pair: &Pair) -> bool {
         let Pair {
             light,
@@ -128,7 +128,7 @@ impl LightFindings {
     }
 }
 
-/// A light and a surface it may reach.
+/// A light and a surface that it may light.
 struct Pair {
     light: usize,
     source: Space,
@@ -141,7 +141,7 @@ fn extent(light: &CourseLight) -> Space {
 }
 
 impl Facts<'_> {
-    /// What is left of a light, and why no more.
+    /// The remaining terms of a light, and the rule that removed the others.
     fn light(&self, light: &CourseLight, visibility: &Visibility) -> (LightPlan, Option<Rule>) {
         let surfaces = || (0..self.bodies.len()).filter(|surface| visibility.reached[*surface]);
         let shadowed = vec![true; self.bodies.len()];
@@ -178,9 +178,9 @@ impl Facts<'_> {
         )
     }
 
-    /// Whether a light adds no direct term to a surface: none shows, or the light is behind it.
+    /// Whether a light adds no direct term to a surface: its terms are 0, or the light is behind it.
     ///
-    /// The light and all that looks at the surface are off its plane by [`super::space::MARGIN`] of
+    /// The light and all viewpoints are off the plane of the surface by [`super::space::MARGIN`] of
     /// all coordinates, so N·L < −2⁻³³, far beyond its rounding.
     pub(super) fn is_dark(&self, surface: usize, seen_from: Sides, light: &CourseLight) -> bool {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
@@ -194,7 +194,7 @@ impl Facts<'_> {
         !summary.is_lit() || behind()
     }
 
-    /// Whether a surface surely does not stand between itself and a light on which N·L > 0.
+    /// Whether a surface certainly does not hide a light with N·L > 0 from itself.
     fn spares_itself(&self, surface: usize, seen_from: Sides, light: &Space) -> bool {
         let (body, summary) = (&self.bodies[surface], &self.summaries[surface]);
         let spares = match body.form {
@@ -209,7 +209,7 @@ impl Facts<'_> {
 }
 
 impl Body {
-    /// Whether `caster` may stand between this surface and a light.
+    /// Whether `caster` may hide a light from this surface.
     fn may_be_hidden_by(&self, caster: &Self, light: &Space) -> bool {
         let Some(space) = self.space() else {
             return true;
@@ -226,7 +226,7 @@ impl Body {
     }
 }
 
-/// A ball, or nothing if what it stands for is none.
+/// A bounding ball; `None` if there is none.
 #[derive(Clone, Copy)]
 struct BoundingBall(Option<(Vec3, f64)>);
 
@@ -263,7 +263,7 @@ impl BoundingBall {
         let start = f.dot(f) - sum * sum;
         let value = |tau: f64| (square * tau + 2.0 * linear) * tau + start;
         let slack = MARGIN * size * size;
-        // Where Q is not convex its extremum is none of its least values: those are at the ends.
+        // Where Q is not convex, its minimum is at an end.
         let min = (-linear / square).clamp(0.0, 1.0);
         [0.0, min, 1.0].into_iter().any(|tau| value(tau) <= slack)
     }

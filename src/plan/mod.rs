@@ -1,11 +1,11 @@
-//! What the picture of a scene really needs: each effect with its verdict and the reason, and the
-//! work that is left.
+//! The work that the picture of a scene needs: a verdict with its reason for each effect, and the
+//! remaining work.
 //!
 //! A plan changes no bit of the picture. A rule leaves out only what it proves to add exactly
 //! nothing: a term with a factor of 0 whose other factors are finite (validation bounds every
 //! number by 1e60, so each local term is), a ray that can meet nothing, a sample that equals its
-//! neighbour. Sums keep their order, and random numbers are keyed by pixel, sample and path, so
-//! that leaving one out shifts no other.
+//! neighbour. Sums keep their order. Random numbers are keyed by pixel, sample and path, so leaving
+//! out one does not shift the others.
 
 mod body;
 mod effect;
@@ -43,10 +43,10 @@ use summary::MaterialSummary;
 use visibility::Visibility;
 use window::{Shown, Window};
 
-/// The most questions of whether one thing hides or shows another that a plan asks.
+/// The maximum number of pairs of surfaces or lights that a plan tests for visibility.
 const MAX_PAIRS: usize = 500_000;
 
-/// By which arithmetic rays meet shapes; shading is always in f64.
+/// The arithmetic of ray intersection. Shading is always in f64.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Arithmetic {
@@ -63,7 +63,7 @@ impl Arithmetic {
     /// All of them, the robust one first.
     pub const ALL: [Self; 3] = [Self::Robust, Self::Plain, Self::F32];
 
-    /// What it is called.
+    /// The name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -74,7 +74,7 @@ impl Arithmetic {
     }
 }
 
-/// What is left of a light.
+/// The remaining terms of a light.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LightPlan {
     /// Whether it adds anything.
@@ -88,11 +88,11 @@ pub struct LightPlan {
 /// The work that a picture needs.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// By which arithmetic rays meet shapes.
+    /// The arithmetic of ray intersection.
     pub arithmetic: Arithmetic,
-    /// The rules that were allowed to leave something out.
+    /// The rules that were allowed.
     pub rules: Rules,
-    /// What the integrator must be able to do.
+    /// The features that the integrator needs.
     pub features: Features,
     /// The shapes that rays may meet.
     pub shapes: Shapes,
@@ -104,11 +104,11 @@ pub struct Plan {
     pub constants: Vec<Option<Vec3>>,
     /// Bounces after the first hit that may add something.
     pub max_depth: u32,
-    /// What each pixel may show.
+    /// The class of each pixel.
     pub region: Region,
-    /// What traced paths need, where paths are traced.
+    /// The plan of paths, where paths are traced.
     pub paths: Option<PathPlan>,
-    /// What became of each effect, and why.
+    /// The verdict on each effect.
     pub verdicts: Vec<Verdict>,
 }
 
@@ -197,8 +197,8 @@ impl Plan {
         }
     }
 
-    /// Plans the picture by an arithmetic, with those of the rules given that add exactly nothing
-    /// by it: what is proven of the shapes is proven for the robust one.
+    /// Plans the picture by an arithmetic, with those of the given rules that hold for it: proofs
+    /// about shapes hold for the robust one alone.
     #[must_use]
     pub fn by(arithmetic: Arithmetic, scene: &Proof, rules: Rules) -> Self {
         let rules = match arithmetic {
@@ -230,7 +230,7 @@ impl Plan {
     }
 }
 
-/// The rules whose proofs hold for a camera: they know rays from an eye.
+/// The rules whose proofs hold for a camera: most assume that all rays start at the eye.
 fn proven_for(scene: &Proof, rules: Rules) -> Rules {
     match scene.camera().projection {
         Projection::Orthographic => rules.of(Rules::AT_HITS),

@@ -1,51 +1,51 @@
-//! What the plain arithmetics would lose in a scene: first-order estimates from its own sizes and
-//! distances.
+//! The expected losses by the plain arithmetics in a scene: first-order estimates from its sizes
+//! and distances.
 //!
-//! An estimate is of typical rays, those that meet a surface near its middle; at outlines errors
-//! are larger.
+//! Estimates are for typical rays, which meet a surface near its middle. At outlines errors are
+//! larger.
 
 use super::shape::shape_facts;
 use super::{Arithmetic, facts};
 use crate::valid::{Mode, Phong, Proof, Surface};
 
-/// The plain arithmetics take hits nearer than this, in units of the world, for the surface the ray
-/// starts on.
+/// The plain arithmetics ignore hits nearer than this, in units of the world: they take them for
+/// the start of the ray.
 pub const NEAREST: f64 = 1e-5;
 
-/// The largest part of the size of a curved surface that its points may be off before its shading
-/// shows it in 8 bits.
+/// The largest relative error of the points of a curved surface that is invisible in its shading in
+/// 8 bits.
 const VISIBLE: f64 = 1.0 / 512.0;
 
-/// The largest part of the size of a surface that may be skipped before it shows.
+/// The largest fraction of the size of a surface that may be skipped invisibly.
 const SKIPPED: f64 = 1.0 / 100.0;
 
-/// How a loss shows.
+/// The symptom of a loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Symptom {
     /// Rays that leave a surface meet it again: it shades or mirrors itself.
     SelfHit,
-    /// The points of a curved surface are so far off that its shading is wrong.
+    /// The errors of the points of a curved surface make its shading wrong.
     Shape,
-    /// The surface is hardly larger than what is skipped before each ray.
+    /// The surface is hardly larger than the skipped start of each ray.
     Skipped,
 }
 
-/// What an arithmetic loses.
+/// The loss by an arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
-    /// The surface that shows it most: an index into [`Proof::surfaces`].
+    /// The surface with the strongest symptom: an index into [`Proof::surfaces`].
     pub surface: usize,
-    /// How it shows there.
+    /// The symptom there.
     pub symptom: Symptom,
-    /// How far points of the surface are off, in units of the world.
+    /// The error of the points of the surface, in units of the world.
     pub error: f64,
-    /// How many times too large that is.
+    /// The ratio of the error to the largest invisible one.
     pub excess: f64,
-    /// How many surfaces lose something.
+    /// The number of affected surfaces.
     pub surfaces: usize,
 }
 
-/// What a scene loses by an arithmetic, if anything is expected to show.
+/// The loss of a scene by an arithmetic, if it is expected to be visible.
 #[must_use]
 pub fn loss(scene: &Proof, arithmetic: Arithmetic) -> Option<Loss> {
     let unit = match arithmetic {
@@ -98,18 +98,18 @@ fn sends_rays(scene: &Proof, surface: &Surface, is_lit: bool) -> bool {
     is_lit || settings.max_depth > 0 && (ks.get() > 0.0 || kt.get() > 0.0)
 }
 
-/// What decides how well rays can meet a surface.
+/// The sizes that decide the accuracy of hits on a surface.
 struct Measure {
-    /// The size of the coordinates that rays start and end with.
+    /// The size of the coordinates at both ends of rays.
     coordinates: f64,
     /// From the eye to the middle of the surface.
     distance: f64,
     form: Formula,
 }
 
-/// What a surface is to a formula, with the sizes that divide its error.
+/// The type of equation of a surface, with the sizes that divide its error.
 pub(super) enum Formula {
-    /// Flat: t is one quotient. Of this size, or without an end.
+    /// Flat: t is one quotient. The size, infinite for an unbounded one.
     Flat(f64),
     /// A quadratic, of this radius.
     Round(f64),
@@ -135,8 +135,8 @@ impl Measure {
         }
     }
 
-    /// How far off a point is: the rounding of its coordinates, and that of the polynomial over its
-    /// slope at the root.
+    /// The error of a point: the rounding of its coordinates, and that of the polynomial divided by
+    /// its slope at the root.
     fn error(&self, unit: f64) -> f64 {
         let distance = self.distance;
         let polynomial = match self.form {
@@ -156,7 +156,7 @@ impl Measure {
         unit * (self.coordinates + polynomial)
     }
 
-    /// How many times larger than bearable a symptom is.
+    /// The ratio of a symptom to the largest invisible one.
     fn excess(&self, symptom: Symptom, unit: f64, sends_rays: bool) -> f64 {
         match symptom {
             Symptom::SelfHit if sends_rays => self.error(unit) / NEAREST,

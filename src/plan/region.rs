@@ -1,8 +1,8 @@
-//! What each pixel may show: nothing, one flat surface of one value, or anything.
+//! The class of each pixel: it shows nothing, one flat surface of one value, or anything.
 //!
-//! Each surface is counted in the cells its rectangle of the picture overlaps, cells being squares
-//! of pixels so many that they stay cheap. What no rectangle overlaps shows nothing, whatever the
-//! order or shape of the surfaces.
+//! The picture is divided into square cells, in a limited number. Each surface is counted in the
+//! cells that its rectangle overlaps. A cell without a rectangle shows nothing, whatever the order
+//! or shape of the surfaces.
 
 use super::body::Hull;
 use super::rules::Rule;
@@ -12,34 +12,34 @@ use super::window::{Rect, Shown, Window};
 use super::{Facts, Findings};
 use crate::valid::{Mode, Shape};
 
-/// The most cells of a picture.
+/// The maximum number of cells of a picture.
 const MAX_CELLS: u64 = 1 << 18;
 
-/// The pixels that all samples stay away from the edge of a surface that fills their pixel.
+/// The margin in pixels between all samples and the edge of a surface that fills their pixel.
 const MARGIN: f64 = 1.0;
 
-/// What the rays through a pixel may meet.
+/// The class of a pixel, by the possible hits of its rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PixelClass {
     /// Nothing.
     Nothing,
-    /// All of them the same flat surface, which shows the same value everywhere.
+    /// All rays meet one flat surface of one value.
     Uniform,
-    /// Whatever there is.
+    /// Any surfaces.
     Anything,
 }
 
-/// What each pixel of the picture may show.
+/// The classes of the pixels of a picture.
 #[derive(Clone, Debug, Default)]
 pub struct Region {
     /// Cells are 2 to this pixels wide.
     shift: u32,
-    /// Cells in a row; none if nothing is known of any pixel.
+    /// Cells in a row; `None` if no pixel has a known class.
     columns: usize,
     cells: Vec<CellContent>,
-    /// Convex polygons in the picture that lie within a surface of one value.
+    /// Convex polygons in the picture, each inside a surface of one value.
     polygons: Vec<Vec<[f64; 2]>>,
-    /// Whether pixels that show nothing may be left out.
+    /// Whether pixels without surfaces may be left out.
     misses: bool,
 }
 
@@ -84,7 +84,7 @@ impl Region {
         }
     }
 
-    /// What the rays through a pixel may meet.
+    /// The class of a pixel, by the possible hits of its rays.
     #[must_use]
     pub fn class_of(&self, [x, y]: [u32; 2]) -> PixelClass {
         if self.columns == 0 {
@@ -101,7 +101,7 @@ impl Region {
         }
     }
 
-    /// The fraction of the picture that surely shows nothing, in [0, 1].
+    /// The fraction of the picture that certainly shows nothing, in [0, 1].
     #[must_use]
     pub fn empty_fraction(&self) -> f64 {
         let empty = self
@@ -116,7 +116,7 @@ impl Region {
         }
     }
 
-    /// Whether some pixels may show one flat surface of one value alone.
+    /// Whether some pixels may show only one flat surface of one value.
     #[must_use]
     pub fn has_flat_pixels(&self) -> bool {
         self.cells
@@ -131,8 +131,8 @@ impl Findings<'_> {
         self.facts.rules.contains(Rule::PixelFlat) && self.is_sampled() && self.facts.is_pinhole()
     }
 
-    /// The outline in the picture of a convex polygon within a surface, if that is flat and shows
-    /// one value.
+    /// The outline in the picture of a convex polygon inside a surface, if the surface is flat and
+    /// has one value.
     fn polygon(&self, surface: usize, window: &Window) -> Option<Vec<[f64; 2]>> {
         let Hull::Flat(flat) = self.facts.bodies[surface].form else {
             return None;
@@ -212,7 +212,7 @@ fn is_inside(polygon: &[[f64; 2]], [x, y]: [u32; 2]) -> bool {
     edges(polygon).all(|edge| corners.iter().all(|corner| area(edge, *corner) >= 0.0))
 }
 
-/// How many surfaces each cell may show, and the sum of their marks, as differences from the cells
+/// The number of surfaces in each cell and the sum of their marks, as differences from the cells
 /// before.
 struct CellGrid {
     shift: u32,

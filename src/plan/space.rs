@@ -1,9 +1,7 @@
-//! Boxes, and the room that rounding takes: whatever the rules say about where things are holds
-//! with a margin.
+//! Boxes with margins for rounding: all statements of the rules about positions hold with a margin.
 //!
-//! Rays meet shapes to within some 10² units of rounding of the coordinates involved. The rules
-//! keep [`MARGIN`], 2²¹ units, so what they find apart is apart for the arithmetic of rays as
-//! well.
+//! Hits are accurate to about 10² units of rounding of the coordinates. The rules use [`MARGIN`],
+//! 2²¹ units, so that boxes they find disjoint are disjoint for rays, too.
 
 use crate::math::Vec3;
 
@@ -18,7 +16,7 @@ pub(in crate::plan) struct Space {
 }
 
 impl Space {
-    /// The box that reaches so far from a point along each axis.
+    /// The box around a point, with half its size along each axis given.
     pub(in crate::plan) fn around(center: Vec3, half_extent: Vec3) -> Self {
         Self {
             min: center - half_extent,
@@ -26,7 +24,7 @@ impl Space {
         }
     }
 
-    /// The box of some points; of none, one that nothing meets.
+    /// The box of some points; an empty box without points.
     pub(in crate::plan) fn of(points: impl IntoIterator<Item = Vec3>) -> Self {
         let nothing = Self {
             min: Vec3::INFINITY,
@@ -71,7 +69,7 @@ impl Space {
         std::array::from_fn(|k| Vec3::new(pick(k & 1, 0), pick(k >> 1 & 1, 1), pick(k >> 2, 2)))
     }
 
-    /// Whether the two surely have no point in common.
+    /// Whether the two certainly have no common point.
     pub(in crate::plan) fn is_apart_from(&self, other: &Self) -> bool {
         let margin = MARGIN * (self.size() + other.size());
         (self.min - other.max)
@@ -88,10 +86,10 @@ impl Space {
             .length()
     }
 
-    /// Whether a segment from this box to `end` may meet `other`, all with the room they need.
+    /// Whether a segment from this box to `end` may meet `other`, all with margins.
     ///
     /// At the fraction τ of the way all segments are in the box `(1 − τ)·self + τ·end`. Each face
-    /// of `other` bounds τ by a linear inequality; where no τ satisfies all, nothing meets.
+    /// of `other` bounds τ by a linear inequality; if no τ satisfies all of them, no segment meets it.
     pub(in crate::plan) fn may_see_through(&self, end: &Self, other: &Self) -> bool {
         /// Far above the rounding of the bounds on τ, which are at most 1.
         const SLACK: f64 = MARGIN;
@@ -133,12 +131,12 @@ pub(in crate::plan) struct Flat {
     pub(in crate::plan) normal: Vec3,
 }
 
-/// The sides of a surface from which something looks at it.
+/// The sides of a surface that are seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(in crate::plan) struct Sides {
-    /// From where the normal points to: outside, for a closed shape.
+    /// The side of the normal: the outside of a closed shape.
     pub(in crate::plan) front: bool,
-    /// From the other side.
+    /// The other side.
     pub(in crate::plan) back: bool,
 }
 
@@ -172,7 +170,7 @@ impl Sides {
 }
 
 impl Flat {
-    /// On which sides of the plane a box lies; both if that is in doubt.
+    /// The sides of the plane on which a box lies; both if that is uncertain.
     pub(in crate::plan) fn sides(&self, space: &Space) -> Sides {
         let margin = 4.0 * MARGIN * (space.size() + self.point.abs().max_element());
         let heights = space
@@ -194,7 +192,7 @@ impl Flat {
 pub(in crate::plan) mod tests {
     use super::*;
 
-    /// Something that is surely so, seen from a margin on, is not yet so a little before it.
+    /// A statement that holds with the margin does not hold with a slightly smaller one.
     pub(in crate::plan) fn has_margin(margin: f64, is_sure: impl Fn(f64) -> bool) {
         assert!(
             !is_sure((1.0 - 1e-5) * margin),
@@ -280,7 +278,7 @@ pub(in crate::plan) mod tests {
         assert_eq!(space.distance(Vec3::new(0.0, 2.0, -2.0)), 0.0);
     }
 
-    /// The boxes of a test with their axes changed about, and seen in a mirror.
+    /// The boxes of a test with permuted and mirrored axes.
     fn turned(boxes: [Space; 3], axis: usize, mirror: bool) -> [Space; 3] {
         let turn = |v: Vec3| {
             [
@@ -298,7 +296,7 @@ pub(in crate::plan) mod tests {
         })
     }
 
-    /// That three boxes are apart from a gap on, however they lie.
+    /// Three boxes are disjoint from a certain gap on, in any arrangement.
     fn have_margin(
         margin: f64,
         boxes: impl Fn(f64) -> [Space; 3],

@@ -1,10 +1,10 @@
-//! What of its material a surface shows, maps and constants of textures considered.
+//! Summaries of materials, with maps and constant textures considered.
 
 use super::shape::shape_facts;
 use crate::math::Vec3;
 use crate::valid::{Maps, Mesh, Phong, Proof, Shape, Surface, Texture};
 
-/// What a surface may show.
+/// A summary of the material of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MaterialSummary {
     /// ka·C is not 0 everywhere.
@@ -13,17 +13,17 @@ pub(super) struct MaterialSummary {
     pub(super) diffuse: bool,
     /// ks is not 0 everywhere.
     pub(super) shines: bool,
-    /// The most that ks and kt together can be.
+    /// The maximum of ks and kt together.
     pub(super) weight: f64,
-    /// The most it adds of a light of colour 1.
+    /// The maximum of its terms for a light of colour 1.
     pub(super) brightest: f64,
     /// kt is above 0.
     pub(super) refracts: bool,
-    /// Its mirrored rays are several.
+    /// It has several mirrored rays.
     pub(super) glossy: bool,
     /// Its shading normals come from its mesh.
     pub(super) smooth: bool,
-    /// A map bends its shading normals.
+    /// A map changes its shading normals.
     pub(super) mapped: bool,
     /// The texture that gives its colour.
     pub(super) color_map: Option<usize>,
@@ -85,7 +85,7 @@ impl MaterialSummary {
         self.diffuse || self.shines
     }
 
-    /// Whether a mirrored or refracted ray counts.
+    /// Whether a mirrored or refracted ray has a weight above 0.
     pub(super) fn mirrors(&self) -> bool {
         self.shines || self.refracts
     }
@@ -96,7 +96,7 @@ impl MaterialSummary {
     }
 }
 
-/// The most that each channel of a texture can be.
+/// The maximum of each channel of a texture.
 fn largest(scene: &Proof, texture: Option<usize>) -> Vec3 {
     match texture.map(|texture| &scene.textures()[texture]) {
         Some(Texture::Uv) => Vec3::INFINITY,

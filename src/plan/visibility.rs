@@ -1,5 +1,4 @@
-//! What rays may meet: surfaces the camera shows, surfaces mirrors show, and the longest chain of
-//! mirrors.
+//! Visibility: the surfaces seen by the camera and in mirrors, and the longest chain of mirrors.
 
 use super::body::{Body, Hull};
 use super::rules::{Rule, Rules};
@@ -7,7 +6,7 @@ use super::space::Sides;
 use super::window::{Shown, Window};
 use super::{Facts, MAX_PAIRS};
 
-/// What rays may meet.
+/// The surfaces that rays may meet.
 pub(super) struct Visibility {
     /// Per surface, whether a camera ray or a ray that bounced may meet it.
     pub(super) reached: Vec<bool>,
@@ -15,12 +14,12 @@ pub(super) struct Visibility {
     pub(super) sides: Vec<Sides>,
     /// The bounces after the first hit that may add something.
     pub(super) depth: u32,
-    /// Whether there were too many mirrors and surfaces to ask which sees which.
+    /// Whether there were too many mirrors and surfaces to test all pairs.
     pub(super) capped: bool,
 }
 
 impl Visibility {
-    /// What rays may meet, where each surface shows as given, with at most `depth` bounces.
+    /// The visibility of all surfaces, given their rectangles in the picture, with at most `depth` bounces.
     pub(super) fn new(facts: &Facts<'_>, window: &Window, shown: &[Shown], depth: u32) -> Self {
         let lens = window.lens();
         let reached = shown
@@ -48,10 +47,11 @@ impl Visibility {
         }
     }
 
-    /// Adds what mirrors show.
+    /// Adds the surfaces seen in mirrors.
     ///
-    /// A least fixed point: a ray after k bounces meets what a surface reached by k − 1 shows from
-    /// a side it is looked at from, so by induction no ray leaves the set.
+    /// A least fixed point: a ray after k bounces meets a surface that a mirror met after k − 1
+    /// bounces shows, on a side from which that mirror is seen. By induction, no ray leaves the
+    /// set.
     fn bounce(mut self, facts: &Facts<'_>, depth: u32) -> Self {
         let count = facts.bodies.len();
         let mirrors = facts
@@ -93,7 +93,7 @@ impl Visibility {
 }
 
 impl Facts<'_> {
-    /// The surfaces that rays off a mirror looked at from `sides` may meet.
+    /// The surfaces that rays off a mirror seen from `sides` may meet.
     fn shown_by(&self, mirror: usize, sides: Sides) -> Vec<usize> {
         let (body, summary) = (&self.bodies[mirror], &self.summaries[mirror]);
         let scatters = summary.refracts || (summary.glossy && summary.is_bent());
@@ -129,7 +129,7 @@ impl Facts<'_> {
     }
 }
 
-/// The most bounces of a path through the graph of what mirrors show; `None` if it has a cycle.
+/// The length of the longest path in the graph of mirrors; `None` if it has a cycle.
 fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
     #[derive(Clone, Copy, PartialEq)]
     enum Chain {
@@ -156,11 +156,10 @@ fn longest_chain(targets: &[Vec<usize>]) -> Option<u32> {
     })
 }
 
-/// The bounces after which what is left weighs less than half a level of 8 bits, if that is ever
-/// so.
+/// The number of bounces after which the rest is below half a level of 8 bits, if there is one.
 ///
-/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, with k the largest weight of all that goes
-/// on from a point and L the most that a point shows directly.
+/// After D bounces a path adds at most `Σ_{i > D} kⁱ·L`, where k is the largest sum of weights of
+/// the rays from a point, and L the maximum of the direct terms of a point.
 pub(super) fn cut(facts: &Facts<'_>, depth: u32, rules: Rules) -> u32 {
     if !rules.contains(Rule::Cut) {
         return depth;

@@ -1,4 +1,4 @@
-//! The list of integrators there are, and the choice of the smallest that can do what a plan needs.
+//! The compiled integrators, and the choice of the smallest one with all features that a plan needs.
 
 use crate::plan::{Features, PathFeatures};
 use crate::render::film::heartbeat::OnPixel;
@@ -48,7 +48,7 @@ pub const KERNELS: [Kernel; 12] = [
     kernel("naive", Features::EVERYTHING.with(Features::NAIVE)),
 ];
 
-/// The few of them that are compiled for what is rarer: other arithmetics, and pictures that grow.
+/// The few kernels compiled for the rarer cases: other arithmetics, and growing pictures.
 const FEW: [usize; 4] = [1, 4, 10, 11];
 
 /// The index of the integrator with the fewest features among those that have all of `needed`; the

@@ -1,5 +1,5 @@
-//! Where a file lies that a scene names: only below the scene's folder, its parent, or a folder the
-//! user allows.
+//! Search for the files that a scene names: only below the scene's folder, its parent, or a folder
+//! that the user allows.
 //!
 //! A name that leads elsewhere (`C:\…\earth.png`, `/home/…`, `../..`) is never followed: the
 //! longest tail of it that exists below those folders is taken instead. So is, last, a name that
@@ -11,7 +11,7 @@ use super::loader::{Identity, Opened};
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// The most components of a name that are looked at, from its end.
+/// The maximum number of components of a name that are tried, from its end.
 const MAX_COMPONENTS: usize = 16;
 
 /// Folders of the system, which lend nothing, nor does any folder below.
@@ -201,10 +201,10 @@ impl<'a> Name<'a> {
     }
 }
 
-/// What is at a place.
+/// The entry at a place.
 enum At {
     File(Opened),
-    /// What may not be read, be it there or not.
+    /// A file that may not be read, whether it exists or not.
     Withheld,
     Nothing,
 }
@@ -238,7 +238,7 @@ impl Search {
     /// The file of a kind that a scene names `written`.
     ///
     /// # Errors
-    /// Why there is none, with the places that were looked at.
+    /// If there is none: the reason, with the places that were searched.
     pub fn find(&self, written: &str, kind: &FileKind) -> Result<Found, Missing> {
         let Some(scene) = self.folders.first() else {
             return Err(Missing::NoFolder);
@@ -279,7 +279,7 @@ impl Search {
     /// folder of the scene or the one the user allows.
     ///
     /// # Errors
-    /// Why there is none, with the places that were looked at.
+    /// If there is none: the reason, with the places that were searched.
     pub fn below(&self, written: &str) -> Result<Found, Missing> {
         let own = self.folders.len() - usize::from(self.has_parent);
         if own == 0 {

@@ -1,14 +1,14 @@
-//! What follows from a study, in plain words.
+//! The advice that follows from a study, in plain words.
 
 use super::outcome::{Row, Study};
 use super::reference::DepthEnd;
 use super::setting::Setting;
 use crate::plan::Arithmetic;
 
-/// An error that nobody sees, in grey levels.
+/// An invisible error, in grey levels.
 const ENOUGH: f64 = 0.5;
 
-/// One sentence a line; the first is the one to follow.
+/// One sentence per line. The first is the main advice.
 pub(super) fn advice(study: &Study) -> Vec<String> {
     let front: Vec<_> = study
         .rows
@@ -37,10 +37,10 @@ pub(super) fn advice(study: &Study) -> Vec<String> {
     lines
 }
 
-/// The row, or the one by the robust arithmetic if that of the row is not clearly cheaper: the few
-/// rounds of a row may say so by chance.
+/// The row, or the same row by the robust arithmetic if the row is not clearly cheaper: the
+/// difference may be noise of the few rounds.
 fn steady<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
-    /// A ratio that is clearly below 1.
+    /// A ratio that is certainly below 1.
     const CLEAR: f64 = 0.95;
     let robust = Setting {
         precision: Arithmetic::Robust,
@@ -58,7 +58,7 @@ fn steady<'a>(study: &'a Study, row: &'a Row) -> &'a Row {
         .unwrap_or(row)
 }
 
-/// The row chosen, and what better ones would cost.
+/// The row chosen, and the cost of better ones.
 fn best(study: &Study, rows: &[&Row]) -> String {
     let (chosen, better) = (rows[0], &rows[1..]);
     let words = |row: &Row| row.setting.words(&study.used());
@@ -107,7 +107,7 @@ fn about_own(study: &Study, own: &Row, front: &[&Row]) -> String {
     }
 }
 
-/// What a row has that the scene's own setting has not.
+/// The advantage of a row over the scene's own setting.
 fn instead(study: &Study, row: &Row, own: &Row) -> String {
     let (words, times) = (row.setting.words(&study.used()), row.ratio.value);
     if digits(row.errors.rmse) == digits(own.errors.rmse) {
@@ -132,7 +132,7 @@ fn error(row: &Row) -> String {
     }
 }
 
-/// A number with the digits that mean something to people.
+/// A number with its significant digits.
 pub(super) fn digits(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -144,7 +144,7 @@ pub(super) fn digits(value: f64) -> String {
     }
 }
 
-/// Seconds in words.
+/// A duration in seconds, with a unit.
 pub(super) fn seconds(value: f64) -> String {
     match value {
         ..0.1 => format!("{} ms", digits(1000.0 * value)),

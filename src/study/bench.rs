@@ -1,10 +1,10 @@
-//! What a study runs on: threads, a clock, and someone who may say stop.
+//! The environment of a study: threads, a clock, and an observer who may say stop.
 
 use crate::render::{OnPixel, Step};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Duration;
 
-/// A clock, read before and after a piece of work; any origin will do.
+/// A clock, read before and after a piece of work. Its origin does not matter.
 #[derive(Clone, Copy)]
 pub struct Clock<'a> {
     /// The processor time that the calling thread has used.
@@ -37,7 +37,7 @@ impl Time {
 }
 
 impl Clock<'_> {
-    /// Does a piece of work on the calling thread, and says how many seconds that took.
+    /// Does a piece of work on the calling thread. Returns its duration in seconds, too.
     fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, Time) {
         let (cpu, wall) = ((self.cpu)(), (self.wall)());
         let done = work();
@@ -53,13 +53,13 @@ impl Clock<'_> {
     }
 }
 
-/// Threads, a clock, and someone who may say stop.
+/// Threads, a clock, and an observer who may say stop.
 pub struct Bench<'a> {
     clock: Clock<'a>,
     on_pixel: &'a OnPixel<'a>,
-    /// All threads, for what is not timed.
+    /// All threads, for work that is not timed.
     wide: ThreadPool,
-    /// One thread, for what is: its processor time is the work, however busy the machine.
+    /// One thread, for timed work: its processor time does not depend on other load.
     narrow: ThreadPool,
 }
 
@@ -88,12 +88,12 @@ impl<'a> Bench<'a> {
         (self.on_pixel)(step)
     }
 
-    /// Does a piece of work with all threads.
+    /// Does a piece of work on all threads.
     pub(super) fn work<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         self.wide.install(work)
     }
 
-    /// Does a piece of work on one thread, and says how long that took.
+    /// Does a piece of work on one thread. Returns its duration, too.
     pub(super) fn measure<T: Send>(&self, work: impl FnOnce() -> T + Send) -> (T, Time) {
         self.narrow.install(|| self.clock.measure(work))
     }

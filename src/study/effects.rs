@@ -1,5 +1,5 @@
-//! What each effect of a scene costs: the scene without it, in the same setting, beside the scene
-//! with it.
+//! The cost of each effect of a scene: the scene is rendered with and without it, in the same
+//! setting.
 
 use super::metrics::rmse;
 use super::outcome::Rays;
@@ -10,23 +10,23 @@ use super::subject::{Stopped, Subject};
 use crate::ir::{Light, Material, Mode, Phong, Scene};
 use serde::{Deserialize, Serialize};
 
-/// What a scene is without one of its effects.
+/// A scene without one of its effects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct EffectCost {
     /// The effect.
     pub effect: String,
-    /// The rays of the part looked at, without it.
+    /// The rays without it, of the part rendered.
     pub rays: Rays,
-    /// All rays without it over those with it.
+    /// The ratio of rays, without it to with it.
     pub ray_ratio: f64,
-    /// Processor seconds without it over those with it.
+    /// The ratio of processor times, without it to with it.
     pub ratio: Estimate,
-    /// How much the picture differs without it, in grey levels.
+    /// The difference of the picture without it, in grey levels.
     pub difference: f64,
 }
 
-/// A way to take an effect out of a scene.
+/// A function that removes an effect from a scene.
 type Without = (&'static str, fn(&mut Scene));
 
 const EFFECTS: [Without; 6] = [
@@ -63,7 +63,7 @@ fn without_maps(phong: &mut Phong) {
     ) = (None, None, None, None);
 }
 
-/// The effects that a scene has, each with what it costs in a setting.
+/// The effects of a scene, each with its cost in a setting.
 pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
@@ -110,7 +110,7 @@ pub(super) fn costs(
         ratio: run.ratio,
         difference: rmse(&with.shot.tiles, &run.shot.tiles),
     };
-    // An effect that changes neither picture nor work is not there.
+    // An effect that changes neither picture nor work is absent.
     let costs = names.into_iter().zip(without).map(cost);
     Ok(costs
         .filter(|cost| cost.difference > 0.0 || cost.ray_ratio != 1.0)

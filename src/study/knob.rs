@@ -1,5 +1,4 @@
-//! The knobs of accuracy: what can be turned for more work and less error, and which of them a
-//! scene has.
+//! The knobs of accuracy: numbers that trade work for error, and which of them a scene has.
 
 use super::setting::Setting;
 use super::subject::prove;
@@ -7,7 +6,7 @@ use crate::ir::{Light, Material, Mode, Phong, Scene};
 use crate::plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
 use serde::{Deserialize, Serialize};
 
-/// Something that trades work for accuracy.
+/// A number that trades work for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Knob {
@@ -19,7 +18,7 @@ pub enum Knob {
     Lights,
     /// Rays of each glossy lobe.
     Glossy,
-    /// Paths of a pixel, where paths are traced.
+    /// Paths per pixel, where paths are traced.
     Paths,
     /// Bounces after the first hit.
     Depth,
@@ -40,7 +39,7 @@ impl Knob {
         Self::Precision,
     ];
 
-    /// What it is called in tables.
+    /// The name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -54,7 +53,7 @@ impl Knob {
         }
     }
 
-    /// What it is called where there is little room.
+    /// The short name.
     #[must_use]
     pub fn short(self) -> &'static str {
         match self {
@@ -68,7 +67,7 @@ impl Knob {
         }
     }
 
-    /// A value where there is little room, as "4" or "plain".
+    /// A value in short form, as "4" or "plain".
     #[must_use]
     pub fn cell(self, value: u32) -> String {
         if self == Self::Precision {
@@ -99,7 +98,7 @@ impl Knob {
         }
     }
 
-    /// The values to try, from the least work up. Depth ends where the scene does.
+    /// The values to try, in ascending order of work. Depth ends at the depth of the scene.
     pub fn levels(self) -> impl Iterator<Item = u32> {
         const DEPTHS: u32 = MAX_DEPTH + 1;
         let (count, step): (u32, fn(u32) -> u32) = match self {
@@ -157,14 +156,13 @@ pub(super) fn place(arithmetic: Arithmetic) -> u32 {
         .map_or(0, |(value, _)| value)
 }
 
-/// Whether the plan expects nothing of a scene to show that an arithmetic loses.
+/// Whether the plan expects no visible loss from an arithmetic.
 pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
     loss(&prove(scene), arithmetic).is_none()
 }
 
-/// Why a knob is not turned in a scene, or `None` if it is: the scene does not ask for its effect,
-/// or the plan leaves that out however far the knobs are turned, which changes nothing then; or all
-/// but one of its values are known to be wrong.
+/// The reason to leave a knob alone in a scene, or `None`: the scene does not ask for its effect,
+/// or the plan prunes the effect at all values, or only one value is right.
 #[must_use]
 pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
     not_asked_for(knob, scene)
@@ -172,7 +170,7 @@ pub fn idle(knob: Knob, scene: &Scene) -> Option<String> {
         .or_else(|| left_out(knob, scene))
 }
 
-/// What the plan says of the effect of a knob if it needs none.
+/// The reason of the plan for pruning the effect of a knob, if it does.
 fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
     let effect = match knob {
         Knob::Supersampling => Effect::Supersampling,

@@ -1,5 +1,5 @@
-//! How far a picture is from another, in several measures. All are of display values: each sample
-//! was clamped to [0, 1] before the mean, as a picture file shows it, and nothing was rounded.
+//! Measures of the difference of two pictures. All use display values: each sample was clamped to
+//! [0, 1] before the mean, as in a picture file, without rounding.
 
 use super::flip::{PIXELS_PER_DEGREE, flip};
 use super::statistics::relative_error_of_mean;
@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 /// The full brightness in grey levels of 8 bits.
 pub const LEVELS: f64 = 255.0;
 
-/// How far pictures are from a reference.
+/// The errors of pictures against a reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Errors {
     /// The root of the mean square of all channels of all pixels, in grey levels.
     pub rmse: f64,
-    /// How far `rmse` may be from that of the whole picture, with 95 % confidence, as a fraction of
-    /// it: 0 if all of the picture was looked at.
+    /// The relative uncertainty of `rmse` as an estimate for the whole picture, with 95 %
+    /// confidence: 0 if the whole picture was rendered.
     pub rmse_uncertainty: f64,
     /// The mean of `(x − r)²/(r² + 0.01)`, which weighs dark places more.
     pub relative_mse: f64,
@@ -29,8 +29,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// The errors of parts of a picture that are `fraction` of it, each a picture of its own for
-    /// FLIP.
+    /// The errors of parts of a picture, together `fraction` of it. FLIP sees each part as a
+    /// picture of its own.
     #[must_use]
     pub fn of(test: &[Image], reference: &[Image], fraction: f64) -> Self {
         let pairs = || test.iter().zip(reference);
@@ -67,8 +67,8 @@ pub fn rmse(a: &[Image], b: &[Image]) -> f64 {
     mean_product([a, b], [a, b]).sqrt() * LEVELS
 }
 
-/// The mean of `(a₀ − b₀)·(a₁ − b₁)` over all channels. Where noise of a₀ and a₁ is independent it
-/// cancels, and what both have in common stays.
+/// The mean of `(a₀ − b₀)·(a₁ − b₁)` over all channels. Independent noise of a₀ and a₁ cancels;
+/// their common error stays.
 #[must_use]
 pub(super) fn mean_product(first: [&[Image]; 2], second: [&[Image]; 2]) -> f64 {
     let (count, sum) = products(first, second).fold((0_u64, 0.0), |(count, sum), product| {

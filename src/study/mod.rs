@@ -1,9 +1,9 @@
-//! What accuracy costs: one scene in many settings, each with its error and its time, and the few
-//! that are worth it.
+//! The cost of accuracy: one scene in many settings, each with its error and its time, and the
+//! settings on the Pareto front.
 //!
-//! A study makes its own reference, and says how far that may be off. What it decides depends on
-//! rays, never on time: the same study renders the same settings on every machine. All errors are
-//! in grey levels of 8 bits.
+//! A study renders its own reference and estimates the error of that reference. Its decisions
+//! depend on rays, never on time: the same study renders the same settings on every machine. All
+//! errors are in grey levels of 8 bits.
 
 mod advice;
 mod bench;
@@ -46,7 +46,7 @@ use serde::{Deserialize, Serialize};
 use subject::Subject;
 use sweep::{Model, sweep};
 
-/// How much work a study may be: about so many rays.
+/// The approximate number of rays that a study may take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Effort(pub u64);
@@ -60,7 +60,7 @@ impl Effort {
     pub const THOROUGH: Self = Self(3_000_000_000);
 }
 
-/// How much of the work goes where, in hundredths.
+/// The parts of the work, in hundredths.
 const FOR_DEPTH: u64 = 5;
 const FOR_REFERENCE: u64 = 40;
 const FOR_SWEEPS: u64 = 15;
@@ -68,13 +68,13 @@ const FOR_ROWS: u64 = 30;
 const FOR_EFFECTS: u64 = 6;
 const FOR_PRECISION: u64 = 4;
 
-/// A reference may be off by this fraction of an error that it judges.
+/// The error of a reference is at most this fraction of the errors measured against it.
 const JUDGE: f64 = 0.2;
 
 /// Studies a proven scene.
 ///
 /// # Errors
-/// If someone said stop.
+/// If the observer said stop.
 pub fn study(
     scene: &Scene,
     about: About,
@@ -127,16 +127,16 @@ pub fn study(
     Ok(study)
 }
 
-/// What there is to turn in a scene, and how much work that may be.
+/// The knobs of a scene, and the work that a study may take.
 struct Scope {
     own: Setting,
     used: Vec<Knob>,
-    /// Those of them that sample.
+    /// The knobs that are numbers of samples.
     sampling: Vec<Knob>,
     effort: Effort,
 }
 
-/// What rows are judged by and chosen by.
+/// The reference and the model: the measures by which rows are judged and chosen.
 struct Context {
     reference: Reference,
     depths: Option<Depths>,
@@ -166,18 +166,18 @@ impl Scope {
         self.effort.0 / 100 * fraction
     }
 
-    /// The scene's own setting with all knobs that sample at a value.
+    /// The scene's own setting with all sampling knobs at one value.
     fn at(&self, value: u32) -> Setting {
         self.sampling
             .iter()
             .fold(self.own, |setting, knob| setting.with(*knob, value))
     }
 
-    /// As many tiles as can have a good reference, and be rendered in the scene's own setting.
+    /// The number of tiles that the budget allows, with a good reference and in the scene's own setting.
     fn part<'a>(&self, subject: &Subject<'a>) -> Result<Subject<'a>, Stopped> {
-        /// Samples of a pixel that make a good reference for so many rays.
+        /// The samples per pixel of a good reference.
         const GOOD: [f64; 2] = [1024.0, 4e8];
-        /// Fewer tiles say nothing of a picture.
+        /// Fewer tiles do not represent a picture.
         const FEWEST: usize = 4;
         if self.sampling.is_empty() {
             return Ok(subject.clone());
@@ -201,8 +201,7 @@ impl Scope {
         })
     }
 
-    /// The sampling by which depths are compared: twice where what a bounce adds is itself found by
-    /// chance.
+    /// The sampling for comparing depths: doubled where bounces are sampled at random.
     fn seeds_of_depths(&self) -> Vec<Seeds> {
         let count = if self.used.contains(&Knob::Paths) {
             2
@@ -257,7 +256,7 @@ impl Scope {
         })
     }
 
-    /// The scene's own setting and those the model thinks best, rendered, timed and judged.
+    /// The scene's own setting and the best ones by the model, rendered, timed and judged.
     fn rows(
         &self,
         subject: &Subject<'_>,

@@ -1,4 +1,4 @@
-//! What the noise of a growing film is, how sure that is, and where more samples lessen it most.
+//! The noise of a growing film, the confidence of that estimate, and where more samples reduce it most.
 
 use super::metrics::LEVELS;
 use super::statistics::fisher_quantile;
@@ -14,7 +14,7 @@ pub(super) struct Noise {
 }
 
 impl Noise {
-    /// That of a film with samples everywhere.
+    /// The noise of a film with samples everywhere.
     pub(super) fn of(film: &ProgressiveFilm) -> Self {
         // The variance of the mean of two independent halves.
         let variance =
@@ -42,8 +42,7 @@ impl Noise {
         }
     }
 
-    /// What the square is to be multiplied by so that the error lies above it with the probability
-    /// `tail` only.
+    /// The factor on the square such that the error exceeds it only with the probability `tail`.
     pub(super) fn caution(&self, tail: f64) -> f64 {
         if self.freedom.is_finite() {
             fisher_quantile(tail, self.freedom, 2.0 * self.freedom)
@@ -62,22 +61,21 @@ impl Noise {
     }
 }
 
-/// No replicate grows longer.
+/// The maximum length of a replicate.
 const LONGEST: u32 = 1 << 24;
 
-/// What samples each half of each pixel deserves.
+/// The allocation of samples to the halves of pixels.
 pub(super) struct Allotment {
-    /// The deviation of a single sample as the other half of the pixel and its neighbours saw it.
+    /// The standard deviation of a single sample, estimated from the other half of the pixel and its neighbours.
     deviations: Vec<[f64; 2]>,
-    /// The mean of all.
+    /// The mean of all deviations.
     mean: f64,
-    /// How much less the noise is than that of independent samples would be: replicates are
-    /// stratified.
+    /// The ratio of the noise to that of independent samples: replicates are stratified.
     gain: f64,
 }
 
 impl Allotment {
-    /// That of a film with samples everywhere.
+    /// The noise of a film with samples everywhere.
     pub(super) fn of(film: &ProgressiveFilm, noise: &Noise) -> Self {
         let seen = [0, 1].map(|half| smoothed(film, half));
         let deviations: Vec<_> = seen[1]
@@ -121,10 +119,10 @@ impl Allotment {
 }
 
 /// The variance of single samples, of one half of each pixel: its own, and as long as it has few
-/// samples also that of its neighbours and of the whole picture, so that an edge missed by chance
-/// is found.
+/// samples also that of its neighbours and of the whole picture, so that an edge missed by few
+/// samples is found.
 fn smoothed(film: &ProgressiveFilm, half: usize) -> Vec<f64> {
-    /// How many samples the neighbours stand for, and the whole picture.
+    /// The weights of the neighbours and of the whole picture, in samples.
     const NEAR: f64 = 2.0;
     const FAR: f64 = 0.25;
     let own: Vec<_> = film

@@ -1,4 +1,4 @@
-//! What a study finds: data alone, to be printed, kept and read again.
+//! The result of a study, to be printed, kept and read again.
 
 use super::knob::Knob;
 use super::metrics::Errors;
@@ -10,7 +10,7 @@ use crate::image::Image;
 use crate::render::Counts;
 use serde::{Deserialize, Serialize};
 
-/// What a study is of, and where it ran.
+/// The subject of a study, and the machine it ran on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct About {
@@ -20,19 +20,19 @@ pub struct About {
     pub hash: String,
     /// The program and its version.
     pub software: String,
-    /// The processor, as far as it is known.
+    /// The processor, if it is known.
     pub processor: String,
-    /// How many cores it has for us.
+    /// The number of cores available.
     pub cores: usize,
 }
 
-/// The part of the picture that was looked at.
+/// The part of the picture that was rendered.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct StudyArea {
     /// Width and height of the whole picture.
     pub size: [u32; 2],
-    /// Tiles looked at, or 0 for the whole.
+    /// The tiles rendered, or 0 for the whole picture.
     pub tiles: usize,
     /// Pixels looked at.
     pub pixels: u64,
@@ -59,12 +59,12 @@ pub struct ReferenceReport {
 pub struct KnobReport {
     /// The knob.
     pub knob: Knob,
-    /// Why it is not turned in this scene, if so.
+    /// The reason to leave it alone in this scene, if there is one.
     pub idle: Option<String>,
-    /// Its values, all others as good as the reference.
+    /// Its values, with all other knobs as in the reference.
     #[serde(rename = "rungs")]
     pub levels: Vec<Level>,
-    /// The law of its error in samples, if there is one.
+    /// The power law of its error in samples, if there is one.
     pub law: Option<PowerLaw>,
 }
 
@@ -117,19 +117,19 @@ pub struct Row {
     pub setting: Setting,
     /// Whether it is that of the scene.
     pub own: bool,
-    /// Whether nothing else has less error for no more time.
+    /// Whether no other row has less error in the same time.
     pub front: bool,
-    /// The rays of the part looked at.
+    /// The rays of the part rendered.
     pub rays: Rays,
     /// Processor seconds for the whole picture.
     pub seconds: Estimate,
-    /// Seconds over those of the scene's own setting.
+    /// The ratio of its time to that of the scene's own setting.
     pub ratio: Estimate,
-    /// How far it is off.
+    /// Its errors.
     pub errors: Errors,
-    /// Whether the reference is good enough to judge: if not, the errors are upper limits.
+    /// Whether the reference is accurate enough: if not, the errors are upper limits.
     pub judged: bool,
-    /// What the model expected `errors.rmse` to be.
+    /// The `errors.rmse` that the model predicted.
     pub model: f64,
     /// The pixels.
     #[serde(skip)]
@@ -142,27 +142,27 @@ pub struct Row {
 pub struct Study {
     /// The form of this report: `rtc-cost/1`.
     pub schema: String,
-    /// What it is of, and where it ran.
+    /// The subject, and the machine.
     pub about: About,
-    /// The rays it was allowed.
+    /// The budget in rays.
     pub effort: Effort,
-    /// The seed of its chances.
+    /// The seed of its random numbers.
     pub seed: u64,
-    /// The part of the picture that was looked at.
+    /// The part of the picture that was rendered.
     pub part: StudyArea,
-    /// What errors are measured against.
+    /// The reference for all errors.
     pub reference: ReferenceReport,
     /// Each knob alone.
     pub knobs: Vec<KnobReport>,
-    /// Settings as measured, from the cheapest up: by seconds where those tell, else by rays.
+    /// The measured settings in ascending order of cost: by seconds where those differ clearly, else by rays.
     pub rows: Vec<Row>,
-    /// What each effect costs.
+    /// The cost of each effect.
     pub effects: Vec<EffectCost>,
-    /// What each arithmetic costs.
+    /// The cost of each arithmetic.
     pub precision: Vec<PrecisionCost>,
     /// Wall time over processor time: above 1.2 the machine was busy.
     pub wall_over_cpu: f64,
-    /// What follows, in plain words.
+    /// The advice, in plain words.
     pub advice: Vec<String>,
     /// The pixels of the reference.
     #[serde(skip)]

@@ -1,23 +1,21 @@
-//! Which settings are worth their work: candidates by greed on the model, the front of those
-//! measured.
+//! The Pareto front: candidates by a greedy search on the model, and the front of those measured.
 
 use super::knob::Knob;
 use super::setting::Setting;
 use super::sweep::Model;
 use crate::math::ln;
 
-/// A step that lessens the error by less than a hundredth is not worth a row.
+/// The least relative reduction of the error for a new row.
 const WORTH: f64 = 0.99;
 
-/// Errors that differ by less than a thousandth are the same: so much is in how hits at edges are
-/// rounded.
+/// Errors within a thousandth count as equal: rounding of hits at edges causes as much.
 const SAME: f64 = 1.001;
 
-/// So many times the rays are no more of a cost, unless seconds tell.
+/// Ray counts within this factor count as equal, unless the times differ clearly.
 const SAME_COST: f64 = 1.02;
 
-/// Settings from the least work up, each with the knob raised that the model says lessens the error
-/// most for the work; until the rays exceed `most_rays` or the error falls below `least_error`.
+/// Settings in ascending order of work. Each raises the knob with the best reduction of error per
+/// work by the model, until the rays exceed `most_rays` or the error falls below `least_error`.
 pub(super) fn candidates(
     model: &Model,
     min: Setting,
@@ -48,8 +46,8 @@ pub(super) fn candidates(
     }
 }
 
-/// The setting by the arithmetic of the least work that leaves no more error, as the model says;
-/// none if that is its own.
+/// The setting with the cheapest arithmetic that adds no error by the model; `None` if it has that
+/// arithmetic already.
 pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     let mut others = model
         .tried(Knob::Precision)
@@ -58,12 +56,12 @@ pub(super) fn cheaper(model: &Model, setting: Setting) -> Option<Setting> {
     enough.filter(|other| *other != setting)
 }
 
-/// What a row of the table costs and is worth.
+/// The cost and the error of a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Seconds: the interval they lie in.
+    /// The time in seconds, as an interval.
     pub(super) seconds: [f64; 2],
-    /// Rays, which decide where seconds can't.
+    /// The rays, which decide where times do not differ clearly.
     pub(super) rays: u64,
     /// The error.
     pub(super) error: f64,
@@ -74,14 +72,14 @@ impl Point {
         self.seconds[1] < other.seconds[0]
     }
 
-    /// Whether neither seconds nor rays set it apart from a point that comes before it.
+    /// Whether its cost cannot be told from that of a point before it.
     fn costs_the_same(&self, before: &Self) -> bool {
         !before.is_clearly_cheaper(self) && self.rays as f64 <= SAME_COST * before.rays as f64
     }
 }
 
-/// The points from the cheapest up, each with whether it is on the front: what costs more errs less
-/// there.
+/// The points in ascending order of cost, each with whether it is on the front: on the front a
+/// higher cost has a lower error.
 pub(super) fn ranking(points: &[Point]) -> Vec<(usize, bool)> {
     let (mut order, mut front) = (Vec::new(), Vec::<usize>::new());
     for place in by_cost(points) {

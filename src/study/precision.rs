@@ -1,4 +1,4 @@
-//! What each arithmetic costs: the same samples of the same scene, by all three.
+//! The cost of each arithmetic: the same samples of the same scene, by all three.
 
 use super::knob::{Knob, bears, place};
 use super::metrics::Errors;
@@ -12,25 +12,25 @@ use super::sweep::Levels;
 use crate::plan::Arithmetic;
 use serde::{Deserialize, Serialize};
 
-/// What a scene is by one arithmetic.
+/// A scene rendered by one arithmetic.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct PrecisionCost {
     /// The arithmetic.
     pub arithmetic: Arithmetic,
-    /// Whether the plan expects nothing to show of what it loses; only then rows may be of it.
+    /// Whether the plan expects no visible loss. Only then rows may use it.
     pub borne: bool,
-    /// The rays of the part looked at: what is proven for the robust one alone is not left out by
-    /// others.
+    /// The rays of the part rendered: rules proven for the robust arithmetic alone do not apply to
+    /// the others.
     pub rays: Rays,
     /// Processor seconds over those of the robust one.
     pub ratio: Estimate,
-    /// How far the picture is from that of the robust one.
+    /// The difference from the picture of the robust one.
     pub difference: Errors,
 }
 
 impl PrecisionCost {
-    /// Its name, and whether it is warned of.
+    /// Its name, and whether there is a warning.
     pub(super) fn words(&self) -> String {
         format!(
             "{}{}",
@@ -40,7 +40,7 @@ impl PrecisionCost {
     }
 }
 
-/// The arithmetics, the robust one first, with what each costs in a setting.
+/// The arithmetics, the robust one first, with the cost of each in a setting.
 pub(super) fn costs(
     subject: &Subject<'_>,
     setting: Setting,
@@ -70,8 +70,8 @@ pub(super) fn costs(
         .collect())
 }
 
-/// The precision as a knob alone, of the arithmetics that rows may be of. It samples nothing, so no
-/// noise hides its error.
+/// The precision as a knob alone, over the arithmetics allowed in rows. Its error has no sampling
+/// noise.
 pub(super) fn levels(costs: &[PrecisionCost]) -> Levels {
     let level = |cost: &PrecisionCost| Level {
         value: place(cost.arithmetic),

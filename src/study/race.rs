@@ -1,19 +1,19 @@
-//! Renders timed against each other: in rounds, each in another random order, so that what slows
-//! the machine slows all. Time is that of one thread's processor; a busy machine does not change
-//! it.
+//! Renders timed against each other: in rounds, each in a new random order, so that a slow phase of
+//! the machine affects all. Times are processor times of one thread, so other load has little
+//! effect.
 
 use super::bench::Time;
 use super::setting::Setting;
 use super::statistics::{Estimate, Rng, median};
 use super::subject::{RenderedTiles, Stopped, Subject};
 
-/// What takes part.
+/// A runner.
 pub(super) struct Runner<'a> {
     pub(super) subject: Subject<'a>,
     pub(super) setting: Setting,
 }
 
-/// How it went.
+/// The result of a runner.
 pub(super) struct TimedRun {
     pub(super) shot: RenderedTiles,
     /// Seconds for the whole picture.
@@ -22,7 +22,7 @@ pub(super) struct TimedRun {
     pub(super) ratio: Estimate,
 }
 
-/// How all went.
+/// The results of all runners.
 pub(super) struct Race {
     pub(super) runs: Vec<TimedRun>,
     /// Wall time over processor time of all renders: above 1 others used the machine.
@@ -32,7 +32,7 @@ pub(super) struct Race {
 const FEWEST_ROUNDS: u64 = 3;
 const MOST_ROUNDS: u64 = 9;
 
-/// At most so many renders of a runner in a round. Renders of a few milliseconds are too short to
+/// The maximum number of renders of a runner in a round. Renders of a few milliseconds are too short to
 /// time on a noisy machine.
 const MOST_REPEATS: u64 = 8;
 
@@ -97,8 +97,8 @@ pub(super) fn race(runners: &[Runner<'_>], budget: u64, rng: &mut Rng) -> Result
     })
 }
 
-/// The seconds that the whole picture would take, from those of its part: preparing the scene takes
-/// the same for both, and passing over the rest of the pixels is no work of a picture.
+/// The time for the whole picture, from that of its part: preparing the scene takes the same for
+/// both, and skipping the other pixels does not belong to a picture.
 fn whole_picture(runner: &Runner<'_>, times: &[Option<Time>], rng: &mut Rng) -> Vec<Option<f64>> {
     const ROUNDS: usize = 5;
     let Runner { subject, setting } = runner;

@@ -1,6 +1,6 @@
-//! The reference of a study, made by itself: knobs are raised one at a time until the picture keeps
-//! still or the work is too much, then it is rendered twice with independent sampling. The mean is
-//! the reference; how the halves differ tells how far it may be off.
+//! The reference of a study. Knobs are raised one at a time until the picture no longer changes or
+//! the budget ends; then it is rendered twice with independent sampling. The mean of the two halves
+//! is the reference, and their difference estimates its error.
 
 use super::knob::{Knob, MAX_DEPTH};
 use super::metrics::{LEVELS, mean, mean_product, rmse};
@@ -13,15 +13,15 @@ use serde::{Deserialize, Serialize};
 /// The smallest error worth a row, in grey levels: a twentieth of a level is beyond any eye.
 pub(super) const SMALLEST: f64 = 0.05;
 
-/// A reference moves by less than this when a knob is raised, in grey levels.
+/// The picture counts as unchanged if raising a knob changes it by less than this, in grey levels.
 const STILL: f64 = SMALLEST / 10.0;
 
-/// A value of a knob alone, and what it does.
+/// A value of a knob alone, and its error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// The value.
     pub value: u32,
-    /// The error it leaves if all other knobs leave none, in grey levels.
+    /// Its error if all other knobs have none, in grey levels.
     pub error: f64,
     /// Whether the error stands out from the noise of the study.
     pub resolved: bool,
@@ -29,7 +29,7 @@ pub struct Level {
     pub rays: u64,
 }
 
-/// A picture as good as the study could afford.
+/// The best picture within the budget.
 pub(super) struct Reference {
     pub(super) tiles: Vec<Image>,
     pub(super) setting: Setting,
@@ -37,9 +37,9 @@ pub(super) struct Reference {
     pub(super) floor: f64,
 }
 
-/// How deep paths go, and what less depth leaves out.
+/// The depth of paths, and the error of less depth.
 pub(super) struct Depths {
-    /// From this depth on the picture is still.
+    /// The least depth of the final picture.
     pub(super) enough: u32,
     /// The error of each depth up to there.
     pub(super) levels: Vec<Level>,
@@ -51,9 +51,9 @@ pub(super) struct Depths {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum DepthEnd {
-    /// No path goes deeper: what is left out beyond is nothing.
+    /// No path goes deeper: greater depths add nothing.
     Exact,
-    /// One bounce more does not show.
+    /// One more bounce changes nothing visible.
     Still,
     /// The study could not afford to go on; deeper paths may show.
     Open,
@@ -80,7 +80,7 @@ impl DepthProbe {
         self.0.iter().map(|shot| shot.counts.secondary()).sum()
     }
 
-    /// How far it is from another in what all their samplings have in common.
+    /// Its difference from another depth in the common part of all samplings.
     fn error(&self, other: &Self) -> f64 {
         let [a, b] =
             [&self.0, &other.0].map(|shots| [&shots[0].tiles, &shots[shots.len() - 1].tiles]);
@@ -88,8 +88,8 @@ impl DepthProbe {
     }
 }
 
-/// Finds out how deep paths go. All depths are sampled alike, by each of the seeds, so that what
-/// differs is the depth alone.
+/// Finds the depth of paths. All depths have the same sampling, by each of the seeds, so that only
+/// the depth differs.
 pub(super) fn depths(
     subject: &Subject<'_>,
     start: Setting,
@@ -143,7 +143,7 @@ pub(super) fn depths(
 }
 
 /// Renders the reference with about `budget` rays: raises one of the knobs that sample after the
-/// other, from `start`, until the picture keeps still or the budget ends.
+/// other, from `start`, until the picture no longer changes or the budget ends.
 pub(super) fn reference(
     subject: &Subject<'_>,
     start: Setting,
@@ -164,7 +164,7 @@ pub(super) fn reference(
     for (number, knob) in (2..).zip(knobs.iter().cycle()) {
         let raised = setting.with(*knob, raised(setting.get(*knob)));
         let growth = knob.samples(raised.get(*knob)) / knob.samples(setting.get(*knob));
-        // The other half has to be paid for too.
+        // The other half costs the same.
         if spent + 2.0 * growth * half.counts.rays() as f64 > budget as f64 {
             break;
         }

@@ -27,8 +27,8 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// That of a scene, by the robust arithmetic; where its lobes have different numbers of rays
-    /// the largest stands for all.
+    /// The setting of a scene, with the robust arithmetic. Of lobes with different numbers of rays,
+    /// the largest number is taken.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (supersampling, aperture, paths) = if let Mode::Path(path) = &scene.settings.mode {
@@ -90,8 +90,8 @@ impl Setting {
             * f64::from(self.paths)
     }
 
-    /// Writes the values into a scene, which holds all but the precision; lobes keep theirs where
-    /// the largest of them is meant.
+    /// Writes the values into a scene, except the precision. Lobes keep their numbers of rays if
+    /// the setting has the largest of them.
     pub fn apply(&self, scene: &mut Scene) {
         let Self {
             supersampling,
@@ -115,7 +115,7 @@ impl Setting {
     }
 
     /// In words, for the knobs given: "4×4 with 16 aperture samples, depth 3". The robust
-    /// arithmetic goes without saying.
+    /// arithmetic is not mentioned.
     #[must_use]
     pub fn words(&self, knobs: &[Knob]) -> String {
         let is_said =

@@ -1,13 +1,13 @@
-//! The little statistics a study needs: medians with their uncertainty, lines through points, and
-//! repeatable chance.
+//! Statistics for studies: medians with confidence intervals, power laws, and repeatable random
+//! numbers.
 
 use crate::math::{exp, ln, pow};
 use serde::{Deserialize, Serialize};
 
-/// A number with the interval it lies in with 95 % confidence.
+/// A number with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
-    /// The best guess.
+    /// The best estimate.
     pub value: f64,
     /// The lower end of the interval.
     pub low: f64,
@@ -47,7 +47,7 @@ impl Estimate {
     }
 }
 
-/// Repeatable chance: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
+/// Repeatable random numbers: SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number
 /// generators", 2014).
 #[derive(Clone, Debug)]
 pub struct Rng(u64);
@@ -82,7 +82,7 @@ const DRAWS: usize = 999;
 /// The median with its 95 % interval by the bootstrap (Efron, "Bootstrap methods", Annals of
 /// Statistics 7 (1979)).
 ///
-/// NaN of nothing; the interval of fewer than 5 values is their range, for want of better.
+/// NaN without values. Fewer than 5 values have their range as interval.
 #[must_use]
 pub fn median(values: &[f64], rng: &mut Rng) -> Estimate {
     let mut sorted = values.to_vec();
@@ -126,8 +126,7 @@ fn middle(values: &mut [f64]) -> f64 {
     }
 }
 
-/// How far a mean over `fraction` of a population may be off, with 95 % confidence, as a fraction
-/// of it.
+/// The relative uncertainty of a mean over `fraction` of a population, with 95 % confidence.
 ///
 /// The population is finite: the mean over all of it is exact.
 #[must_use]
@@ -149,7 +148,7 @@ pub(super) fn relative_error_of_mean(values: &[f64], fraction: f64) -> f64 {
 pub struct PowerLaw {
     /// y at x = 1.
     pub c: f64,
-    /// The exponent, with its interval from how well the points fit.
+    /// The exponent, with its interval from the residuals of the fit.
     pub p: Estimate,
 }
 
@@ -216,7 +215,7 @@ pub(super) fn normal_quantile(tail: f64) -> f64 {
 
 /// The number that Fisher's F of `over` and `under` degrees of freedom exceeds with the probability
 /// `tail`; infinite where the approximation (Paulson, Annals of Mathematical Statistics 13 (1942))
-/// has none.
+/// has no value.
 pub(super) fn fisher_quantile(tail: f64, over: f64, under: f64) -> f64 {
     let z = normal_quantile(tail);
     // Both χ² are the cubes of normal variables (Wilson and Hilferty): means 1 − a and 1 − b,

@@ -1,5 +1,5 @@
-//! What is studied: a scene, and the tiles of its picture that are looked at. It renders them in
-//! any setting, and counts the rays that took.
+//! The subject of a study: a scene, and some tiles of its picture. It renders them in any setting,
+//! and counts their rays.
 
 use super::bench::{Bench, Time};
 use super::setting::Setting;
@@ -11,7 +11,7 @@ use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
 use crate::source::Limits;
 use crate::valid::{self, Proof};
 
-/// A scene, and the part of its picture that is looked at.
+/// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
 pub(super) struct Subject<'bench> {
     pub(super) scene: Scene,
@@ -28,13 +28,12 @@ pub(super) struct RenderedTiles {
     pub(super) counts: Counts,
 }
 
-/// Someone said stop.
+/// The observer said stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
 impl<'bench> Subject<'bench> {
-    /// The whole picture of a proven scene; `seed` says which tiles come first when there are to be
-    /// fewer.
+    /// The whole picture of a proven scene; `seed` gives the order of tiles for smaller parts.
     pub(super) fn new(scene: &Scene, seed: u64, bench: &'bench Bench<'bench>) -> Self {
         let [columns, rows] = scene.camera.size.map(|pixels| pixels.div_ceil(Tiles::SIDE));
         let mut tiles: Vec<_> = (0..rows)
@@ -64,17 +63,17 @@ impl<'bench> Subject<'bench> {
         }
     }
 
-    /// Whether all of the picture is looked at; then it is one tile.
+    /// Whether the whole picture is rendered; then it is one tile.
     pub(super) fn is_whole(&self) -> bool {
         self.fraction() >= 1.0
     }
 
-    /// How many tiles are looked at.
+    /// The number of tiles.
     pub(super) fn count(&self) -> usize {
         self.tiles.len()
     }
 
-    /// How many pixels are looked at.
+    /// The number of pixels.
     pub(super) fn pixels(&self) -> u64 {
         self.tiles
             .iter()
@@ -83,22 +82,22 @@ impl<'bench> Subject<'bench> {
             .sum()
     }
 
-    /// The fraction of the picture that is looked at.
+    /// The fraction of the picture that is rendered.
     pub(super) fn fraction(&self) -> f64 {
         let [width, height] = self.scene.camera.size;
         self.pixels() as f64 / (f64::from(width) * f64::from(height))
     }
 
-    /// Renders in a setting on all threads. Where a seed is not 0 that sampling is made independent
-    /// of all other seeds.
+    /// Renders in a setting on all threads. A seed other than 0 makes that sampling independent of
+    /// all other seeds.
     pub(super) fn shoot(&self, setting: Setting, seeds: Seeds) -> Result<RenderedTiles, Stopped> {
         let scene = self.prove(setting, seeds);
         self.bench
             .work(|| self.render(&scene, setting.precision, seeds))
     }
 
-    /// Renders in a setting on one thread, as often as `repeats` says of the first shot, and says
-    /// how long that took on the mean.
+    /// Renders in a setting on one thread, `repeats` times as decided from the first result.
+    /// Returns the mean time, too.
     pub(super) fn time(
         &self,
         setting: Setting,
@@ -120,8 +119,7 @@ impl<'bench> Subject<'bench> {
         Ok((shot, time.over(count as f64)))
     }
 
-    /// How many seconds each of `rounds` takes to prepare the scene, and beside that to pass over
-    /// all pixels.
+    /// The seconds for preparing the scene and for skipping all pixels, in each of `rounds`.
     pub(super) fn time_overhead(&self, setting: Setting, rounds: usize) -> Vec<[f64; 2]> {
         let scene = self.prove(setting, Seeds::NONE);
         let nowhere = Crop {
@@ -214,7 +212,7 @@ impl<'bench> Subject<'bench> {
     }
 }
 
-/// The proof of a scene that was proven before, in whatever setting.
+/// The proof of a scene that was already proven in another setting.
 pub(super) fn prove(scene: &Scene) -> Proof {
     let options = valid::ProofOptions {
         limits: Limits::NONE,

@@ -1,5 +1,5 @@
-//! Each knob alone: what error it leaves if all others leave none, the law that error follows, and
-//! a model of all together: squares of errors add.
+//! Each knob alone: its error if all others have none, the power law of that error, and a model of
+//! all together: squares of errors add.
 
 use super::knob::Knob;
 use super::metrics::{LEVELS, products};
@@ -12,17 +12,17 @@ use crate::image::Image;
 use crate::math::{exp, ln};
 use crate::render::Seeds;
 
-/// A knob turned through its values, all others as good as the reference.
+/// A knob at each of its values, all others as in the reference.
 pub(super) struct Levels {
     pub(super) knob: Knob,
     pub(super) levels: Vec<Level>,
     pub(super) law: Option<PowerLaw>,
 }
 
-/// Turns one knob that samples through its values while the budget lasts.
+/// Renders the values of one sampling knob within the budget.
 ///
-/// The others stay at `base` with independent sampling in two renders: what these have in common is
-/// the error of the knob alone.
+/// The others stay at `base` with independent sampling in two renders: their common error is that
+/// of the knob alone.
 pub(super) fn sweep(
     subject: &Subject<'_>,
     reference: &Reference,
@@ -57,7 +57,7 @@ pub(super) fn sweep(
     })
 }
 
-/// Sampling that is independent but for that of the knob.
+/// Independent sampling, except for that of the knob.
 fn others(knob: Knob, number: u64) -> Seeds {
     let seeds = independent(number);
     match knob {
@@ -69,7 +69,7 @@ fn others(knob: Knob, number: u64) -> Seeds {
     }
 }
 
-/// What two renders have in common against the reference, without what the reference itself is off.
+/// The common error of two renders against the reference, less the error of the reference itself.
 fn level(value: u32, [a, b]: [&[Image]; 2], reference: &Reference, rays: u64) -> Level {
     /// The channels of a block of pixels that a tile has too.
     const BLOCK: usize = 3 * 256;
@@ -109,7 +109,7 @@ fn law(knob: Knob, levels: &[Level]) -> Option<PowerLaw> {
     PowerLaw::fit(&points)
 }
 
-/// What errors and rays any setting should have.
+/// A model of the error and the rays of any setting.
 pub(super) struct Model {
     knobs: Vec<Levels>,
     base: Setting,
@@ -146,7 +146,7 @@ impl Model {
         self.interplay = (error * error - alone * alone).max(0.0);
     }
 
-    /// Learns what the arithmetics leave.
+    /// Adds the errors of the arithmetics.
     pub(super) fn learn_precision(&mut self, levels: Levels) {
         self.knobs.push(levels);
     }
@@ -155,7 +155,7 @@ impl Model {
         self.knobs.iter().find(|levels| levels.knob == knob)
     }
 
-    /// The values of a knob that were tried, from the least work up.
+    /// The measured values of a knob, in ascending order of work.
     pub(super) fn tried(&self, knob: Knob) -> impl Iterator<Item = u32> {
         self.levels(knob)
             .into_iter()
@@ -163,7 +163,7 @@ impl Model {
             .map(|level| level.value)
     }
 
-    /// What is known of a knob, `idle` being why it is not turned if so.
+    /// The measurements of a knob; `idle` is the reason to leave it alone, if there is one.
     pub(super) fn report(&self, knob: Knob, idle: Option<String>) -> KnobReport {
         let levels = self.levels(knob);
         KnobReport {
@@ -229,7 +229,7 @@ impl Levels {
             .filter(|above| *above > 0);
         match above {
             Some(above) => self.between([clear[above - 1], clear[above]], x, |level| level.error),
-            // Beyond the last rung: nothing more to gain in depth, the law elsewhere.
+            // Beyond the last value: no more gain in depth, the power law otherwise.
             None if self.knob == Knob::Depth => last.error,
             None => {
                 let exponent = self.law.map_or(0.5, |law| law.p.value.clamp(0.25, 2.0));

@@ -1,10 +1,10 @@
-//! A render that knows how good it is: rounds of samples where they are needed, until an error or a
-//! time is reached.
+//! Rendering to a target: rounds of samples where they are needed, until an error or a time is
+//! reached.
 //!
-//! The truth is the picture that more and more sub-samples, points of the lens and points of soft
-//! lights, or more and more paths lead to, at the scene's own depth and with its own lobes; a light
-//! asked at its centre alone stays one. What no sample of a pixel has met is in no estimate. Rounds
-//! are decided by the whole film: an error alone gives the same picture on any threads.
+//! The true picture is the limit of many sub-samples, lens points and points of soft lights, or of
+//! many paths, at the scene's own depth and with its own lobes; a light sampled at its centre alone
+//! stays so. An estimate does not know features that no sample has met. Rounds are decided by the
+//! whole film: a target error alone gives the same picture on any number of threads.
 
 use super::knob::{Knob, idle};
 use super::metrics::LEVELS;
@@ -23,8 +23,7 @@ use std::time::Duration;
 pub struct Goal {
     /// The root mean square error in grey levels of 8 bits, of display values.
     pub error: Option<f64>,
-    /// The time of day that the render may take. At least one round is made, and only whole rounds
-    /// count, as many as there are rays for.
+    /// The wall time for the render. There is at least one round, and only whole rounds count.
     pub time: Option<Duration>,
 }
 
@@ -35,11 +34,11 @@ pub struct Order {
     pub goal: Goal,
     /// The part of the picture, within it.
     pub crop: Crop,
-    /// What it shows behind all surfaces, where paths are traced.
+    /// The background, where paths are traced.
     pub background: Background,
     /// What the picture holds; errors are those of display values in any case.
     pub values: Values,
-    /// Whether soft lights keep their number of points, which is chosen otherwise.
+    /// Whether soft lights keep their number of points. Otherwise it is chosen.
     pub keep_lights: bool,
     /// Where sampling starts: another seed gives independent noise.
     pub seed: u64,
@@ -49,15 +48,15 @@ pub struct Order {
 pub struct Watch<'a> {
     /// Called from all threads after each pixel with the rays it took; false means stop.
     pub on_pixel: &'a OnPixel<'a>,
-    /// Whether someone said stop, rather than that something has run out.
+    /// Whether the user said stop, rather than the time ran out.
     pub is_stopped: &'a (dyn Fn() -> bool + Sync),
     /// The time since the start.
     pub elapsed: &'a (dyn Fn() -> Duration + Sync),
-    /// Told before each round, those of the choice of the setting too.
+    /// Called before each round, also while the setting is chosen.
     pub round: &'a (dyn Fn(Progress) + Sync),
 }
 
-/// How far it is before a round.
+/// The progress before a round.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// The pixels that the round looks at.
@@ -69,25 +68,25 @@ pub struct Progress {
 /// The samples of the pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Samples {
-    /// Of the pixel with the fewest.
+    /// Of the pixel with the fewest samples.
     pub min: u64,
     /// In the mean.
     pub mean: f64,
-    /// Of the pixel with the most.
+    /// Of the pixel with the most samples.
     pub most: u64,
 }
 
-/// A picture and how good it is.
+/// A picture and its error.
 #[derive(Clone, Debug)]
 pub struct Reached {
     /// The picture.
     pub image: Image,
     /// Of each pixel the fraction of the samples that met a surface.
     pub coverage: Vec<f32>,
-    /// Its rays, those of the choice of the setting too, but none of a round cut short.
+    /// Its rays, including those for the choice of the setting, without those of an unfinished round.
     pub counts: Counts,
-    /// The root mean square error in grey levels: computed to be kept with 95 % confidence, and
-    /// said for 90 %, which is what `benches/honest.sh` counts.
+    /// The root mean square error in grey levels: computed for 95 % confidence, stated for 90 %, as
+    /// `benches/honest.sh` counts.
     pub error: f64,
     /// Its samples.
     pub samples: Samples,
@@ -98,12 +97,12 @@ pub struct Reached {
 /// The fraction of pictures that may be worse than promised.
 const TAIL: f64 = 0.05;
 
-/// The samples that each of the four replicates of all pixels have together in the first round, at
-/// least one each: so many that a handful of pixels is not judged by a handful of samples.
+/// The samples of all pixels together in the first round, per replicate: enough also for pictures
+/// of few pixels.
 const FIRST: usize = 1024;
 
-/// The least samples of a replicate in the first round where paths are traced: what a code of sRGB
-/// makes of a mean of very few is no measure of what it makes of many.
+/// The least samples of a replicate in the first round where paths are traced: sRGB coding of a
+/// mean of very few samples does not represent that of many.
 const FIRST_PATHS: usize = 4;
 
 /// Renders a proven scene in its world until the goal is reached, on the threads of the current
@@ -192,7 +191,7 @@ fn in_rounds(
     unreachable!("rounds end when all strands are as long as can be")
 }
 
-/// The picture of a mode that samples nothing.
+/// The picture of a mode without sampling.
 fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached, Stopped> {
     let job = Job {
         crop: Some(order.crop),
@@ -221,7 +220,7 @@ fn exactly(world: &AnyWorld, order: &Order, watch: &Watch<'_>) -> Result<Reached
     })
 }
 
-/// Has the scene sampled anywhere in its pixels, and soft lights in so many points.
+/// Sets random sub-samples in the pixels, and the number of points of soft lights.
 fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
@@ -229,9 +228,9 @@ fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     world.change(prove(&scene));
 }
 
-/// How many points of each soft light are worth their rays, and the rays that took: of few more are
-/// tried on some tiles as long as noise times rays falls, which is what a picture of any error
-/// costs.
+/// The best number of points of each soft light, and the rays for finding it. Larger numbers are
+/// tried on some tiles as long as noise times rays falls: that product is the cost of a picture of
+/// given error.
 fn light_samples(
     world: &mut AnyWorld,
     scene: &Scene,
@@ -300,8 +299,8 @@ fn samples_of(film: &ProgressiveFilm) -> Samples {
     }
 }
 
-/// The length of all replicates after the next round; none if the goal is reached, or no further
-/// round fits into the time.
+/// The length of all replicates after the next round; `None` if the goal is reached or the time
+/// does not suffice.
 fn next_round(
     film: &ProgressiveFilm,
     noise: &Noise,
@@ -309,7 +308,7 @@ fn next_round(
     goal: &Goal,
     elapsed: Duration,
 ) -> Option<Vec<[u32; 2]>> {
-    /// How much more or less noise to ask for when a round would do nothing, or not fit.
+    /// The step in noise if a round would change nothing, or would not fit.
     const LESS: f64 = 0.8;
     const MORE: f64 = 1.5;
     let is_met = |error: f64| noise.bound(tail) <= error;

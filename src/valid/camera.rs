@@ -27,7 +27,7 @@ pub struct Camera {
     pub height: NonZeroU32,
     /// The aperture.
     pub lens: Lens,
-    /// How the rays run.
+    /// The projection.
     pub projection: Projection,
 }
 
@@ -36,17 +36,17 @@ pub struct Camera {
 pub struct Lens {
     /// The radius of the aperture.
     pub radius: NonNegative,
-    /// Points of the aperture each sub-sample takes.
+    /// The points of the aperture for each sub-sample.
     pub samples: NonZeroU32,
 }
 
-/// How the rays of a camera run.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Projection {
     /// From the eye.
     Perspective,
-    /// Side by side: through each point of the image, in the direction from the eye to its middle,
-    /// from as far before.
+    /// Parallel: through each point of the image, along the line from the eye to the middle of the
+    /// image. Each ray starts as far in front of the image as the eye.
     Orthographic,
 }
 

@@ -1,4 +1,5 @@
-//! The tools of the proof: one number in, one number with a range out, or a finding at its place.
+//! The checks of single values: each takes a number and returns a number with a range, or reports a
+//! finding at its place.
 
 use crate::diag::codes::{self, Code};
 use crate::diag::{Diagnostic, Severity, Sink};
@@ -6,8 +7,8 @@ use crate::ir::{Field, Noun, Origins, Place};
 use crate::math::{NonNegative, Positive, Vec3, unit_scale};
 use std::num::NonZeroU32;
 
-/// The largest size of a coordinate: fourth powers of lengths, as the sphere test needs, stay
-/// finite.
+/// The largest absolute value of a coordinate: the sphere test takes fourth powers of lengths, and
+/// they stay finite.
 pub const LARGEST: f64 = 1e60;
 
 /// The smallest length other than 0: its fourth power is still a normal number.
@@ -20,7 +21,7 @@ pub(super) struct EntityCounts {
     pub(super) materials: usize,
 }
 
-/// One run of the proof.
+/// One run of the checks.
 pub(super) struct Check<'run> {
     origins: &'run Origins,
     sink: &'run mut Sink,
@@ -55,7 +56,7 @@ impl<'run> Check<'run> {
         self.origins.span(place)
     }
 
-    /// Proves each entity; `None` if any failed, after all were looked at.
+    /// Proves all entities; `None` if any failed. All failures are reported.
     pub(super) fn all<T, V>(
         &mut self,
         entities: &[T],
@@ -68,7 +69,7 @@ impl<'run> Check<'run> {
         (proven.len() == entities.len()).then_some(proven)
     }
 
-    /// Proves what may be absent: the outer `None` is an error, the inner one absence.
+    /// Proves an optional value: the outer `None` is an error, the inner one an absent value.
     #[expect(
         clippy::option_option,
         reason = "an error and an absence are two things"
@@ -100,9 +101,9 @@ impl<'run> Check<'run> {
         found
     }
 
-    /// A direction: a vector of finite numbers other than zero. Its length says nothing, so it
-    /// leaves here times the power of two that brings its largest component into [1, 2): who
-    /// computes with it need not fear for its squares.
+    /// A direction: a finite vector other than zero. Its length has no meaning. The result is scaled
+    /// by a power of two so that its largest component is in [1, 2): its squares neither overflow nor
+    /// underflow.
     pub(super) fn direction(&mut self, value: [f64; 3], name: &str, place: Place) -> Option<Vec3> {
         let direction = self.finite_vector(value, place)?;
         let scaled = unit_scale(direction).map(|(scaled, _)| scaled);
@@ -116,7 +117,7 @@ impl<'run> Check<'run> {
         scaled
     }
 
-    /// A finite number of at most 1e60 in size.
+    /// A finite number with an absolute value of at most 1e60.
     pub(super) fn number(&mut self, value: f64, place: Place) -> Option<f64> {
         if value.abs() <= LARGEST {
             return Some(value);
@@ -130,12 +131,12 @@ impl<'run> Check<'run> {
         self.report(
             place,
             "",
-            finding.hint("numbers of a scene are finite and at most 1e60 in size"),
+            finding.hint("numbers of a scene must be finite and at most 1e60 in absolute value"),
         );
         None
     }
 
-    /// A point or vector of such numbers; one finding for the triple.
+    /// A point or vector of such numbers. Its three numbers have one finding.
     pub(super) fn vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
         let too_large = |component: &f64| component.is_nan() || component.abs() > LARGEST;
         match value.into_iter().find(too_large) {
@@ -144,7 +145,7 @@ impl<'run> Check<'run> {
         }
     }
 
-    /// A vector of finite numbers of any size: only its direction counts.
+    /// A vector of finite numbers without a limit on its length: only its direction is used.
     pub(super) fn finite_vector(&mut self, value: [f64; 3], place: Place) -> Option<Vec3> {
         match value.into_iter().find(|component| !component.is_finite()) {
             Some(culprit) => self.number(culprit, place).map(|_| Vec3::ZERO),
@@ -152,7 +153,7 @@ impl<'run> Check<'run> {
         }
     }
 
-    /// An exponent: finite, of any size, at least 0.
+    /// An exponent: finite and at least 0.
     pub(super) fn exponent(&mut self, value: f64, place: Place) -> Option<NonNegative> {
         if !value.is_finite() {
             return self.number(value, place).and_then(NonNegative::new);
@@ -241,7 +242,7 @@ impl<'run> Check<'run> {
             self.report(
                 place,
                 "must be at least 1",
-                finding.replace("one sample is the least", self.span(place), "1"),
+                finding.replace("use at least one sample", self.span(place), "1"),
             );
         }
         proven

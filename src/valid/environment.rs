@@ -1,23 +1,23 @@
-//! The proof of what surrounds a scene.
+//! The proof of the environment.
 
 use super::check::Check;
 use crate::diag::{Diagnostic, codes};
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::Vec3;
 
-/// The radiance that arrives where no surface stands.
+/// The radiance from directions without a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Environment {
     /// The radiance, each channel at least 0, a factor of the image if there is one.
     pub radiance: Vec3,
-    /// A picture of all directions: an index into [`super::Proof::images`].
+    /// An image of all directions: an index into [`super::Proof::images`].
     pub image: Option<usize>,
     /// The rows of the rotation from directions of the world to those of the image.
     pub image_from_world: [Vec3; 3],
 }
 
 impl Environment {
-    /// Darkness: that of a scene which has none.
+    /// The black environment of a scene without one.
     pub const DARK: Self = Self {
         radiance: Vec3::ZERO,
         image: None,
@@ -25,7 +25,7 @@ impl Environment {
     };
 }
 
-/// The largest departure of a rotation from one.
+/// The tolerance for rotation matrices.
 const ROTATION: f64 = 1e-9;
 
 pub(super) fn environment(

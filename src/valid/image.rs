@@ -1,4 +1,4 @@
-//! The proof of the images: pixels for all of the width and height.
+//! The proof of the images: every image has a pixel for each column and row.
 
 use super::check::{Check, place};
 use crate::diag::Diagnostic;

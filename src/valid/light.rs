@@ -15,7 +15,7 @@ pub enum Light {
     Punctual(Punctual),
 }
 
-/// A point that shines equally in all directions, without falloff, or with a radius a soft one.
+/// A point light without falloff, equal in all directions; a soft light if it has a radius.
 #[derive(Clone, Copy, Debug)]
 pub struct CourseLight {
     /// Where it stands.
@@ -30,7 +30,7 @@ pub struct CourseLight {
 #[derive(Clone, Copy, Debug)]
 pub enum Punctual {
     /// From infinitely far away.
-    Sun(SunLight),
+    Directional(DirectionalLight),
     /// From a point into all directions.
     Point(PointLight),
     /// From a point into a cone.
@@ -39,10 +39,10 @@ pub enum Punctual {
 
 /// A light infinitely far away.
 #[derive(Clone, Copy, Debug)]
-pub struct SunLight {
+pub struct DirectionalLight {
     /// The unit vector to it.
     pub direction: Vec3,
-    /// On a surface that faces it, each channel at least 0.
+    /// The irradiance on a surface that faces it, each channel at least 0.
     pub irradiance: Vec3,
 }
 
@@ -53,7 +53,7 @@ pub struct PointLight {
     pub position: Vec3,
     /// The radiant intensity, each channel at least 0.
     pub intensity: Vec3,
-    /// How it fades.
+    /// The falloff.
     pub falloff: Falloff,
 }
 
@@ -64,13 +64,13 @@ pub struct SpotLight {
     pub position: Vec3,
     /// The unit vector to where it shines.
     pub direction: Vec3,
-    /// Within this cosine it shines fully.
+    /// The cosine of the inner angle: full intensity inside it.
     pub inner: f64,
-    /// Beyond this cosine, less than the other, it is dark.
+    /// The cosine of the outer angle, less than that of the inner one: no light outside it.
     pub outer: f64,
     /// The radiant intensity in its direction, each channel at least 0.
     pub intensity: Vec3,
-    /// How it fades.
+    /// The falloff.
     pub falloff: Falloff,
 }
 
@@ -81,7 +81,7 @@ pub enum Falloff {
     None,
     /// With the square of the distance.
     Square,
-    /// With the square of the distance, and to nothing at a range.
+    /// With the square of the distance, down to zero at a range.
     Ranged(Positive),
 }
 
@@ -116,7 +116,7 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option
     match emitter {
         ir::Emitter::Sun { direction } => {
             let direction = direction_of(*direction, at, check);
-            Some(Punctual::Sun(SunLight {
+            Some(Punctual::Directional(DirectionalLight {
                 direction: direction?,
                 irradiance: intensity?,
             }))
@@ -181,11 +181,10 @@ fn cone(inner: f64, outer: f64, at: Place, check: &mut Check<'_>) -> Option<(f64
     sound.then(|| (libm::cos(inner), libm::cos(outer)))
 }
 
-/// No more notes than this: a file of many lights and spheres is not worth a quadratic search for
-/// advice.
+/// The limit on lights times spheres: beyond it the quadratic search for notes is left out.
 const MAX_PAIRS: usize = 1_000_000;
 
-/// Notes each light that stands inside a sphere, where shadows hide it from all outside.
+/// Notes each light inside a sphere: with shadows the sphere hides it from everything outside.
 pub(super) fn lights_inside_spheres(scene: &ir::Scene, check: &mut Check<'_>) {
     if !scene.settings.shadows
         || scene.lights.len().saturating_mul(scene.surfaces.len()) > MAX_PAIRS

@@ -1,9 +1,8 @@
-//! The proof: [`validate`] alone makes a [`Proof`], and whoever holds one need not doubt a
-//! number.
+//! The proof: only [`validate`] makes a [`Proof`], and every number in a proof is in its range.
 //!
-//! Every check that can be stated on the IR lives here, so a hand-made IR file is refused as well
-//! as a text. It knows not where a scene came from; spans are looked up in the origins handed in,
-//! and every finding has a JSON pointer.
+//! All checks on the IR are here, so a faulty IR file is refused like a faulty text. This room does
+//! not know the source of a scene: it looks up spans in the origins it is given, and every finding
+//! has a JSON pointer.
 
 mod camera;
 mod check;
@@ -22,7 +21,7 @@ pub use camera::{Camera, Lens, Projection};
 pub use check::LARGEST;
 pub use environment::Environment;
 pub use image::Image;
-pub use light::{CourseLight, Falloff, Light, PointLight, Punctual, SpotLight, SunLight};
+pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual, SpotLight};
 pub use material::Material;
 pub use mesh::Mesh;
 pub use phong::{Bump, Maps, Phong};
@@ -37,10 +36,10 @@ use crate::source::Limits;
 use check::{Check, EntityCounts};
 use std::sync::Arc;
 
-/// What the proof lets pass.
+/// What the proof accepts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProofOptions {
-    /// On the pixels of the picture, and its rays.
+    /// The limits on the pixels of the picture and on its rays.
     pub limits: Limits,
 }
 
@@ -78,7 +77,7 @@ impl Proof {
         &self.lights
     }
 
-    /// What surrounds the scene.
+    /// The environment.
     #[must_use]
     pub fn environment(&self) -> &Environment {
         &self.environment
@@ -116,8 +115,8 @@ impl Proof {
 }
 
 impl Proof {
-    /// The same scene with another camera, of a picture of the same size; `None` if that is no
-    /// sound one.
+    /// The same scene with another camera, for a picture of the same size; `None` if that camera is
+    /// not valid.
     #[must_use]
     pub fn seen_by(&self, camera: &ir::Camera) -> Option<Self> {
         let (origins, mut sink) = (Origins::default(), Sink::default());
@@ -131,10 +130,9 @@ impl Proof {
     }
 }
 
-/// Proves the scene, or says in the sink why it can't be; all faults are reported, not the first
-/// alone.
+/// Proves the scene, or reports in the sink all faults of it, not only the first.
 ///
-/// `None` exactly if this call reported an error.
+/// Returns `None` if and only if this call reported an error.
 pub fn validate(
     scene: &ir::Scene,
     origins: &Origins,

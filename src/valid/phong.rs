@@ -25,7 +25,7 @@ pub struct Phong {
     pub eta: Positive,
     /// Rays of the glossy lobe.
     pub glossy_samples: NonZeroU32,
-    /// What is looked up by uv, if anything is.
+    /// The textures, if there are any.
     pub maps: Option<Box<Maps>>,
 }
 
@@ -126,7 +126,7 @@ fn height_field(
 }
 
 impl Maps {
-    /// Whether any is there.
+    /// Whether there is any texture.
     #[must_use]
     pub fn has_some(&self) -> bool {
         let Self {

@@ -1,4 +1,4 @@
-//! The proof of the settings, and of the work they ask for.
+//! The proof of the settings, and the limits on pixels and rays.
 
 use super::check::Check;
 use crate::color::Tone;
@@ -11,7 +11,7 @@ use std::num::NonZeroU32;
 /// The largest number of bounces: a path keeps a few bytes for each.
 const MAX_DEPTH: u32 = 1_000_000;
 
-/// By which rules the picture is made.
+/// The settings of a picture.
 #[derive(Clone, Debug)]
 pub struct Settings {
     /// What a pixel shows.
@@ -22,20 +22,20 @@ pub struct Settings {
     pub max_depth: u32,
     /// Sub-samples along each side of a pixel.
     pub supersampling: NonZeroU32,
-    /// Where in its cell each sub-sample lies.
+    /// The position of each sub-sample in its cell.
     pub pattern: Pattern,
     /// Points of each soft light.
     pub light_samples: NonZeroU32,
 }
 
-/// Where in its cell of the pixel each sub-sample lies.
+/// The position of each sub-sample in its cell of the pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// In the middle.
+    /// At the centre of the cell.
     Grid,
-    /// Anywhere in its cell, seeded by pixel and sample.
+    /// Random in the cell, seeded by pixel and sample.
     Jitter,
-    /// Anywhere in the pixel, seeded by pixel and sample.
+    /// Random in the pixel, seeded by pixel and sample.
     Random,
 }
 
@@ -55,8 +55,8 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The tone map of its pictures, where none is asked for: radiance is coded for a display,
-    /// colours of the course are shown as they are.
+    /// The default tone map: radiance is encoded for a display, colours of the course stay as they
+    /// are.
     #[must_use]
     pub fn tone(&self) -> Tone {
         match self {
@@ -69,9 +69,9 @@ impl Mode {
 /// How paths are traced.
 #[derive(Clone, Copy, Debug)]
 pub struct PathSettings {
-    /// Paths a pixel.
+    /// Paths per pixel.
     pub samples: NonZeroU32,
-    /// Whether rough surfaces keep the light that bounces between their facets.
+    /// Whether rough surfaces keep the energy of multiple scattering between their facets.
     pub multiple_scattering: bool,
 }
 
@@ -167,7 +167,7 @@ fn at(field: Field) -> Place {
     Place::new(Noun::Settings, 0, field)
 }
 
-/// Refuses pictures that take more memory or time than anyone meant.
+/// Refuses pictures beyond the limits on pixels and rays.
 pub(super) fn budget(scene: &ir::Scene, options: &super::ProofOptions, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let pixels = u128::from(width) * u128::from(height);
@@ -184,7 +184,7 @@ pub(super) fn budget(scene: &ir::Scene, options: &super::ProofOptions, check: &m
     too_many_rays(scene, pixels, options.limits.of(Resource::Rays, 0), check);
 }
 
-/// Refuses a picture that takes too many rays even if none goes on from what it meets.
+/// Refuses a picture with too many camera and shadow rays, further bounces not counted.
 fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<'_>) {
     let [width, height] = scene.camera.size;
     let supersampling = scene.settings.supersampling;
@@ -225,7 +225,7 @@ fn too_many_rays(scene: &ir::Scene, pixels: u128, limit: u64, check: &mut Check<
     check.report(at(culprit), "", finding);
 }
 
-/// How many rays a sub-sample takes, by what they are for.
+/// The number of rays per sub-sample, by purpose.
 struct SampleCounts {
     paths: u32,
     lens: u32,

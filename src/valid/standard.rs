@@ -1,4 +1,4 @@
-//! The proof of the material of glTF: every factor within the range its specification gives.
+//! The proof of glTF's material: every factor is in the range of its specification.
 
 use super::check::{Check, EntityCounts, LARGEST, place};
 use super::texture::{self, Map};
@@ -122,18 +122,18 @@ impl Standard {
     }
 }
 
-/// How a surface covers what is behind it.
+/// The alpha mode: how much of the background a surface covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// All of it.
+    /// All.
     Opaque,
-    /// Where alpha is at least the number given.
+    /// All where alpha is at least the cutoff, nothing elsewhere.
     Mask(NonNegative),
-    /// To the fraction alpha.
+    /// The fraction alpha.
     Blend,
 }
 
-/// From and to which number.
+/// The least and the greatest number.
 type Range = [f64; 2];
 
 const SHARE: Range = [0.0, 1.0];
@@ -164,14 +164,14 @@ impl Parameters<'_, '_> {
         if !is_sound {
             let name = camel_case(name);
             let message =
-                format!("`{name}` of a material is `{value}`, and must be from {low} to {high}");
+                format!("`{name}` of a material is `{value}`, but must be from {low} to {high}");
             let finding = Diagnostic::new(&codes::BAD_FACTOR, message);
             self.check.report(self.at, "", finding);
         }
         is_sound.then_some(value)
     }
 
-    /// Several of them; all faults are reported.
+    /// Several numbers in a range; all faults are reported.
     fn all_within<const N: usize>(
         &mut self,
         values: &[f64; N],

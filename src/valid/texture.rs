@@ -1,4 +1,4 @@
-//! The proof of the textures, and of the maps that lead to them: images and textures that exist.
+//! The proof of the textures and of the maps: the images and textures they refer to exist.
 
 use super::check::{Check, EntityCounts, place};
 use crate::diag::{Diagnostic, codes};
@@ -16,18 +16,18 @@ pub enum Texture {
     Sampled(Sampled),
 }
 
-/// An image with the way it is sampled.
+/// An image and its sampling.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
     /// An index into [`super::Proof::images`].
     pub image: usize,
-    /// What lies beyond the unit square, along u and v.
+    /// The wrap modes along u and v.
     pub wrap: [Wrap; 2],
-    /// How texels blend.
+    /// The filter.
     pub filter: Filter,
 }
 
-/// What lies beyond the unit square.
+/// The wrap mode: the texel for coordinates outside the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wrap {
     /// The image again.
@@ -38,16 +38,16 @@ pub enum Wrap {
     Clamp,
 }
 
-/// How texels blend.
+/// The filter between texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filter {
-    /// The four nearest by their nearness.
+    /// Bilinear, of the four nearest.
     Linear,
-    /// The nearest alone.
+    /// The nearest texel.
     Nearest,
 }
 
-/// A texture, and how a surface's texture coordinates lead to it.
+/// A texture, and the map from the coordinates of a surface to its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Map {
     /// An index into [`super::Proof::textures`].
@@ -62,9 +62,9 @@ pub struct Map {
 /// One of the two sets of texture coordinates of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UvSet {
-    /// The one that most surfaces have alone.
+    /// The first set.
     First,
-    /// The other.
+    /// The second set.
     Second,
 }
 
@@ -77,7 +77,7 @@ impl UvSet {
 }
 
 impl Map {
-    /// The map from coordinates to the same ones.
+    /// The identity map.
     pub const IDENTITY: [[f64; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 }
 
@@ -131,7 +131,7 @@ pub(super) fn map(
     };
     if proven_set.is_none() {
         let message =
-            format!("a map uses set {set} of texture coordinates, and there are two, from 0");
+            format!("a map uses set {set} of texture coordinates, but only sets 0 and 1 exist");
         check.report(at, "", Diagnostic::new(&codes::BAD_FACTOR, message));
     }
     let rows = texture_from_surface.unwrap_or(Map::IDENTITY);

@@ -64,7 +64,7 @@ fn a_view_from_beyond_all_numbers_is_refused_for_that() {
         let refused = rtc(&folder, &["render", "ball.json", option, "1e300,0,0"]);
         assert_eq!(code(&refused), 2);
         assert!(
-            stderr(&refused).contains("numbers of a scene are at most 1e60 in size"),
+            stderr(&refused).contains("numbers of a scene are at most 1e60 in absolute value"),
             "{}",
             stderr(&refused)
         );

@@ -1,10 +1,12 @@
 //! The hierarchy of a world finds what its surfaces find one by one, and veils in it let through
 //! what veils beside it do.
 
-use super::{JOB, add_light, add_sphere, add_square, lambert, material, prove, render, scene, sky};
+use super::{
+    JOB, add_light, add_sphere, add_square, lambert, material, mean, prove, render, scene, sky,
+};
 use rtc::ir::{Alpha, Emitter, Instance, Mesh, MeshId, Punctual, Scene, Shape, Standard, Surface};
 use rtc::math::{Vec3, cos, sin};
-use rtc::plan::{Plan, Rules};
+use rtc::plan::{Arithmetic, Plan, Rules};
 use rtc::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
 
 /// Numbers in [−1, 1), always the same.
@@ -179,10 +181,16 @@ fn veils_of_meshes_let_through_what_veils_of_triangles_do() {
     }
 }
 
-/// The plan proves one of two blended materials opaque; the transmittances of the other are
-/// multiplied in the same order as without the plan.
-#[test]
-fn a_veil_that_is_opaque_changes_no_order() {
+fn blended(opacity: f64) -> Standard {
+    Standard {
+        base_color: [0.5, 0.5, 0.5, opacity],
+        alpha: Alpha::Blend,
+        ..lambert([0.5; 3])
+    }
+}
+
+/// A square in the sun, below veils of a mesh.
+fn below_veils(count: u32) -> Scene {
     let mut scene = scene(4);
     let emitter = Emitter::Sun {
         direction: [0.3, 0.4, 1.0],
@@ -201,13 +209,8 @@ fn a_veil_that_is_opaque_changes_no_order() {
         triangles: vec![[0, 1, 2]].into(),
         ..Mesh::default()
     }];
-    let blended = |opacity: f64| Standard {
-        base_color: [0.5, 0.5, 0.5, opacity],
-        alpha: Alpha::Blend,
-        ..lambert([0.5; 3])
-    };
     let mut next = numbers(7);
-    for _ in 0..24 {
+    for _ in 0..count {
         let axes = [
             [2.0, 0.0, next()],
             [0.0, 2.0, next()],
@@ -216,6 +219,14 @@ fn a_veil_that_is_opaque_changes_no_order() {
         ];
         place(&mut scene, 0, axes, blended(0.2 + 0.1 * next()));
     }
+    scene
+}
+
+/// The plan proves one of two blended materials opaque; the transmittances of the other are
+/// multiplied in the same order as without the plan.
+#[test]
+fn a_veil_that_is_opaque_changes_no_order() {
+    let mut scene = below_veils(24);
     add_sphere(&mut scene, [5.0, 5.0, 0.0], 0.5, blended(1.0));
     let proof = prove(&scene);
     let [pruned, unpruned] = [Rules::ALL, Rules::NONE].map(|rules| {
@@ -223,4 +234,18 @@ fn a_veil_that_is_opaque_changes_no_order() {
         rtc::render::render(&proof, &plan, &JOB, &|_| true).unwrap()
     });
     assert!(pruned.image.pixels == unpruned.image.pixels);
+}
+
+/// The plain arithmetics flatten no mesh.
+#[test]
+fn veils_let_light_through_in_every_arithmetic() {
+    let proof = prove(&below_veils(2));
+    let [robust, plain, _] = Arithmetic::ALL.map(|arithmetic| {
+        let plan = Plan::by(arithmetic, &proof, Rules::ALL);
+        mean(&rtc::render::render(&proof, &plan, &JOB, &|_| true).unwrap())
+    });
+    assert!(
+        (plain - robust).abs().max_element() < 1e-6,
+        "{plain} {robust}"
+    );
 }

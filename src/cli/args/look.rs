@@ -1,7 +1,7 @@
 //! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what,
 //! with which layers.
 
-use super::super::parse::{backdrop, stops};
+use super::super::parse::{background, stops};
 use crate::color::Tone;
 use crate::image::BackgroundFill;
 use crate::render::Aov;
@@ -18,7 +18,7 @@ pub(in crate::cli) struct LookArgs {
     pub(in crate::cli) exposure: f64,
     /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a
     /// colour R,G,B in the values that the file is to hold. Light stays as it is
-    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = backdrop)]
+    #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]
     pub(in crate::cli) background: BackgroundFill,
     /// Layers beside the colours, in an EXR: means over what the camera rays of a pixel meet first
     #[arg(long, value_enum, value_name = "LAYERS", value_delimiter = ',')]

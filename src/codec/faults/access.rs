@@ -1,5 +1,5 @@
-//! Lists, maps and variants handed out piece by piece: what is missing is stood in for, what is too
-//! much is noted and passed over.
+//! Lists, maps and variants, handed out piece by piece. Missing pieces get a placeholder; surplus
+//! pieces are reported and skipped.
 
 use super::error::Error;
 use super::reader::NodeReader;
@@ -156,7 +156,7 @@ pub(super) struct Variant<'n, 't> {
 }
 
 impl<'n, 't> Variant<'n, 't> {
-    /// The variant at a node; the first one if it is none.
+    /// The variant at a node; the first one if the node is not a variant.
     pub(super) fn of(at: NodeReader<'n, 't>, variants: Fields, expected: &dyn Expected) -> Self {
         let (notes, tree) = (at.notes, at.notes.tree);
         let first = Self {

@@ -41,7 +41,7 @@ super::codes! { GL:
         ["VALUE_NOT_IN_RANGE", "PATTERN_MISMATCH", "VALUE_MULTIPLE_OF", "INVALID_GL_VALUE", "ARRAY_LENGTH_NOT_IN_LIST",
          "ROTATION_NON_UNIT", "CAMERA_XMAG_YMAG_ZERO", "CAMERA_ZFAR_LEQUAL_ZNEAR",
          "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID"];
-    GLTF_CHOICE = "GL011", Warning, "a value of a glTF asset is none of those there are",
+    GLTF_CHOICE = "GL011", Warning, "a value of a glTF asset is unknown",
         "The property takes one of a few values, which the message lists. Another one is treated as absent: a newer \
          version or an extension may define it.",
         ["VALUE_NOT_IN_LIST"];
@@ -75,7 +75,7 @@ super::codes! { GL:
     GLTF_EXTENSION_ODD = "GL020", Warning, "an extension of a glTF asset is used oddly",
         "Names of extensions have a registered prefix, an underscore and a name; some extensions don't go together.",
         ["INVALID_EXTENSION_NAME_FORMAT", "UNRESERVED_EXTENSION_PREFIX", "MULTIPLE_EXTENSIONS"];
-    GLTF_URI = "GL021", Error, "a URI of a glTF asset is none",
+    GLTF_URI = "GL021", Error, "a URI of a glTF asset is not valid",
         "A URI is a relative path, or a data URI: `data:`, a media type, `;base64`, a comma and Base64.",
         ["INVALID_URI", "BUFFER_DATA_URI_MIME_TYPE_INVALID"];
     GLTF_OUTSIDE = "GL022", Error, "a URI of a glTF asset leads out of its folder",
@@ -154,7 +154,7 @@ super::codes! { GL:
     GLTF_NODES = "GL037", Error, "the nodes of a glTF asset form no tree",
         "A node has at most one parent, is not below itself, and a scene lists roots only.",
         ["NODE_LOOP", "NODE_PARENT_OVERRIDE", "SCENE_NON_ROOT_NODE"];
-    GLTF_MATRIX = "GL038", Error, "a matrix of a glTF asset is none that glTF allows",
+    GLTF_MATRIX = "GL038", Error, "a matrix of a glTF asset is not allowed by glTF",
         "The matrix of a node keeps space three-dimensional, and its last row, like that of an inverse bind matrix, is \
          0, 0, 0, 1. With `--lenient` the last row is taken as that, with a warning.",
         ["NODE_MATRIX_NON_TRS", "ACCESSOR_INVALID_IBM"];
@@ -178,7 +178,7 @@ super::codes! { GL:
          itself by the words of its decoder.",
         ["IMAGE_DATA_INVALID", "IMAGE_UNEXPECTED_EOS", "IMAGE_MIME_TYPE_INVALID", "IMAGE_NON_ENABLED_MIME_TYPE",
          "TEXTURE_INVALID_IMAGE_MIME_TYPE"];
-    GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has what is not read",
+    GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has features that are not supported",
         "It is neither PNG nor JPEG nor WebP, or has what is not followed: colours of its own, pixels that are no squares, \
          an animation. A texture without an image shows its factor alone.",
         ["IMAGE_UNRECOGNIZED_FORMAT", "IMAGE_FEATURES_UNSUPPORTED"];

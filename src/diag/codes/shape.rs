@@ -11,7 +11,7 @@ super::codes! { SC:
          quotes, and `true` and `false` are the only truth values. A key with nothing after its colon has no value.";
     WRONG_LENGTH = "SC004", Error, "a list has the wrong number of items",
         "Points, directions and colours are lists of exactly three numbers; the size of an image is a list of two.";
-    UNKNOWN_WORD = "SC005", Error, "a word is none of those the key takes",
+    UNKNOWN_WORD = "SC005", Error, "the key does not take this word",
         "The key takes one word of a list, which the hint gives. Upper and lower case don't matter.";
     UNKNOWN_TYPE = "SC006", Error, "there is no such type of object",
         "The object would be missing, and a picture with something missing is a wrong picture. With `--lenient` it is \

@@ -5,7 +5,7 @@
 super::codes! { VA:
     NOT_FINITE = "VA001", Error, "a number is not finite or too large to compute with",
         "Every number of a scene must be finite, and lengths and coordinates must keep their squares within what a \
-         64-bit float holds: at most 1e60 in size. An overflow would show as black or white pixels far from its cause.";
+         64-bit float holds: at most 1e60 in absolute value. An overflow would show as black or white pixels far from its cause.";
     RADIUS = "VA002", Error, "a radius is not above 0",
         "A sphere needs a radius above 0, and of at least 1e-60 so that its powers can be computed. A negative radius \
          is most often a sign in the wrong place.";
@@ -56,7 +56,7 @@ super::codes! { VA:
         "Every vertex, normal and texture coordinate of a mesh is finite, normals and texture coordinates are as many as \
          vertices or none, and triangles refer to vertices that exist. The message names the first culprit, counted \
          from 0. Export the mesh again, or remove the vertex.";
-    BAD_ROTATION = "VA019", Error, "a transformation is none",
+    BAD_ROTATION = "VA019", Error, "a matrix is not a rotation, or flattens",
         "The texture of a sphere is turned by a rotation, and a mesh is placed by a map that keeps its volume: three axes \
          that span space, none of them zero.";
     BAD_FACTOR = "VA020", Error, "a number of a glTF material is outside its range",

@@ -1,4 +1,4 @@
-//! Lights as each integrator sees them: those of the course by Whitted's, physical ones by paths.
+//! Lights as each integrator sees them: Whitted's integrator sees lights of the course, paths see physical ones.
 
 use crate::valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
@@ -13,8 +13,8 @@ pub fn course(lights: &[Light]) -> Vec<CourseLight> {
     lights.iter().filter_map(course).collect()
 }
 
-/// The lights that the path integrator sees: all, and of one of the course a white Lambert surface
-/// that faces it has the radiance of its colour.
+/// The lights that the path integrator sees: all. A light of the course has the intensity that
+/// gives a facing white Lambert surface its colour as radiance.
 #[must_use]
 pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
     let physical = |light: &Light| match light {
@@ -32,7 +32,7 @@ pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
 mod tests {
     use super::*;
     use crate::math::{NonNegative, Vec3};
-    use crate::valid::{CourseLight, SunLight};
+    use crate::valid::{CourseLight, DirectionalLight};
 
     #[test]
     fn each_integrator_sees_its_lights_in_the_order_of_the_scene() {
@@ -43,7 +43,7 @@ mod tests {
                 radius: NonNegative::ZERO,
             })
         };
-        let sun = Light::Punctual(Punctual::Sun(SunLight {
+        let sun = Light::Punctual(Punctual::Directional(DirectionalLight {
             direction: Vec3::Z,
             irradiance: Vec3::ONE,
         }));
@@ -55,7 +55,7 @@ mod tests {
         assert_eq!(places, [1.0, 2.0]);
         let [
             Punctual::Point(first),
-            Punctual::Sun(_),
+            Punctual::Directional(_),
             Punctual::Point(second),
         ] = punctual(&lights)[..]
         else {

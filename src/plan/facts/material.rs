@@ -1,10 +1,10 @@
-//! Materials as each integrator sees them: Phong's model by Whitted's, that of glTF by paths.
+//! Materials as each integrator sees them: Whitted's integrator sees Phong's model, paths see glTF's.
 
 use crate::math::{NonNegative, Positive, UnitInterval, Vec3};
 use crate::valid::{Map, Material, Phong, Standard, UvSet};
 use std::num::NonZeroU32;
 
-/// The material as Whitted's integrator sees it: of that of glTF the colour without the light.
+/// The material as Whitted's integrator sees it. Of glTF's material it takes the colour, without the emission.
 #[must_use]
 pub fn phong(material: &Material) -> Phong {
     match material {
@@ -13,8 +13,8 @@ pub fn phong(material: &Material) -> Phong {
     }
 }
 
-/// The material as the path integrator sees it: of Phong's model the diffuse part is Lambert's, and
-/// a mirror is a smooth metal.
+/// The material as the path integrator sees it. Of Phong's model the diffuse term becomes
+/// Lambert's, and a mirror becomes a smooth metal.
 #[must_use]
 pub fn standard(material: &Material) -> Standard {
     match material {

@@ -104,7 +104,7 @@ impl Rule {
         self.row().0
     }
 
-    /// What it says, and why it is right.
+    /// The statement and the reason.
     #[must_use]
     pub fn text(self) -> &'static str {
         self.row().1
@@ -158,8 +158,8 @@ impl Rule {
             ),
             Self::ShadowPair => (
                 "E-SHADOW-PAIR",
-                "All segments from a surface to a light lie in the convex hull of the two: what is surely outside \
-                 shadows nothing there.",
+                "All segments from a surface to a light lie in the convex hull of the two: a solid outside the hull casts \
+                 no shadow there.",
             ),
             Self::SoftPoint => (
                 "E-SOFT",
@@ -171,7 +171,7 @@ impl Rule {
             ),
             Self::MirrorKs => (
                 "E-REFL-KS",
-                "What a mirrored or refracted ray sees counts ks or kt times; where that is 0 no ray is traced.",
+                "The radiance along a mirrored or refracted ray is multiplied by ks or kt. If that is 0, no ray is traced.",
             ),
             Self::MirrorDepth => ("E-REFL-DEPTH", "The scene allows no bounce."),
             Self::MirrorUnreached => (

@@ -18,7 +18,7 @@ pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
     all
 }
 
-/// What a rule says of a light, and the value that decided.
+/// The statement of a rule on a light, and the value that decided.
 fn reason(findings: &Findings<'_>, index: usize, rule: Rule) -> (&'static str, Vec<Place>) {
     if rule == Rule::LightBlack {
         return ("its colour is 0", vec![light(index, Field::Color)]);
@@ -253,7 +253,7 @@ fn highlight(findings: &Findings<'_>) -> Verdict {
     )
 }
 
-/// Materials that show somewhere, but never a highlight, beside others that do.
+/// Seen materials without highlights, beside others with them.
 fn materials_without_highlight(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.is_shaded() && findings.any(|summary| summary.shines);
     let surfaces = findings

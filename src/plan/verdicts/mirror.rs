@@ -1,4 +1,4 @@
-//! Verdicts on bounces: mirrors, lobes, refraction, and how deep they go.
+//! Verdicts on bounces: mirrors, lobes, refraction, depth.
 
 use super::{MAX_DETAILS, few, settings};
 use crate::ir::Field;
@@ -15,7 +15,7 @@ pub(super) fn verdicts(findings: &Findings<'_>) -> Vec<Verdict> {
     all
 }
 
-/// Why no bounce adds anything, if none does; `asks` says whether a material asks for the effect.
+/// The reason why no bounce adds anything, if so; `asks` says whether a material asks for the effect.
 fn no_bounce(
     findings: &Findings<'_>,
     effect: Effect,
@@ -48,7 +48,7 @@ fn no_bounce(
     Some(no_sight(findings, effect, asked))
 }
 
-/// Why there is nothing to see in mirrors, where bounces are allowed.
+/// The reason why mirrors show nothing, although bounces are allowed.
 fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
     if let Some(mirror) = findings.first(MaterialSummary::mirrors) {
         let facts = vec![
@@ -84,7 +84,7 @@ fn no_sight(findings: &Findings<'_>, effect: Effect, asked: bool) -> Verdict {
     )
 }
 
-/// How many bounces follow the first hit.
+/// The number of bounces after the first hit.
 fn depth(findings: &Findings<'_>) -> Verdict {
     let effect = Effect::Depth;
     if let Some(verdict) = no_bounce(findings, effect, |material| {
@@ -142,7 +142,7 @@ fn mirror(findings: &Findings<'_>) -> Verdict {
     }
 }
 
-/// Materials that show somewhere, but mirror nothing, beside others that do.
+/// Seen materials without mirrors, beside others with them.
 fn materials_without_mirror(findings: &Findings<'_>) -> impl Iterator<Item = Verdict> {
     let is_needed = findings.max_depth > 0 && findings.any(MaterialSummary::mirrors);
     let surfaces = findings

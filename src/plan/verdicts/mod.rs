@@ -1,5 +1,5 @@
-//! The verdicts: for each effect whether the picture needs it, by which values, or which rule left
-//! it out and why.
+//! The verdicts: whether the picture needs each effect, and by which values, or the rule that left
+//! it out, and the reason.
 
 mod light;
 mod mirror;
@@ -12,7 +12,7 @@ use super::{Findings, MaterialSummary};
 use crate::ir::{Field, Noun, Place};
 use crate::valid::Mode;
 
-/// The most verdicts on single lights or materials that are kept for one effect.
+/// The maximum number of verdicts on single lights or materials for one effect.
 const MAX_DETAILS: usize = 24;
 
 /// The verdicts on all effects, each followed by those on single entities.
@@ -79,7 +79,7 @@ impl Verdict {
         }
     }
 
-    /// Notes the rule by whose definition a scene does without the effect.
+    /// Adds the rule by whose definition the effect is absent.
     fn by(self, rule: Rule) -> Self {
         Self {
             rule: Some(rule),
@@ -107,13 +107,13 @@ impl Findings<'_> {
         )
     }
 
-    /// The first surface that is looked at and shows something.
+    /// The first surface that is seen and has nonzero terms.
     fn first(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         self.reached()
             .find(|surface| shows(&self.facts.summaries[*surface]))
     }
 
-    /// The first surface that shows something but is not looked at.
+    /// The first surface that has nonzero terms but is not seen.
     fn first_unseen(&self, shows: impl Fn(&MaterialSummary) -> bool) -> Option<usize> {
         let mut surfaces = 0..self.facts.summaries.len();
         surfaces.find(|surface| {
@@ -121,8 +121,7 @@ impl Findings<'_> {
         })
     }
 
-    /// The materials of which no surface that is looked at shows something, each with such a
-    /// surface.
+    /// The materials without a seen surface that has nonzero terms, each with one of its surfaces.
     fn materials_without(
         &self,
         shows: impl Fn(&MaterialSummary) -> bool,
@@ -136,7 +135,7 @@ impl Findings<'_> {
         without.into_iter().flatten().flatten()
     }
 
-    /// The verdict on an effect of shading in a mode that shows none, or shows it otherwise.
+    /// The verdict on an effect of shading in a mode without it, or with another form of it.
     fn by_mode(&self, effect: Effect, asked: bool) -> Option<Verdict> {
         let words = match self.mode() {
             Mode::Phong | Mode::Path(_) => return None,

@@ -1,4 +1,4 @@
-//! Verdicts on what the picture shows at all, on maps and normals, on lens and samples.
+//! Verdicts on buffers and surfaces, on maps and normals, on lens and samples.
 
 use super::{camera, few, settings};
 use crate::ir::Field;
@@ -257,7 +257,7 @@ pub(super) fn lens(findings: &Findings<'_>) -> Verdict {
     )
 }
 
-/// Samples of a pixel.
+/// Samples per pixel.
 pub(super) fn supersampling(findings: &Findings<'_>, region: &Region) -> Verdict {
     let effect = Effect::Supersampling;
     let settings_of_scene = findings.facts.scene.settings();

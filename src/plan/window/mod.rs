@@ -1,12 +1,11 @@
-//! Where things may show in the picture: boxes projected through the lens to rectangles of pixels,
-//! with a margin.
+//! Projection of boxes through the lens to rectangles of pixels, with a margin.
 
 use crate::math::{U, Vec3, cross, dot};
 use crate::plan::body::{Body, Extent};
 use crate::plan::space::{MARGIN, Space};
 use crate::valid::Camera;
 
-/// How far rounding may move what a pixel shows, in pixels, before nothing is said of it.
+/// The largest rounding error of a projected point, in pixels, that is accepted.
 const DOUBT: f64 = 0.25;
 
 /// A rectangle of pixels: columns and rows, each from the first to before the last.
@@ -16,35 +15,35 @@ pub(in crate::plan) struct Rect {
     pub(in crate::plan) y: [u32; 2],
 }
 
-/// Where a surface may show.
+/// The rectangle of a surface in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::plan) enum Shown {
-    /// Nowhere: no camera ray meets it.
+    /// Outside the picture: no camera ray meets it.
     Nowhere,
-    /// In these pixels alone.
+    /// Only in these pixels.
     In(Rect),
     /// Anywhere.
     Anywhere,
 }
 
-/// The camera, seen as a map from the world to the picture.
+/// The camera as a map from the world to the picture.
 pub(in crate::plan) struct Window {
     camera: Camera,
-    /// A direction at a right angle to the image plane, in which that plane is 1 from the eye.
+    /// The normal of the image plane, scaled so that the plane is at distance 1 from the eye.
     depth: Vec3,
     /// The length of that direction.
     steepness: f64,
-    /// The points of the lens are among these, and in their hull.
+    /// Points whose convex hull contains the lens.
     lens: Vec<Vec3>,
     /// The box of all points of the lens.
     lens_box: Space,
-    /// How far the lens and the middle of the picture are from the origin at most.
+    /// The maximum distance of the lens and the centre of the picture from the origin.
     far: f64,
-    /// How far apart pixels are, across and upward.
+    /// The steps between pixels, across and upward.
     steps: [f64; 2],
     /// The pixels, in pixels.
     size: [f64; 2],
-    /// Whether rounding leaves the map in doubt everywhere.
+    /// Whether rounding makes the map useless everywhere.
     blurred: bool,
 }
 
@@ -95,7 +94,7 @@ impl Window {
         self.lens_box
     }
 
-    /// Where a surface may show.
+    /// The rectangle of a surface in the picture.
     pub(in crate::plan) fn shown(&self, body: &Body) -> Shown {
         match &body.extent {
             Extent::Within(space) if !self.blurred => self.project(space),
@@ -103,7 +102,7 @@ impl Window {
         }
     }
 
-    /// Where a point shows from the middle of the lens, in pixels; `None` where that is in doubt.
+    /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.
     pub(in crate::plan) fn middle(&self, point: Vec3) -> Option<[f64; 2]> {
         let size = point.abs().max_element() + self.lens_box.size();
         let depth = (point - self.camera.eye).dot(self.depth);
@@ -112,7 +111,7 @@ impl Window {
         (!self.blurred && depth > 16.0 * error_bound && error <= DOUBT).then_some(at)
     }
 
-    /// The rectangle of a box: the hull of its corners, seen from the corners of the lens.
+    /// The rectangle of a box: the hull of the projections of its corners through the corners of the lens.
     fn project(&self, space: &Space) -> Shown {
         let size = space.size() + self.lens_box.size();
         let space = space.grown(MARGIN * size);
@@ -141,8 +140,8 @@ impl Window {
         self.rectangle(low, high)
     }
 
-    /// Where a point shows from a point of the lens, in pixels from the upper left, and a bound on
-    /// its error.
+    /// The projection of a point through a point of the lens, in pixels from the upper left, and a
+    /// bound on its error.
     fn place(&self, from: Vec3, point: Vec3, depth: f64, error_bound: f64) -> ([f64; 2], f64) {
         /// The steps of a camera are at a right angle to within this.
         const RIGHT_ANGLE: f64 = 1e-9;
@@ -160,7 +159,7 @@ impl Window {
         (at, (error + skew) / across_step.min(upward_step))
     }
 
-    /// The pixels within one of a stretch of the picture.
+    /// The pixels of an interval of the picture, grown by one.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

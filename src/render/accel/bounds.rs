@@ -41,10 +41,10 @@ impl Bounds {
     /// The box around a disc with a unit normal, rounded outward.
     #[must_use]
     pub fn around_disc(center: Vec3, normal: Vec3, radius: f64) -> Self {
-        let reach =
+        let half =
             |n: f64| radius * (1.0 - n * n).max(0.0).sqrt() * (1.0 + 16.0 * U) + radius * 16.0 * U;
-        let reach = Vec3::new(reach(normal.x), reach(normal.y), reach(normal.z));
-        Self::around(center - reach, 0.0).union(Self::around(center + reach, 0.0))
+        let half_size = Vec3::new(half(normal.x), half(normal.y), half(normal.z));
+        Self::around(center - half_size, 0.0).union(Self::around(center + half_size, 0.0))
     }
 
     /// The box with all points nearer to it than a distance along an axis, rounded outward; the

@@ -47,13 +47,13 @@ impl QuantizationFrame {
             .clone()
             .map(|bounds| bounds.center() / count)
             .sum::<Vec3>();
-        let reach = |bounds: Bounds| {
+        let largest = |bounds: Bounds| {
             (bounds.min - center)
                 .abs()
                 .max((bounds.max - center).abs())
                 .max_element()
         };
-        let extent = boxes.map(reach).fold(0.0, f64::max);
+        let extent = boxes.map(largest).fold(0.0, f64::max);
         let exponent = if extent > 0.0 {
             (libm::ilogb(extent) + 1).clamp(-900, 1000)
         } else {
@@ -167,9 +167,9 @@ impl Beam {
         // Points of the cube have t between the distance ∓ 1.
         let start = (distance - 2.0).max(0.0);
         let origin = far + direction * start;
-        let reach = origin.abs().max_element();
+        let largest = origin.abs().max_element();
         let base = FLOOR + 64.0 * U * (1.0 + distance);
-        if reach > 5.0 + base {
+        if largest > 5.0 + base {
             return Err(NoBeam::Missed);
         }
         let steep = direction.abs().max(Vec3::splat(STEEP)).copysign(direction);
@@ -189,7 +189,7 @@ impl Beam {
             axes,
             main: splat(direction[main]),
             slopes: [splat(direction[axes[0]]), splat(direction[axes[1]])],
-            error: (10.0 * ROUND * (1.0 + reach) + 2.0 * base + 2.0 * frame.error_bound) as f32,
+            error: (10.0 * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
             rate,
             start,
         })

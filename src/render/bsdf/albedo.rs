@@ -19,7 +19,7 @@ const NORMALS: u32 = 256;
 
 /// The tables.
 pub(super) struct Tables {
-    /// The parts of the albedo that go with f0 and with f90.
+    /// The terms of the albedo in f0 and in f90.
     specular: Vec<[f64; 2]>,
     sheen: LazyLock<Vec<[f64; 2]>>,
     /// Means over the hemisphere, weighted by the cosine, per roughness.
@@ -59,7 +59,7 @@ impl Tables {
             for k in 0..STEPS {
                 let x = (f64::from(k) + 0.5) / f64::from(STEPS);
                 let e = between(row, x * x);
-                sum = [0, 1].map(|part| sum[part] + 4.0 * x * x * x * e[part] / f64::from(STEPS));
+                sum = [0, 1].map(|term| sum[term] + 4.0 * x * x * x * e[term] / f64::from(STEPS));
             }
             sum
         };
@@ -81,7 +81,7 @@ impl Tables {
     pub(super) fn specular_mean(&self, roughness: f64) -> Split {
         let (row, rest) = place(roughness, ROUGHNESSES);
         let [e0, e90] = [0, 1]
-            .map(|part| self.means[row][part] * (1.0 - rest) + self.means[row + 1][part] * rest);
+            .map(|term| self.means[row][term] * (1.0 - rest) + self.means[row + 1][term] * rest);
         Split { e0, e90 }
     }
 
@@ -101,7 +101,7 @@ fn table(entry: impl Fn(f64, f64) -> [f64; 2]) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Both parts of the albedo, over visible normals of a rank-1 lattice.
+/// Both terms of the albedo, over visible normals of a rank-1 lattice.
 fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
     /// The inverse of the golden ratio.
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -126,7 +126,7 @@ fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
             sum = [sum[0] + (1.0 - grazing) * weight, sum[1] + grazing * weight];
         }
     }
-    sum.map(|part| part / f64::from(NORMALS))
+    sum.map(|term| term / f64::from(NORMALS))
 }
 
 /// Interpolates bilinearly between four entries.
@@ -134,12 +134,12 @@ fn look_up(table: &[[f64; 2]], roughness: f64, cosine: f64) -> [f64; 2] {
     let (row, rest) = place(roughness, ROUGHNESSES);
     let low = between(&table[row * COSINES..][..COSINES], cosine);
     let high = between(&table[(row + 1) * COSINES..][..COSINES], cosine);
-    [0, 1].map(|part| low[part] * (1.0 - rest) + high[part] * rest)
+    [0, 1].map(|term| low[term] * (1.0 - rest) + high[term] * rest)
 }
 
 fn between(row: &[[f64; 2]], cosine: f64) -> [f64; 2] {
     let (k, rest) = place(cosine.max(0.0).sqrt(), COSINES);
-    [0, 1].map(|part| row[k][part] * (1.0 - rest) + row[k + 1][part] * rest)
+    [0, 1].map(|term| row[k][term] * (1.0 - rest) + row[k + 1][term] * rest)
 }
 
 /// The index of the entry below a number in [0, 1], and the interpolation weight of the next.

@@ -1,12 +1,12 @@
-//! How a thread comes on: it tells an observer after each pixel, and within long ones every few
-//! thousand steps of work, and is told whether to go on.
+//! Progress of a thread: it calls an observer after each pixel, and inside long pixels every few
+//! thousand steps of work. The observer says whether to go on.
 //!
-//! A thread that is to stop gives its pixel up with whatever number it has; the film it belongs to
-//! is thrown away, so a picture that is finished knows nothing of this.
+//! A stopped thread leaves its pixel with a wrong value. The film is then dropped, so no finished
+//! picture has such a pixel.
 
 use crate::render::film::Counts;
 
-/// What a thread did since it told last.
+/// The work of a thread since its last call.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Step {
     /// The rays it traced.
@@ -15,23 +15,23 @@ pub struct Step {
     pub pixel: [u32; 2],
     /// That pixel is done.
     pub is_done: bool,
-    /// How many branches of its paths are put off.
+    /// The number of pending branches of its paths.
     pub open: usize,
 }
 
 /// The observer of a render, called from all its threads; false means stop.
 pub type OnPixel<'a> = dyn Fn(Step) -> bool + Sync + 'a;
 
-/// Steps of work between two questions: less than a millisecond where scenes are simple.
+/// Steps of work between two calls: less than a millisecond in simple scenes.
 const EVERY: u32 = 1 << 12;
 
-/// Asks the observer for one thread.
+/// The calls of one thread to the observer.
 pub(in crate::render) struct Heartbeat<'run> {
     on_pixel: &'run OnPixel<'run>,
     pixel: [u32; 2],
-    /// The rays of this thread that the observer knows of.
+    /// The rays of this thread reported so far.
     told: u64,
-    /// Steps until the next question.
+    /// Steps until the next call.
     left: u32,
     goes_on: bool,
     /// As in [`Step`].
@@ -55,18 +55,18 @@ impl<'run> Heartbeat<'run> {
         self.pixel
     }
 
-    /// Another pixel is begun.
+    /// Begins another pixel.
     pub(in crate::render) fn begin(&mut self, pixel: [u32; 2]) {
         self.pixel = pixel;
     }
 
-    /// Takes down how many branches are put off.
+    /// Records the number of pending branches.
     #[inline]
     pub(in crate::render) fn put_off(&mut self, open: usize) {
         self.open = open;
     }
 
-    /// Whether to go on; to be asked once a step of work: a path, a bounce, a sample, a point of a
+    /// Whether to go on. Call it once per step of work: a path, a bounce, a sample, a point of a
     /// light.
     #[inline]
     pub(in crate::render) fn goes_on(&mut self, counts: &Counts) -> bool {
@@ -74,7 +74,7 @@ impl<'run> Heartbeat<'run> {
         self.left > 0 || self.ask(counts.rays(), false)
     }
 
-    /// Tells that the pixel is done, given the rays traced so far; whether to go on.
+    /// Reports the end of the pixel, given the rays traced so far. Returns whether to go on.
     pub(in crate::render) fn done(&mut self, rays: u64) -> bool {
         self.ask(rays, true)
     }

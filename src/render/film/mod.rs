@@ -1,4 +1,4 @@
-//! The film: a picture, and the rays it took.
+//! The film: the sums of a picture, the picture, and its rays.
 
 mod bytes;
 mod counts;
@@ -19,19 +19,19 @@ use std::num::NonZeroU32;
 /// What to render of a world.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Job {
-    /// The part of the picture wanted, or all of it; what lies outside the picture is cut off.
+    /// The part of the picture wanted, or all of it. Parts outside the picture are cut off.
     pub crop: Option<Crop>,
-    /// Which values the film holds.
+    /// The kind of values in the film.
     pub values: Values,
-    /// Tiles the render keeps to; pixels elsewhere stay black.
+    /// The tiles to render; pixels elsewhere stay black.
     pub tiles: Option<Tiles>,
-    /// Where sampling starts.
+    /// The seeds of sampling.
     pub seeds: Seeds,
     /// Which pixels are rendered; the others stay black.
     pub stride: Stride,
     /// The background of the picture.
     pub background: Background,
-    /// At most so many samples a pixel, the first of those that the scene asks for.
+    /// The maximum number of samples per pixel. The first samples of the scene are taken.
     pub samples: Option<NonZeroU32>,
 }
 
@@ -41,27 +41,26 @@ pub enum Background {
     /// The environment of the scene; black if it has none.
     #[default]
     Environment,
-    /// Nothing: the picture is of surfaces alone, each pixel weighed by its coverage.
+    /// Nothing: the picture has surfaces alone, each pixel weighted by its coverage.
     Nothing,
 }
 
-/// Where each kind of sampling starts: 0 is the one of every render, any other number gives a
-/// picture that is independent of it but for what they show.
+/// The seed of each kind of sampling. 0 is the default; any other number gives independent noise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Seeds {
-    /// Of the places of sub-samples, where their pattern is random.
+    /// For the positions of sub-samples, where their pattern is random.
     pub pixel: u64,
-    /// Of the points of the lens: not 0 turns their spiral for each sub-sample, and spreads them
+    /// For the points of the lens: other than 0, it rotates their spiral for each sub-sample,
     /// without bias.
     pub lens: u64,
-    /// Of soft lights and glossy lobes.
+    /// For soft lights and glossy lobes.
     pub path: u64,
 }
 
-/// Square tiles strewn over a picture: those whose rank is from `first` to `last`.
+/// Square tiles spread over a picture: those with ranks from `first` to `last`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tiles {
-    /// Which tiles come first.
+    /// The seed of the ranks.
     pub seed: u64,
     /// The least rank.
     pub first: u64,
@@ -70,7 +69,7 @@ pub struct Tiles {
 }
 
 impl Seeds {
-    /// Those of every render.
+    /// The default seeds.
     pub const NONE: Self = Self {
         pixel: 0,
         lens: 0,
@@ -96,7 +95,7 @@ impl Tiles {
     }
 }
 
-/// Every k-th pixel of a row and of a column, from the first: enough to estimate rays by.
+/// Every k-th pixel of a row and of a column, from the first: enough for an estimate of rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stride(NonZeroU32);
 
@@ -116,7 +115,7 @@ impl Stride {
         self.0.get()
     }
 
-    /// How many of a row or column of `count` pixels are rendered.
+    /// The number of pixels rendered, of a row or column of `count`.
     #[must_use]
     pub fn of(self, count: u32) -> u32 {
         count.div_ceil(self.get())
@@ -159,8 +158,8 @@ impl Crop {
 /// Which values a film holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Values {
-    /// What a display shows: each sub-sample clamped to [0, 1] before the mean; of traced paths the
-    /// mean, coded by sRGB.
+    /// Display values: each sub-sample is clamped to [0, 1] before the mean. For traced paths, the
+    /// mean coded by sRGB.
     #[default]
     Display,
     /// The plain mean of the sub-samples.
@@ -170,14 +169,14 @@ pub enum Values {
 /// The tone map of [`Values::Display`] where paths are traced.
 pub(in crate::render) const DISPLAY: Tone = Tone::Srgb;
 
-/// The fraction of rays that hit something; 0 of none.
+/// The fraction of rays that hit something; 0 without rays.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "a share, rounded")]
 pub(in crate::render) fn coverage(hits: u64, rays: u64) -> f32 {
     (hits as f64 / rays.max(1) as f64) as f32
 }
 
-/// A picture and what it took.
+/// A picture and its rays.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// The picture, of the size of the crop.

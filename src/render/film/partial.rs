@@ -1,6 +1,6 @@
-//! A film of a part of a picture: some of its tiles, some of its samples, as sums. Parts can be
-//! saved, loaded and added, on any machine and in any order; together they are, bit for bit, the
-//! picture made at once.
+//! A film of a part of a picture: sums of some samples in some tiles. Parts can be saved, loaded
+//! and added, on any machine and in any order. Together they are, bit for bit, the picture rendered
+//! at once.
 
 use super::pixel::{BLOCK, PixelSum};
 use super::tiled::{Tiled, tiles_of};

@@ -1,8 +1,8 @@
 //! A progressive film: each pixel has four independent replicates of samples, two in each half.
 //!
 //! The picture is the mean of the halves; the variance between the replicates of a half estimates
-//! its error. The number of samples of one half may depend on the values of the other half: so the
-//! stopping rule adds no bias.
+//! its error. The number of samples of one half may depend only on the values of the other half, so
+//! that the stopping rule adds no bias.
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
@@ -14,26 +14,26 @@ use crate::math::Vec3;
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Replicates {
-    /// How the mean of the samples is shown; none where each is clamped to [0, 1].
+    /// The tone map of the mean; `None` where each sample is clamped to [0, 1].
     tone: Option<Tone>,
-    /// Per replicate, the sum of its samples, clamped if they are shown so; replicates 0 and 1 are
+    /// Per replicate, the sum of its samples, clamped if `tone` is `None`. Replicates 0 and 1 are
     /// the first half.
     sums: [Vec3; 4],
     /// Per half, the sum of the squared lengths of the same.
     squares: [f64; 2],
-    /// Per half, the sum of its samples as they are.
+    /// Per half, the sum of its unclamped samples.
     linear: [Vec3; 2],
-    /// Per half, how many samples each of its replicates has.
+    /// Per half, the number of samples of each replicate.
     counts: [u32; 2],
-    /// Per half, how many of its samples met a surface.
+    /// Per half, the number of samples that met a surface.
     hits: [u64; 2],
 }
 
-/// A part of a picture that grows, 192 bytes a pixel.
+/// A part of a growing picture, with 192 bytes per pixel.
 #[derive(Clone, Debug)]
 pub struct ProgressiveFilm {
     seed: u64,
-    /// What it shows behind all surfaces, where paths are traced.
+    /// The background, where paths are traced.
     pub background: Background,
     pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
@@ -41,7 +41,7 @@ pub struct ProgressiveFilm {
 }
 
 impl ProgressiveFilm {
-    /// A film without samples, of a part that lies within the picture. Another seed gives
+    /// A film without samples, of a part inside the picture. Another seed gives
     /// independent samples.
     #[must_use]
     pub fn new(crop: Crop, seed: u64) -> Self {
@@ -59,7 +59,7 @@ impl ProgressiveFilm {
         self.pixels.crop()
     }
 
-    /// How many pixels it has.
+    /// The number of pixels.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "a picture has pixels")]
     pub fn len(&self) -> usize {
@@ -77,8 +77,8 @@ impl ProgressiveFilm {
         self.pixels.at(index)
     }
 
-    /// The samples that a pixel lacks of those wanted: per half, how many each of its replicates is
-    /// to have at least.
+    /// The missing samples of a pixel. `wanted` is the least number of samples of each replicate,
+    /// per half.
     pub(in crate::render) fn lacking(
         seed: u64,
         pixel: &Replicates,
@@ -88,7 +88,7 @@ impl ProgressiveFilm {
         SampleRanges::Replicates(seed, [0, 1].map(samples))
     }
 
-    /// The number that the samples are keyed by.
+    /// The seed of the samples.
     pub(in crate::render) fn seed(&self) -> u64 {
         self.seed
     }
@@ -126,13 +126,13 @@ impl Replicates {
         2 * (u64::from(self.counts[0]) + u64::from(self.counts[1]))
     }
 
-    /// How many samples each replicate of a half has.
+    /// The number of samples of each replicate of a half.
     #[must_use]
     pub fn count(&self, half: usize) -> u32 {
         self.counts[half]
     }
 
-    /// The variance of the mean of a half, from how far its replicates are apart: the mean over the
+    /// The variance of the mean of a half, from the difference of its replicates: the mean over the
     /// channels.
     #[must_use]
     pub fn variance_of_half(&self, half: usize) -> f64 {
@@ -223,8 +223,8 @@ fn shown(tone: Tone, mean: Vec3) -> Vec3 {
     Vec3::from_array(tone.display(mean.to_array()))
 }
 
-/// The square of how much faster what is shown of a grey grows than the grey, about a mean of the
-/// deviation given.
+/// The square of the slope of the tone map near a mean grey, over an interval of the given
+/// deviation.
 fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
     if deviation == 0.0 {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Layers beside the colours: each pixel takes the camera rays of its colour, to their first hits.
+//! Layers (AOVs): each pixel traces the same camera rays as for its colour, to their first hits.
 
 use super::{Selection, run};
 use crate::image::Layers;

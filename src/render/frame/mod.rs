@@ -1,5 +1,5 @@
-//! From world to film: the one loop over tiles, on all threads of the pool. Whole pictures,
-//! pictures that grow, layers and validations are made by it.
+//! From world to film: the one loop over tiles, on all threads of the pool. It renders whole
+//! pictures, parts, growing pictures and layers.
 
 pub(in crate::render) mod layers;
 pub(in crate::render) mod picture;
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// Which pixels of a film are rendered.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::render) struct Selection {
-    /// The tiles wanted; all if none are named.
+    /// The tiles wanted; `None` for all.
     pub(in crate::render) tiles: Option<Tiles>,
     /// The pixels wanted of them.
     pub(in crate::render) stride: Stride,

@@ -1,4 +1,4 @@
-//! Whole pictures: each pixel takes all samples that the scene asks for.
+//! Whole pictures and parts of them: each pixel takes the samples that the scene asks for, or some of them.
 
 use super::{Selection, run};
 use crate::image::Image;
@@ -69,7 +69,7 @@ impl<S: Geometry> World<S> {
         Some((film, counts))
     }
 
-    /// Distances of the whole picture: those of all pixels decide how bright one is.
+    /// Distances of the whole picture: the brightness of a pixel depends on all of them.
     fn sum_distances(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Sums> {
         let open = |pixel: [u32; 2], _: usize, _: &PixelSum| {
             let is_blank = self.plan.region.class_of(pixel) == PixelClass::Nothing;
@@ -93,7 +93,7 @@ impl<S: Geometry> World<S> {
     ) -> Option<Film> {
         let layout = self.layout(job);
         let tiles = match layout.summation {
-            // How bright a distance is depends on all others.
+            // The brightness of a distance depends on all others.
             Summation::Distance => None,
             Summation::InOrder | Summation::InBlocks(_) => job.tiles,
         };
@@ -160,7 +160,7 @@ impl Selection {
     }
 }
 
-/// The number of samples of a pixel, so far as a job wants them.
+/// The number of samples of a pixel, limited by the job.
 fn limited(job: &Job, samples: u32) -> u32 {
     job.samples.map_or(samples, |most| samples.min(most.get()))
 }
@@ -170,7 +170,7 @@ pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
     SampleRanges::Picture(job.seeds, samples)
 }
 
-/// The pixels of `crop`, out of those of the whole picture; a film of `crop` already stays as it
+/// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as it
 /// is.
 fn cut(film: Film, crop: Crop) -> Film {
     let Film {

@@ -1,4 +1,4 @@
-//! Pictures that grow: each pixel takes the samples that its replicates lack of those wanted.
+//! Growing pictures: each pixel takes the samples wanted that its replicates do not have yet.
 
 use super::{Selection, run};
 use crate::color::Tone;
@@ -15,7 +15,7 @@ use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
 use crate::render::world::settings::Mode;
 
-/// Of each pixel, counted row by row, how many samples each replicate of its halves is to have.
+/// For each pixel, counted row by row, the number of samples wanted of each replicate, per half.
 type Wanted<'run> = dyn Fn(usize) -> [u32; 2] + Sync + 'run;
 
 impl<S: Geometry> World<S> {

@@ -1,11 +1,11 @@
-//! Faults of a plan: what it says adds nothing is looked at where a render without rules adds it,
-//! and the two pictures are compared.
+//! Faults of a plan: a render without rules checks every term that the plan says adds nothing, and
+//! the two pictures are compared.
 
 use crate::plan::{Effect, Plan, Rule};
 use crate::render::film::{Film, Job};
 use std::sync::{Mutex, PoisonError};
 
-/// Something that a plan left out and that shows.
+/// A visible term that a plan left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mismatch {
     /// The pixel, from the upper left.
@@ -14,7 +14,7 @@ pub struct Mismatch {
     pub effect: Effect,
     /// The rule that left it out, where the plan has one for that effect.
     pub rule: Option<Rule>,
-    /// What was seen.
+    /// The observation.
     pub what: &'static str,
 }
 
@@ -37,8 +37,8 @@ impl Verify {
         first.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Notes a fault, if its pixel comes before those noted so far: of one pixel the first cause is
-    /// kept.
+    /// Reports a fault. The first fault in the order of pixels is kept, and of one pixel the first
+    /// reported.
     pub(in crate::render) fn report(&self, pixel: [u32; 2], effect: Effect, what: &'static str) {
         let rule = self.plan.rule_of(effect);
         self.keep(Mismatch {

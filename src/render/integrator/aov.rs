@@ -1,6 +1,5 @@
-//! Layers beside the colours, for denoisers and compositors: what the camera rays of a pixel meet
-//! first, in the mean over those that meet something. They are the very rays that the colours are
-//! made of.
+//! Layers (AOVs) for denoisers and compositors: the first hits of the camera rays of a pixel,
+//! averaged over the rays with a hit. The rays are the same as for the colours.
 
 use super::Integrator;
 use crate::math::Vec3;
@@ -9,7 +8,7 @@ use crate::render::film::Counts;
 use crate::render::film::heartbeat::Heartbeat;
 use crate::render::film::pixel::{Accumulator, SampleId};
 
-/// A layer. All are zero where nothing is met, but for the depth.
+/// A layer. All are zero without a hit, except the depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aov {
     /// The base colour, maps included, linear, in [0, 1]; C·kd of Phong's model.
@@ -17,23 +16,22 @@ pub enum Aov {
     /// The shading normal in the world, maps included, on the side of the viewer; shorter than 1
     /// where normals differ.
     Normal,
-    /// The distance from the eye along the axis of view, in units of the scene; 1e10 where nothing
-    /// is met.
+    /// The distance from the eye along the axis of view, in units of the scene; 1e10 without a hit.
     Depth,
-    /// The first texture coordinates, where there are some.
+    /// The first texture coordinates, if there are any.
     Uv,
     /// The number of the surface in the scene, from 1, that the first ray meets: whole, and exact
     /// below 2²⁴.
     Instance,
-    /// The place in the world.
+    /// The position in the world.
     Position,
 }
 
-/// The depth of nothing, as in other renderers.
+/// The depth without a hit, as in other renderers.
 const FAR: f64 = 1e10;
 
 impl Aov {
-    /// The channels, by the names that denoisers and compositors look for.
+    /// The names of the channels, as denoisers and compositors expect them.
     #[must_use]
     pub fn channels(self) -> &'static [&'static str] {
         match self {
@@ -47,7 +45,7 @@ impl Aov {
     }
 }
 
-/// What a camera ray meets first.
+/// The first hit of a camera ray, in detail.
 pub(in crate::render) struct First {
     pub(in crate::render) albedo: Vec3,
     /// On either side.
@@ -62,17 +60,17 @@ pub(in crate::render) struct First {
 pub(in crate::render) struct CameraHit {
     /// The direction of the ray.
     pub(in crate::render) direction: Vec3,
-    /// What it meets, if it meets anything.
+    /// The first hit, if there is one.
     pub(in crate::render) first: Option<First>,
 }
 
-/// An integrator that can tell what a camera ray meets first, without following it further.
+/// An integrator that can find the first hit of a camera ray without following it further.
 pub(in crate::render) trait FirstHit<'run>: Integrator<'run> {
-    /// What the camera ray of a sample meets.
+    /// The first hit of the camera ray of a sample.
     fn first_hit(&mut self, id: &SampleId) -> CameraHit;
 }
 
-/// Finds nothing but first hits, along the camera rays of another integrator.
+/// Finds first hits alone, along the camera rays of another integrator.
 pub(in crate::render) struct FirstHits<I>(pub(in crate::render) I);
 
 impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
@@ -95,7 +93,7 @@ impl<'run, I: FirstHit<'run>> Integrator<'run> for FirstHits<I> {
     }
 }
 
-/// The most channels that all layers have together.
+/// The number of channels of all layers together.
 pub(in crate::render) const CHANNELS: usize = 16;
 
 /// Adds up layers of a pixel.
@@ -156,7 +154,7 @@ struct Sums {
 }
 
 impl Sums {
-    /// Adds what a ray in this direction met.
+    /// Adds the first hit of a ray in this direction.
     fn add(&mut self, direction: Vec3, first: Option<First>) {
         self.rays += 1;
         let Some(First {
@@ -201,7 +199,7 @@ impl Sums {
     }
 }
 
-/// How far a point lies from the eye along the normal of the image plane.
+/// The distance of a point from the eye along the normal of the image plane.
 fn depth(camera: &Camera, point: Vec3) -> f64 {
     let [right, up] = [camera.right, camera.up].map(Vec3::normalize_or_zero);
     let normal = up.cross(right).normalize_or_zero();

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) enum Punctual {
     /// From infinitely far away.
-    Sun(SunLight),
+    Directional(DirectionalLight),
     /// From a point into all directions.
     Point(PointLight),
     /// From a point into a cone.
@@ -17,7 +17,7 @@ pub(in crate::render) enum Punctual {
 
 /// A light infinitely far away.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct SunLight {
+pub(in crate::render) struct DirectionalLight {
     /// The unit vector to it.
     pub(in crate::render) direction: Vec3,
     /// The irradiance of a surface that faces it.
@@ -62,7 +62,7 @@ impl Punctual {
     /// The approximate power that the light sends to a scene whose cross section is `disc`.
     pub(super) fn power(&self, disc: f64) -> f64 {
         match self {
-            Self::Sun(sun) => sun.irradiance.max_element() * disc,
+            Self::Directional(sun) => sun.irradiance.max_element() * disc,
             Self::Point(point) => point.power(disc, 4.0 * PI),
             Self::Spot(spot) => spot.point.power(disc, 2.0 * PI * (1.0 - spot.outer)),
         }
@@ -71,7 +71,7 @@ impl Punctual {
     /// The light that a point receives, divided by the probability of choosing this light.
     pub(super) fn sample(&self, from: Vec3, probability: f64) -> Option<Incident> {
         let (wi, place, intensity, strength) = match self {
-            Self::Sun(sun) => (sun.direction, None, sun.irradiance, 1.0),
+            Self::Directional(sun) => (sun.direction, None, sun.irradiance, 1.0),
             Self::Point(point) => {
                 let (wi, strength) = point.towards(from)?;
                 (wi, Some(point.position), point.intensity, strength)

@@ -7,29 +7,32 @@ use crate::render::shape::triangle::Shear;
 
 /// A kind of prepared shape: which shapes there are, and by which arithmetic rays meet them.
 pub trait Geometry: Sized + Send + Sync {
-    /// The smallest root above 0 and the part of the shape it is on; `shear` is that of the ray.
-    /// Roots beyond `t_max` may be left out.
+    /// Whether triangles of instances can stand in the world one by one.
+    const FLATTENS: bool = true;
+
+    /// The smallest root above 0 and its primitive; `shear` is that of the ray. Roots beyond `t_max`
+    /// may be left out.
     #[must_use]
     fn intersect(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)>;
 
-    /// As [`Geometry::intersect`], but of roots as near as rounding can tell the one on the first
-    /// part.
+    /// As [`Geometry::intersect`], but of roots that rounding cannot tell apart, the one on the
+    /// first primitive.
     #[must_use]
     #[inline]
     fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         self.intersect(ray, shear, t_max)
     }
 
-    /// Calls `visit` with roots above 0 and their parts: all up to `t_max` that may be the nearest.
+    /// Calls `visit` with roots above 0 and their primitives: all up to `t_max` that may be the nearest.
     fn visit_roots(&self, ray: &Ray, shear: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
         if let Some((t, prim_id)) = self.intersect(ray, shear, t_max) {
             visit(t, prim_id);
         }
     }
 
-    /// How far rounding may have moved a root; 0 for formulas whose errors nobody has bounded.
+    /// A bound on the rounding error of a root; 0 for formulas without a known bound.
     #[must_use]
-    fn error(&self, _ray: &Ray, _t: f64, _part: u32) -> f64 {
+    fn error(&self, _ray: &Ray, _t: f64, _prim_id: u32) -> f64 {
         0.0
     }
 
@@ -49,38 +52,38 @@ pub trait Geometry: Sized + Send + Sync {
         false
     }
 
-    /// What the shape knows of the point beyond its geometry, as far as that is asked.
+    /// The details of the point that are asked for: normal, coordinates, colour.
     #[must_use]
     fn details(&self, _ray: &Ray, _at: &Interaction, _prim_id: u32, _asked: Asked) -> Details {
         Details::default()
     }
 
-    /// How many flat parts it has that can be lights; each is a `prim_id` of
+    /// The number of its triangles, which can be lights; each is a `prim_id` of
     /// [`Geometry::intersect`].
     #[must_use]
     fn triangles(&self) -> usize {
         0
     }
 
-    /// The corners of such a part.
+    /// The corners of a triangle.
     #[must_use]
-    fn corners(&self, _part: u32) -> Option<[Vec3; 3]> {
+    fn corners(&self, _prim_id: u32) -> Option<[Vec3; 3]> {
         None
     }
 
-    /// How far rounding may have moved those corners.
+    /// A bound on the rounding error of the corners.
     #[must_use]
     fn error_bound(&self) -> f64 {
         0.0
     }
 
-    /// The root above 0 of such a part alone.
+    /// The root above 0 of one triangle.
     #[must_use]
-    fn intersect_prim(&self, _ray: &Ray, _part: u32) -> Option<f64> {
+    fn intersect_prim(&self, _ray: &Ray, _prim_id: u32) -> Option<f64> {
         None
     }
 
-    /// A box around it, for shapes that have an end.
+    /// A box around it; `None` for unbounded shapes.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
 }

@@ -194,8 +194,8 @@ impl Geometry for Instance {
         let local_ray = self.to_object(ray);
         let local = self.mesh.triangles()[prim_id as usize].interaction(&local_ray, t);
         let point = self.to_world(local.point);
-        let reach = local_ray.origin.abs() + local.point.abs();
-        let extent = 2.0 * self.sizes.dot(reach);
+        let magnitude = local_ray.origin.abs() + local.point.abs();
+        let extent = 2.0 * self.sizes.dot(magnitude);
         Interaction::new(
             ray,
             point,

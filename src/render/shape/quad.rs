@@ -215,8 +215,8 @@ impl Patch {
             .iter()
             .map(|vertex| vertex.abs().element_sum())
             .sum::<f64>();
-        let reach = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
-        Interaction::new(ray, point, normal, q00, extent + reach)
+        let magnitude = (ray.origin.abs() + (ray.direction * t).abs()).element_sum();
+        Interaction::new(ray, point, normal, q00, extent + magnitude)
     }
 }
 

@@ -1,19 +1,19 @@
 //! Ties: of surfaces that coincide within rounding, the first one is hit, in any order of
 //! traversal.
 //!
-//! Each hit has an interval of t that rounding may have moved it in. Of all hits whose interval
-//! meets that of the hit with the least upper end, that of the lowest key counts: a set that no
-//! order changes.
+//! Each hit has an interval of t: its rounding error. Among all hits whose interval overlaps that
+//! of the hit with the least upper end, the hit with the lowest key is taken. This set does not
+//! depend on the order.
 
 use crate::math::U;
 use crate::render::ray::{Interaction, Ray};
 
-/// The half of an interval at most, as a fraction of t: where a ray all but runs along a surface
-/// its error knows no bound.
+/// The maximum half-width of an interval, as a fraction of t: for a ray nearly parallel to a
+/// surface, the error is unbounded.
 const WIDEST: f64 = 1.0 / 8_388_608.0;
 
-/// Intervals whose middles are farther apart, as a fraction, do not meet; walks of hierarchies look
-/// farther than that.
+/// Intervals with centres farther apart than this ratio do not overlap. Hierarchies are searched
+/// beyond that.
 pub(in crate::render) const CLOSE: f64 = 1.0 + 2.5 * WIDEST;
 
 /// How far rounding may have moved a root, to either side: as much as it may move the root of a
@@ -35,7 +35,7 @@ pub(in crate::render) struct Nearest<K> {
 }
 
 impl<K: Copy + Ord> Nearest<K> {
-    /// None yet, of those up to `t_max`; `none` is above all keys.
+    /// No hit yet, up to `t_max`; `none` is above all keys.
     #[inline]
     pub(in crate::render) fn up_to(t_max: f64, none: K) -> Self {
         Self {
@@ -61,14 +61,14 @@ impl<K: Copy + Ord> Nearest<K> {
 
     /// The largest t of a hit that may tie.
     #[inline]
-    pub(in crate::render) fn reach(&self) -> f64 {
+    pub(in crate::render) fn limit(&self) -> f64 {
         self.t * CLOSE
     }
 
     /// Whether another hit may tie.
     #[inline]
     pub(in crate::render) fn is_tied(&self) -> bool {
-        self.next <= self.reach()
+        self.next <= self.limit()
     }
 }
 
@@ -94,7 +94,7 @@ impl<K: Copy + Ord> Tie<K> {
         self.hits.push((t, error, key));
     }
 
-    /// The hit that counts.
+    /// The hit that is taken.
     pub(in crate::render) fn first(self) -> Option<(f64, K)> {
         let near = self
             .hits

@@ -1,8 +1,9 @@
-//! Which surfaces of a world the alpha test concerns: it decides in which order the transmittances
-//! of a shadow ray are multiplied.
+//! The alpha-tested surfaces of a world. They decide the order in which the transmittances along a
+//! shadow ray are multiplied.
 
 use super::flattened::flattened_surfaces;
 use crate::plan::facts::material;
+use crate::render::shape::geometry::Geometry;
 use crate::valid::{Alpha, Material, Proof};
 
 /// The alpha-tested surfaces of a world.
@@ -17,16 +18,16 @@ pub(in crate::render) enum AlphaTested {
 }
 
 impl AlphaTested {
-    /// Those of a scene whose paths are traced. What a plan proves opaque, or leaves out, counts as
-    /// the scene has it, so that plans keep the order of products.
-    pub(super) fn of(scene: &Proof) -> Self {
+    /// The alpha-tested surfaces of a scene of paths. The plan may prove some of them opaque, or
+    /// leave them out, but that must not change the order of products.
+    pub(super) fn of<S: Geometry>(scene: &Proof) -> Self {
         let alpha = |of: &Material| material::standard(of).alpha;
         let tested = scene.materials().iter().map(|m| alpha(m) != Alpha::Opaque);
         let tested: Vec<bool> = tested.collect();
         let surfaces = scene.surfaces().iter().zip(flattened_surfaces(scene));
         let surfaces = surfaces.filter(|(surface, _)| tested[surface.material]);
         surfaces.fold(Self::None, |all, (_, is_flattened)| match all {
-            Self::None | Self::Triangles if is_flattened => Self::Triangles,
+            Self::None | Self::Triangles if is_flattened && S::FLATTENS => Self::Triangles,
             Self::None | Self::Triangles | Self::Solids => Self::Solids,
         })
     }

@@ -1,4 +1,4 @@
-//! A world of whatever shapes, by whatever arithmetic: built once for all that is made of it.
+//! A world of any shapes and arithmetic, built once for all its renders.
 
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
@@ -14,7 +14,7 @@ use crate::render::world::World;
 use crate::valid::Proof;
 use std::ops::Range;
 
-/// A scene prepared as planned. All is rendered on the threads of the current pool.
+/// A scene prepared as planned. It renders on the threads of the current pool.
 pub enum AnyWorld {
     /// Of the basic shapes alone.
     Basic(World<Basic>),
@@ -26,7 +26,7 @@ pub enum AnyWorld {
     F32(World<PlainShape<f32>>),
 }
 
-/// Does the same with a world of any kind.
+/// Does the same with each kind of world.
 macro_rules! each {
     ($any:expr, $world:pat => $what:expr) => {
         match $any {
@@ -57,11 +57,11 @@ impl AnyWorld {
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone, by
-    /// the same rules. What was built stays where the new plan wants it too.
+    /// the same rules. Shapes, materials and lights stay if the new plan needs the same ones.
     pub fn change(&mut self, scene: Proof) {
         let old = each!(self, world => &world.plan);
         let plan = Plan::by(old.arithmetic, &scene, old.rules);
-        // The plan of paths says which materials and lights there are.
+        // The plan of paths has the materials and lights.
         let is_same = (plan.shapes, &plan.surfaces, &plan.constants, &plan.paths)
             == (old.shapes, &old.surfaces, &old.constants, &old.paths);
         if is_same {
@@ -84,9 +84,9 @@ impl AnyWorld {
         }
     }
 
-    /// Renders a part of a picture: some tiles of the job, of traced paths some samples as well:
-    /// whole blocks of 16 of those that the scene asks for. `None` if `on_pixel` said stop, which is
-    /// called as by [`Self::render`].
+    /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of
+    /// samples given, if any. It must consist of whole blocks of 16 samples. `None` if `on_pixel`
+    /// said stop; it is called as by [`Self::render`].
     ///
     /// # Errors
     /// If the samples are not whole blocks, or no paths are traced.

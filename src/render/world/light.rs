@@ -4,17 +4,17 @@ use super::texture::Textures;
 use crate::plan::{EnvironmentLeft, Plan, facts};
 use crate::render::light::course::CourseLight;
 use crate::render::light::environment::Environment;
-use crate::render::light::punctual::{Falloff, PointLight, Punctual, SpotLight, SunLight};
+use crate::render::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual, SpotLight};
 use crate::valid::{self, Proof};
 
-/// The lights of a world: of two kinds of lists its integrator asks for one, and the other is
+/// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
 /// empty.
 pub(in crate::render) struct LightList {
     /// Those of Whitted's integrator, in the order in which their terms are summed.
     pub(in crate::render) course: Vec<CourseLight>,
-    /// Those of paths that have no extent.
+    /// The lights without extent of paths.
     pub(in crate::render) punctual: Vec<Punctual>,
-    /// What surrounds the scene where paths ask.
+    /// The environment of paths.
     pub(in crate::render) environment: Environment,
 }
 
@@ -55,10 +55,10 @@ fn course(light: valid::CourseLight) -> CourseLight {
 
 fn punctual(light: valid::Punctual) -> Punctual {
     match light {
-        valid::Punctual::Sun(valid::SunLight {
+        valid::Punctual::Directional(valid::DirectionalLight {
             direction,
             irradiance,
-        }) => Punctual::Sun(SunLight {
+        }) => Punctual::Directional(DirectionalLight {
             direction,
             irradiance,
         }),

@@ -1,5 +1,5 @@
-//! The materials of a world, as its integrator sees them: defaults gone, factors that are the same
-//! everywhere worked out, maps with their images at hand.
+//! The materials of a world, as its integrator sees them: defaults filled, constants folded, maps
+//! resolved to their images.
 
 use super::texture::Textures;
 use crate::math::{UnitInterval, Vec3, Weight, cos, ln, sin};
@@ -12,12 +12,12 @@ use crate::render::texture::bilinear::Bump;
 use crate::render::texture::sampled::{ColorSpace, UvSets};
 use crate::valid::{self, Maps, Phong, Standard};
 
-/// Materials of Phong's model, and after them those of surfaces whose maps gave way: a map that
-/// shows one value gives way to the value, where the surface has uv to look it up by.
+/// Materials of Phong's model, and after them the simplified ones: on surfaces with texture
+/// coordinates a constant map is replaced by its value.
 pub(super) struct PhongList<'plan> {
     all: Vec<Phong>,
     plan: &'plan Plan,
-    /// Per material of the scene, the index of it with values for maps.
+    /// Per material of the scene, the index of its simplified form.
     simple: Vec<Option<usize>>,
 }
 
@@ -30,7 +30,7 @@ impl<'plan> PhongList<'plan> {
         }
     }
 
-    /// The index of the material that stands for one of the scene.
+    /// The index of the prepared material for one of the scene.
     pub(super) fn of(&mut self, material: usize, has_uv: bool) -> usize {
         if let Some(simple) = self.simple[material].filter(|_| has_uv) {
             return simple;
@@ -44,8 +44,8 @@ impl<'plan> PhongList<'plan> {
         }
     }
 
-    /// The material with values for maps that show one, and without maps that do not show at all,
-    /// if it has such.
+    /// The material with values instead of constant maps, and without maps that have no effect, if
+    /// it has any of these.
     fn simplified(&self, material: &Phong) -> Option<Phong> {
         let maps = **material.maps.as_ref()?;
         let value = |map: Option<usize>| map.and_then(|map| self.plan.constants[map]);
@@ -175,7 +175,7 @@ pub(super) fn standard(
     }
 }
 
-/// The maps that say how a material scatters light, but for those of normals.
+/// The maps of scattering parameters, without normal maps.
 fn shading_maps(m: &Standard) -> impl Iterator<Item = &valid::Map> {
     let reflection = match m.specular_glossiness {
         Some(_) => [m.specular_glossiness_map.as_ref(), None, None],
@@ -194,7 +194,7 @@ fn absorption(m: &Standard) -> Vec3 {
     let Some(distance) = m.attenuation_distance else {
         return Vec3::ZERO;
     };
-    // −ln of the least positive number stands for black.
+    // Black would be infinite: −ln of the least positive number replaces it.
     m.attenuation_color
         .map(|c| -ln(c.max(f64::MIN_POSITIVE)) / distance.get())
 }
@@ -208,7 +208,7 @@ struct Slots<'world> {
 }
 
 impl Slots<'_> {
-    /// What the material needs to know of a surface.
+    /// The surface details that the material needs.
     fn asked(&self, m: &Standard) -> Asked {
         let others = [
             &m.base_color_map,
@@ -230,9 +230,9 @@ impl Slots<'_> {
         !self.plan.is_folded(self.index, map)
     }
 
-    /// What a map shows.
+    /// The values of a map.
     fn source(&self, map: Option<&valid::Map>, color_space: ColorSpace) -> Option<MapSource> {
-        /// Anywhere: a map that is folded shows the same everywhere.
+        /// Any coordinates: a folded map is constant.
         const ANYWHERE: UvSets = [Some([0.5; 2]); 2];
         let map = map?;
         let prepared = self.textures.map(map, color_space);

@@ -1,5 +1,5 @@
-//! The world: a proven scene in the shape that tracing wants, and the two questions a ray asks of
-//! it.
+//! The world: a proven scene prepared for tracing, and the two ray queries: closest hit and any
+//! hit.
 
 pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
@@ -140,7 +140,7 @@ impl<S: Geometry> World<S> {
             if let Some((t, prim_id)) =
                 self.surfaces[surface]
                     .shape
-                    .closest_hit(ray, &shear, nearest.reach())
+                    .closest_hit(ray, &shear, nearest.limit())
             {
                 nearest.add(t, (surface, prim_id));
             }

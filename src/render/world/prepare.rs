@@ -53,7 +53,7 @@ impl<S: Prepare> World<S> {
             surfaces,
             verify: None,
             alpha_tested: match plan.paths {
-                Some(_) => AlphaTested::of(scene),
+                Some(_) => AlphaTested::of::<S>(scene),
                 None => AlphaTested::None,
             },
             unbounded,

@@ -1,4 +1,4 @@
-//! The keys of maps: those that stand twice, and those of large maps in an order to search.
+//! The keys of maps: duplicate keys, and the sorted keys of large maps.
 
 use super::{NodeId, Tree};
 use std::collections::BTreeMap;
@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 /// Maps up to this size are searched pair by pair; the keys of larger ones are sorted.
 const FEW: usize = 12;
 
-/// What is known of the keys of a tree, map after map as each closes.
+/// The keys of a tree, collected as each map closes.
 #[derive(Debug, Default)]
 pub(super) struct Keys {
-    /// The first of each key that stands again, and another.
+    /// Duplicate keys, each with its first occurrence.
     duplicates: Vec<(NodeId, NodeId)>,
-    /// The keys of each large map, sorted by what they say, then by place.
+    /// The keys of each large map, sorted by text, then by place.
     sorted: BTreeMap<NodeId, Vec<NodeId>>,
 }
 
@@ -21,7 +21,7 @@ impl Keys {
         self.sorted.get(&map).map(Vec::as_slice)
     }
 
-    /// The keys that stand again, so far.
+    /// The duplicate keys so far.
     pub(super) fn duplicates(&self) -> &[(NodeId, NodeId)] {
         &self.duplicates
     }

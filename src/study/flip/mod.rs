@@ -32,7 +32,7 @@ pub fn flip(reference: &Image, test: &Image, pixels_per_degree: f64) -> Vec<f64>
         .collect()
 }
 
-/// A pixel as seen.
+/// A pixel as perceived.
 struct PixelFeatures {
     /// CIELAB after the eye's blur, a and b scaled by Hunt's effect.
     color: Vec3,
@@ -42,7 +42,7 @@ struct PixelFeatures {
     point: f64,
 }
 
-/// How a distance of colours becomes a difference seen.
+/// The map from a colour distance to a perceived difference.
 const Q_COLOR: f64 = 0.7;
 
 /// The difference of a pixel, where `largest` is that of green and blue.
@@ -99,7 +99,7 @@ impl Eye {
         }
     }
 
-    /// Every pixel of a picture as seen.
+    /// All pixels of a picture as perceived.
     fn look(&self, image: &Image) -> Vec<PixelFeatures> {
         let (width, height) = (image.width as usize, image.height as usize);
         let opponent: Vec<_> = image

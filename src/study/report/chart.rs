@@ -55,11 +55,11 @@ pub(super) fn front(study: &Study) -> String {
     })
 }
 
-/// The corners of the front: what the least error is for a time.
+/// The corners of the front: the least error for each time.
 fn front_steps(rows: &[&Row], end: f64) -> Vec<(f64, f64)> {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for row in rows.iter().filter(|row| row.front) {
-        // Where seconds can't tell, rows stand by their rays.
+        // Where times do not differ clearly, rows are placed by their rays.
         let x = steps
             .last()
             .map_or(0.0, |last| last.0)
@@ -129,7 +129,7 @@ pub(super) fn knob(report: &KnobReport) -> String {
             let x =
                 |step: u32| xs.start * pow(xs.end / xs.start, f64::from(step) / f64::from(STEPS));
             let line = (0..=STEPS).map(|step| (x(step), law.at(x(step))));
-            // What lies outside would be drawn on the edge.
+            // Points outside would be drawn on the edge.
             let line = line.filter(|(_, y)| ys.contains(y)).collect::<Vec<_>>();
             chart.draw_series([PathElement::new(line, ACCENT.mix(0.6).stroke_width(1))])?;
         }
@@ -168,7 +168,7 @@ fn plot(
     let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
     let drawn = draw(&root).and_then(|()| Ok(root.present()?));
     drop(root);
-    // A string takes whatever is drawn; if it did not, a page without a plot is better than none.
+    // Drawing into a string cannot fail; if it did, the page has no plot.
     drawn.map_or_else(|error| format!("<p>no plot: {error}</p>"), |()| svg)
 }
 

@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 const STYLE: &str = include_str!("page.css");
 
-/// No more rows are shown as pictures.
+/// The maximum number of rows shown as pictures.
 const PICTURES: usize = 8;
 
 /// The page of a study.
@@ -243,7 +243,7 @@ fn fine_print(study: &Study) -> String {
     format!("<h2>What this rests on</h2>\n{lines}")
 }
 
-/// Text that means itself in HTML.
+/// Text escaped for HTML.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

@@ -1,5 +1,5 @@
-//! Pictures for the page: the tiles looked at side by side, and how different each place looks, as
-//! data URIs.
+//! Pictures for the page: the rendered tiles side by side, and the perceived difference at each
+//! place, as data URIs.
 
 use super::super::flip::{PIXELS_PER_DEGREE, flip};
 use crate::image::{FileFormat, Image, Picture};

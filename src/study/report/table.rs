@@ -45,7 +45,7 @@ pub fn table(study: &Study) -> String {
     text
 }
 
-/// What effects and arithmetics cost.
+/// The cost of effects and arithmetics.
 fn effects(study: &Study) -> String {
     let mut text = String::new();
     if !study.effects.is_empty() {
@@ -128,7 +128,7 @@ fn head(study: &Study) -> String {
         .concat()
 }
 
-/// What was looked at, and how well it stands for the whole.
+/// The part rendered, and how well it represents the whole.
 pub(super) fn part(study: &Study) -> String {
     let [width, height] = study.part.size;
     match study.part.tiles {
@@ -146,7 +146,7 @@ pub(super) fn part(study: &Study) -> String {
     }
 }
 
-/// What errors are measured against, and in what.
+/// The reference, and the unit of errors.
 pub(super) fn reference(study: &Study) -> String {
     let setting = study.reference.setting.words(&study.used());
     let floor = digits(study.reference.floor);
@@ -156,7 +156,7 @@ pub(super) fn reference(study: &Study) -> String {
     )
 }
 
-/// What is known of a knob, in one sentence.
+/// The result for a knob, in one sentence.
 pub(super) fn knob_line(report: &KnobReport, end: Option<DepthEnd>) -> String {
     let name = report.knob.name();
     let last = report.levels.last().map_or(0, |level| level.value);

@@ -9,9 +9,9 @@ pub(in crate::valid) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     surely_spans(edges) || spans(edges)
 }
 
-/// Whether two edges span an area that the plain cross product, off by at most 6 u of the product
-/// of their lengths, shows already: so do those of nearly all triangles, and the exact one takes
-/// far longer.
+/// Whether the rounded cross product proves that two edges span an area. Its error is at most 6 u
+/// times the product of their lengths. It suffices for nearly all triangles, and the exact product
+/// is much slower.
 fn surely_spans([first, second]: [Vec3; 2]) -> bool {
     let (p, q) = (first.abs().max_element(), second.abs().max_element());
     p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
@@ -25,7 +25,7 @@ fn spans([first, second]: [Vec3; 2]) -> bool {
     let Some((second, q)) = unit_scale(second) else {
         return false;
     };
-    // Edges so short that their products leave the range of f64 count as none.
+    // Edges whose products underflow have no area.
     let shortest = p.min(q) > libm::ilogb(SMALLEST);
     shortest && cross(first, second) != Vec3::ZERO
 }
@@ -34,7 +34,7 @@ fn spans([first, second]: [Vec3; 2]) -> bool {
 mod tests {
     use super::*;
 
-    /// Slivers of all sizes, from clear triangles to such as only exact arithmetic tells from
+    /// Slivers of all sizes, from clear triangles to those that only exact arithmetic tells from
     /// lines.
     #[test]
     fn what_is_surely_an_area_is_one() {

@@ -7,7 +7,7 @@ use crate::ir::{self, Field, Noun, Place, ShapeKind};
 use crate::math::{Positive, Vec3, unit};
 use crate::valid::check::{Check, EntityCounts, SMALLEST, place};
 
-/// `Some(None)` for a face without an area: nothing can hit it, so it is warned about and left out.
+/// `Some(None)` for a face without an area: no ray can hit it, so it is left out with a warning.
 pub(in crate::valid) fn surface(
     surface: &ir::Surface,
     index: usize,
@@ -83,7 +83,7 @@ impl SurfaceCheck<'_, '_> {
     /// Warns about a face that has no area.
     fn face(&mut self, sound: Option<Shape>, name: &str) -> Option<Shape> {
         if sound.is_none() {
-            let message = format!("a {name} has no area, so nothing shows of it");
+            let message = format!("a {name} has no area, so it is invisible");
             let finding = Diagnostic::new(&codes::DEGENERATE_TRIANGLE, message);
             let finding = finding.hint("give it corners that are not in line, or remove it");
             self.check
@@ -221,7 +221,7 @@ impl Prove for ir::Instance {
     }
 }
 
-/// Whether the rows are those of a rotation, to within 1e-6.
+/// Whether the rows are a rotation matrix, to within 1e-6.
 fn is_rotation(rows: [Vec3; 3]) -> bool {
     const SLACK: f64 = 1e-6;
     let close = |value: f64, wanted: f64| (value - wanted).abs() <= SLACK;

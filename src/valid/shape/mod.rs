@@ -11,11 +11,11 @@ use crate::math::{Positive, Vec3, is_flat};
 /// A shape and the index of its material.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Its form and place.
+    /// The shape.
     pub shape: Shape,
     /// An index into [`super::Proof::materials`], in range.
     pub material: usize,
-    /// Its index in the IR, which holds triangles without an area as well.
+    /// Its index in the IR. The IR also has the triangles without an area.
     pub index: usize,
 }
 
@@ -109,6 +109,6 @@ impl Quad {
 pub struct Instance {
     /// An index into [`super::Proof::meshes`], in range.
     pub mesh: usize,
-    /// The images of the three axes, which span space, and of the origin.
+    /// The images of the three axes, linearly independent, and of the origin.
     pub world_from_object: [Vec3; 4],
 }

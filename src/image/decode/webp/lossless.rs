@@ -1,18 +1,18 @@
-//! What the prefix codes of a lossless picture take: they are read up to its pixels, and none is
-//! kept. There may be 65536 groups of them, each of which takes as much as 500 times its bytes in
-//! the file.
+//! The memory for the prefix codes of a lossless picture. The codes are read up to the pixels, and
+//! not kept. There may be 65536 groups of codes, and a group may take 500 times its bytes in the
+//! file.
 //!
 //! The terms are those of the WebP Lossless Bitstream Specification.
 
 use super::prefix::{BitReader, CODE, PrefixCode};
 use super::{DecodeError, ImageSize};
 
-/// Bytes that the decoder takes for the prefix codes of a picture; a plane of opacity has no
+/// The memory of the decoder for the prefix codes of a picture, in bytes. A plane of opacity has no
 /// header.
 pub(super) fn codes(stream: &[u8], size: ImageSize, has_header: bool) -> Result<u64, DecodeError> {
     let header = if has_header { 40 } else { 0 };
     picture(&mut BitReader::of(stream, header), size).ok_or_else(|| {
-        let words = "it ends before its pixels, or has prefix codes that are none";
+        let words = "it ends before its pixels, or has invalid prefix codes";
         DecodeError::Damaged(words.to_owned())
     })
 }
@@ -25,7 +25,7 @@ fn picture(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u64> {
     } else {
         1
     };
-    // They are collected in a list that doubles: while it grows there are one and a half.
+    // The decoder collects them in a list that doubles: while it grows, old and new list exist.
     let list = u64::from(groups.max(4).next_power_of_two()) * 5 * CODE * 3 / 2;
     (0..groups).try_fold(list, |sum, _| {
         let group = alphabets.iter().try_fold(0, |sum, alphabet| {
@@ -35,7 +35,7 @@ fn picture(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u64> {
     })
 }
 
-/// Passes over the transforms; tells how wide the picture is before they are undone.
+/// Skips the transforms, and returns the width of the picture before they are undone.
 fn transforms(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u32> {
     let mut width = size.width;
     let mut is_known = [false; 4];
@@ -45,9 +45,9 @@ fn transforms(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u32> {
             return None;
         }
         match kind {
-            // Of pixels from those before, and of colours from green.
+            // The predictor and the colour transform.
             0 | 1 => drop(sub_image(bits, [width, size.height])?),
-            // Green is subtracted.
+            // The subtract-green transform.
             2 => {}
             _ => {
                 let colors = bits.read(8)? + 1;
@@ -59,7 +59,7 @@ fn transforms(bits: &mut BitReader<'_>, size: ImageSize) -> Option<u32> {
     Some(width)
 }
 
-/// How many pixels of so many colours are packed into one, as a power of two.
+/// The number of pixels packed into one for so many colours, as a power of two.
 fn packing(colors: u32) -> u32 {
     match colors {
         0..=2 => 3,
@@ -69,20 +69,20 @@ fn packing(colors: u32) -> u32 {
     }
 }
 
-/// How many blocks of 2^`bits` pixels there are along a side.
+/// The number of blocks of 2^`bits` pixels along a side.
 fn blocks(side: u32, bits: u32) -> u32 {
     side.div_ceil(1 << bits)
 }
 
-/// Passes over an image of a pixel for each block of another; the rest as [`pixels`].
+/// Skips an image with one pixel for each block of another image; otherwise as [`pixels`].
 fn sub_image(bits: &mut BitReader<'_>, of: [u32; 2]) -> Option<u32> {
     let block = bits.read(3)? + 2;
     let [width, height] = of.map(|side| blocks(side, block));
     pixels(bits, width.saturating_mul(height))
 }
 
-/// Passes over the pixels of an image within the picture, which has one group of codes. Tells the
-/// largest number that red and green are together: the groups are numbered so.
+/// Skips the pixels of an image inside the picture, which has one group of codes. Returns the
+/// largest number in red and green together: the number of a group of codes.
 fn pixels(bits: &mut BitReader<'_>, count: u32) -> Option<u32> {
     let alphabets = alphabets(bits)?;
     let mut group = Vec::with_capacity(alphabets.len());
@@ -110,10 +110,10 @@ fn pixels(bits: &mut BitReader<'_>, count: u32) -> Option<u32> {
                 extended(bits, distance)?;
                 length
             }
-            // Of the cache: a colour that was there before.
+            // An entry of the colour cache.
             _ => 1,
         };
-        // What takes no bits is the same for ever.
+        // All further pixels are equal, and take no bits.
         if bits.at() == before {
             break;
         }
@@ -121,13 +121,13 @@ fn pixels(bits: &mut BitReader<'_>, count: u32) -> Option<u32> {
     Some(largest)
 }
 
-/// The first symbol of green that is the length of a copy.
+/// The first symbol of green that is a length of a back-reference.
 const LENGTHS: u32 = 256;
 
-/// The first symbol of green that is a colour of the cache.
+/// The first symbol of green that is an entry of the colour cache.
 const COLORS: u32 = LENGTHS + 24;
 
-/// A length or a distance, of which the symbol tells how many bits more it has.
+/// A length or a distance. Its symbol gives the number of extra bits.
 fn extended(bits: &mut BitReader<'_>, symbol: u32) -> Option<u32> {
     if symbol < 4 {
         return Some(symbol + 1);
@@ -136,8 +136,8 @@ fn extended(bits: &mut BitReader<'_>, symbol: u32) -> Option<u32> {
     Some(((2 + (symbol & 1)) << count) + bits.read(count)? + 1)
 }
 
-/// Reads how large the cache of colours is. Tells how many symbols the codes of a group then have:
-/// green with lengths and colours of the cache, red, blue, alpha, distance.
+/// Reads the size of the colour cache. Returns the number of symbols of each code of a group: green
+/// with lengths and cache entries, red, blue, alpha, distance.
 fn alphabets(bits: &mut BitReader<'_>) -> Option<[u16; 5]> {
     let cache = if bits.flag()? {
         let count = bits.read(4)?;

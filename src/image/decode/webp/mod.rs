@@ -1,4 +1,4 @@
-//! WebP, lossy and lossless; of an animation the first picture.
+//! WebP pictures, lossy and lossless. Of an animation the first picture is decoded.
 
 mod lossless;
 mod parts;
@@ -14,15 +14,15 @@ use std::io::Cursor;
 pub(super) struct WebP<'a> {
     decoder: WebPDecoder<Cursor<&'a [u8]>>,
     pub(super) layout: PixelLayout,
-    /// Bytes that the decoder takes for each pixel.
+    /// The memory of the decoder for each pixel, in bytes.
     pixel: u64,
-    /// Bytes that it takes for the prefix codes.
+    /// Its memory for the prefix codes, in bytes.
     codes: u64,
-    /// What is wrong before the pixels: told once the memory for them is granted.
+    /// A fault before the pixels. It is reported after the memory for the pixels is granted.
     fault: Option<DecodeError>,
 }
 
-/// Reads all that stands before the pixels.
+/// Reads everything before the pixels.
 pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_>), DecodeError> {
     let decoder = WebPDecoder::new(Cursor::new(bytes)).map_err(DecodeError::damaged)?;
     let (width, height) = decoder.dimensions();
@@ -31,9 +31,8 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_
         channels: usize::from(decoder.color_type().channel_count()),
         is_wide: false,
     };
-    // Planes of a lossy picture take 1.5 bytes a pixel, a lossless one 4 and as much as 1 for its
-    // transforms; a plane of opacity is lossless, and an animation has a canvas beside its
-    // picture.
+    // A lossy picture takes 1.5 bytes per pixel, a lossless one 4, and up to 1 more for its
+    // transforms. A plane of opacity is lossless. An animation also has a canvas.
     let pixel = match bytes.get(12..16) {
         Some(b"VP8 ") => 2,
         Some(b"VP8L") => 5,
@@ -55,7 +54,7 @@ pub(super) fn open(bytes: &[u8], most_pixels: u64) -> Result<(ImageSize, WebP<'_
     Ok((size, webp))
 }
 
-/// What the prefix codes of the parts take, each of which must be as large as the picture is.
+/// The memory for the prefix codes of all parts. Each part must have the size of the picture.
 fn codes(parts: CodedStreams<'_>) -> Result<u64, DecodeError> {
     let CodedStreams {
         size,
@@ -63,13 +62,14 @@ fn codes(parts: CodedStreams<'_>) -> Result<u64, DecodeError> {
         lossless,
         opacity,
     } = parts;
-    // The decoder takes the memory for a lossy picture before it compares the sizes, if it does.
+    // The decoder takes the memory for a lossy picture before it compares the sizes, if it compares
+    // them at all.
     if lossy.is_some_and(|lossy| parts::lossy_sides(lossy) != Some([size.width, size.height])) {
-        let words = "the picture in it is of another size";
+        let words = "the size of the picture inside differs";
         return Err(DecodeError::Damaged(words.to_owned()));
     }
     let picture = lossless.map(|stream| lossless::codes(stream, size, true));
-    // The first byte of a plane of opacity tells how it is packed.
+    // The first byte of a plane of opacity is its compression method.
     let plane = match opacity.and_then(<[u8]>::split_first) {
         Some((first, stream)) if first & 3 == 1 => Some(lossless::codes(stream, size, false)),
         Some(_) | None => None,

@@ -1,26 +1,26 @@
-//! The parts of a WebP file that its decoder will decode, found as it finds them: of a kind the
-//! first, at the top or in the first picture of an animation.
+//! The chunks of a WebP file that the decoder will decode, found in the same way: the first of each
+//! kind, at the top or in the first picture of an animation.
 
 use super::{DecodeError, ImageSize};
 
 /// The coded streams of one picture.
 pub(super) struct CodedStreams<'a> {
-    /// How large it is: smaller than its canvas where it moves.
+    /// The size of the picture. A frame of an animation may be smaller than the canvas.
     pub(super) size: ImageSize,
     pub(super) lossy: Option<&'a [u8]>,
     pub(super) lossless: Option<&'a [u8]>,
     pub(super) opacity: Option<&'a [u8]>,
 }
 
-/// A part of a RIFF file.
+/// A chunk of a RIFF file.
 #[derive(Clone, Copy)]
 struct Chunk<'a> {
     kind: &'a [u8; 4],
-    /// Where its contents begin.
+    /// The start of its contents.
     start: usize,
-    /// They may be cut short by the end of the file.
+    /// The contents; the end of the file may cut them short.
     contents: &'a [u8],
-    /// Where the next chunk begins.
+    /// The start of the next chunk.
     end: usize,
 }
 
@@ -81,7 +81,7 @@ impl<'a> CodedStreams<'a> {
         })
     }
 
-    /// Those of a picture of an animation.
+    /// The streams of a picture of an animation.
     fn moving(size: ImageSize, chunks: &[Chunk<'a>]) -> Self {
         let part = |index: usize, kind: &[u8; 4]| {
             let chunk = chunks.get(index).filter(|chunk| chunk.kind == kind);
@@ -91,7 +91,7 @@ impl<'a> CodedStreams<'a> {
         let behind = opacity.and_then(|_| chunks.get(1));
         Self {
             size,
-            // Behind opacity the decoder does not ask what there is.
+            // After opacity the decoder does not check the kind of the chunk.
             lossy: behind
                 .map(|chunk| chunk.contents)
                 .or_else(|| part(0, b"VP8 ")),
@@ -101,7 +101,7 @@ impl<'a> CodedStreams<'a> {
     }
 }
 
-/// The chunks at the top: one, unless the first tells of more.
+/// The chunks at the top: one, or more if the first says so.
 fn chunks(bytes: &[u8]) -> Vec<Chunk<'_>> {
     let Some(first) = Chunk::at(bytes, 12) else {
         return Vec::new();
@@ -119,7 +119,7 @@ fn chunks(bytes: &[u8]) -> Vec<Chunk<'_>> {
     std::iter::successors(behind(&first), behind).collect()
 }
 
-/// The size that the header of a picture of an animation tells.
+/// The size in the header of a frame of an animation.
 fn frame_size(contents: &[u8]) -> Option<ImageSize> {
     let side = |at: usize| {
         let [low, middle, high] = *contents.get(at..)?.first_chunk::<3>()?;
@@ -131,7 +131,7 @@ fn frame_size(contents: &[u8]) -> Option<ImageSize> {
     })
 }
 
-/// Width and height of a lossy picture, if it begins as one.
+/// The width and height of a lossy picture; `None` if the bytes are not one.
 pub(super) fn lossy_sides(stream: &[u8]) -> Option<[u32; 2]> {
     let [tag, _, _, 0x9d, 0x01, 0x2a, width @ .., _, _] = *stream.first_chunk::<10>()? else {
         return None;

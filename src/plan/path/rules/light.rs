@@ -172,7 +172,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
 /// Whether a light is surely off a plane. A ray along the plane may round to either side of it.
 fn is_off(light: &Punctual, flat: &Flat) -> bool {
     match light {
-        Punctual::Sun(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
+        Punctual::Directional(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
         Punctual::Point(PointLight { position, .. })
         | Punctual::Spot(SpotLight { position, .. }) => {
             flat.sides(&point(*position)) != Sides::BOTH
@@ -191,7 +191,7 @@ fn is_black(texels: &Texels) -> bool {
 
 fn intensity(light: &Punctual) -> Vec3 {
     match light {
-        Punctual::Sun(sun) => sun.irradiance,
+        Punctual::Directional(sun) => sun.irradiance,
         Punctual::Point(point) => point.intensity,
         Punctual::Spot(spot) => spot.intensity,
     }
@@ -200,7 +200,7 @@ fn intensity(light: &Punctual) -> Vec3 {
 /// The position of a light, unless it is infinitely far away.
 fn position(light: &Punctual) -> Option<Vec3> {
     match light {
-        Punctual::Sun(_) => None,
+        Punctual::Directional(_) => None,
         Punctual::Point(point) => Some(point.position),
         Punctual::Spot(spot) => Some(spot.position),
     }
@@ -223,7 +223,7 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
         Falloff::None | Falloff::Square => false,
     };
     match light {
-        Punctual::Sun(_) => false,
+        Punctual::Directional(_) => false,
         Punctual::Point(point) => is_beyond(point.position, point.falloff),
         Punctual::Spot(spot) => {
             let is_beside = is_beside(space, spot.position, spot.direction, spot.outer);

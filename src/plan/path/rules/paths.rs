@@ -99,7 +99,7 @@ fn is_choice_by_size(draft: &Draft<'_>) -> bool {
     let is_chosen = |(_, left): &(&Punctual, &LightLeft)| **left != LightLeft::Nothing;
     let chosen = || draft.punctual.iter().zip(&draft.lights).filter(is_chosen);
     let is_by_size = |(light, _): (&Punctual, &LightLeft)| match light {
-        Punctual::Sun(_) => true,
+        Punctual::Directional(_) => true,
         Punctual::Point(PointLight { falloff, .. }) | Punctual::Spot(SpotLight { falloff, .. }) => {
             matches!(falloff, Falloff::None)
         }
@@ -136,7 +136,7 @@ fn unmet_by_shadow_rays(draft: &Draft<'_>) -> Option<Vec<usize>> {
 /// Where the rays to a light that start in a box end; for a sun, beyond another box.
 fn end(light: &Punctual, start: &Space, other: &Space) -> Space {
     match light {
-        Punctual::Sun(sun) => {
+        Punctual::Directional(sun) => {
             // Points of the two are at most √3 times the sum of their sizes apart.
             let step = sun.direction * (2.0 * (start.size() + other.size()));
             Space {

@@ -1,4 +1,4 @@
-//! The branches of a camera ray: mirrored and refracted rays, put off until their turn comes.
+//! The branches of a camera ray: mirrored and refracted rays, kept pending until their turn.
 
 use super::Tracer;
 use super::shade::ShadingPoint;
@@ -11,25 +11,25 @@ use crate::render::ray::{Interaction, Ray};
 use crate::render::sampler::{Key, PhongLobeSampler, is_above};
 use crate::render::shape::geometry::Geometry;
 
-/// One path under way.
+/// A path in progress.
 #[derive(Clone, Copy)]
 pub(super) struct Branch {
     pub(super) ray: Ray,
-    /// The factor by which what the ray sees counts.
+    /// The weight of the radiance along the ray.
     pub(super) beta: f64,
     pub(super) bounces_left: u32,
     pub(super) key: Key,
     pub(super) kind: BranchKind,
 }
 
-/// How a path came about at its last bounce.
+/// The kind of the last bounce of a path.
 #[derive(Clone, Copy)]
 pub(super) enum BranchKind {
     Mirrored,
     Refracted,
 }
 
-/// Work put off: a path, or the rest of a glossy lobe.
+/// Pending work: a path, or the rest of a glossy lobe.
 pub(super) enum Pending {
     Ray(Branch),
     Glossy(Box<GlossyBatch>),
@@ -44,12 +44,12 @@ pub(super) struct GlossyBatch {
     normals: [Vec3; 2],
     next: u32,
     count: u32,
-    /// The path each direction goes on with, but for its ray.
+    /// The path of each direction, except for its ray.
     path: Branch,
 }
 
 impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
-    /// Puts off the mirrored and refracted paths that go on from here.
+    /// Adds the mirrored and refracted paths from here to the pending ones.
     pub(super) fn branch(&mut self, path: &Branch, shading_point: &ShadingPoint<'_>) {
         if path.bounces_left == 0 || path.beta == 0.0 {
             return;
@@ -137,7 +137,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         self.pending.extend(path.map(Pending::Ray));
     }
 
-    /// The path one bounce further, or `None` if nothing it sees can count.
+    /// The path one bounce further, or `None` if its weight is 0.
     fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
         let beta = (path.beta * weight).min(f64::MAX);
         let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
@@ -151,7 +151,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
         })
     }
 
-    /// The next path to follow: refracted before mirrored, a lobe one direction after the other.
+    /// The next path to follow: refracted before mirrored, and the directions of a lobe one by one.
     pub(super) fn next_branch(&mut self) -> Option<Branch> {
         let path = loop {
             if !self.goes_on() {
@@ -198,7 +198,7 @@ impl GlossyBatch {
     }
 }
 
-/// The mirror direction at the shading normal, or at the geometric one where that would lead into
+/// The mirror direction at the shading normal, or at the geometric normal if the former points into
 /// the surface.
 fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
     let mirror = reflect(direction, shading_point.normal);
@@ -212,7 +212,7 @@ fn mirror_direction(direction: Vec3, shading_point: &ShadingPoint<'_>) -> Vec3 {
     }
 }
 
-/// The refracted direction, if the material lets light through and the angle does.
+/// The refracted direction, if the material transmits light and there is no total reflection.
 ///
 /// The geometric normal decides where the shading normal can't: where it is turned away from the
 /// ray, or totally reflects what its mirror then sends into the surface. With `sided` it also does

@@ -1,9 +1,9 @@
-//! The formulas of the textbooks, in f64 or f32, beside the robust ones: what accuracy costs, and
-//! what it saves. Each shape has them in its own file, as its twin.
+//! The formulas of the textbooks, in f64 or f32, beside the robust ones: they show the cost and the
+//! benefit of accuracy. Each shape has them in its own file, as its twin.
 //!
-//! Hits within 1e-5 are taken for the surface a ray starts on, and rays start at the point itself.
-//! What is not a question of arithmetic (texture coordinates, shading normals, boxes) is asked of
-//! the robust shape.
+//! Hits nearer than 1e-5 are ignored: they are taken for the start of the ray, and rays start at
+//! the point itself. The robust shape answers all questions that do not depend on the arithmetic
+//! (texture coordinates, shading normals, boxes).
 
 pub(in crate::render) mod ray;
 pub(in crate::render) mod real;
@@ -106,13 +106,15 @@ impl<R: Real> PlainShape<R> {
 }
 
 impl<R: Real> Geometry for PlainShape<R> {
+    const FLATTENS: bool = false;
+
     #[inline]
     fn intersect(&self, ray: &Ray, _shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
         let hit = self.form.intersect(&PlainRay::of(ray), t_max);
         hit.map(|(t, prim_id)| (t.wide(), prim_id))
     }
 
-    /// The point as the ray gives it; rays from there start at the point itself.
+    /// The point on the ray; new rays start at the point itself.
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let ray = PlainRay::<R>::of(ray);
         let point = ray.at(R::of(t));
