@@ -69,7 +69,7 @@ pub(super) fn vector(text: &str) -> Result<[f64; 3], String> {
         .any(|component| component.abs() > valid::LARGEST);
     if is_large {
         Err(format!(
-            "numbers of a scene are at most {:e} in size",
+            "numbers of a scene are at most {:e} in absolute value",
             valid::LARGEST
         ))
     } else {
