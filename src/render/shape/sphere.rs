@@ -176,6 +176,7 @@ impl Geometry for TexturedSphere {
         self.sphere.intersect(ray).map(|t| (t, 0))
     }
 
+    #[inline]
     fn interaction(&self, ray: &Ray, t: f64, _: u32) -> Interaction {
         self.sphere.interaction(ray, t)
     }
