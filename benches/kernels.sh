@@ -85,12 +85,12 @@ def table(method, kind, none, effects, everything, count):
 print("Whitted's integrator:\n")
 table("render_with", "Features", "first hit", {
     "pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus"),
-}, lambda can: "naive" not in can, WHITTED)
+}, lambda can: "naive" not in can, 24)
 print("\nPaths:\n")
 table("render_paths_with", "PathFeatures", "unaimed", {
     "Fresnel": ("microfacets", "FRESNEL"), "refraction": ("transmission", "REFRACTION"), "sheen": ("layers", "SHEEN"),
     "torus": (None, "Torus"),
-}, lambda can: True, PATHS)
+}, lambda can: True, 6)
 sys.exit("\n".join(wrong))
 END
 cat <<'END'
