@@ -145,7 +145,7 @@ impl Prove for ir::Sphere {
         if rows.as_deref().is_some_and(|rows| !is_rotation(*rows)) {
             let finding = Diagnostic::new(
                 &codes::BAD_ROTATION,
-                "the texture of a sphere is turned by no rotation",
+                "the texture of a sphere is turned by a matrix that is not a rotation",
             );
             proof.check.report(proof.whole(), "", finding);
             return None;
@@ -206,10 +206,8 @@ impl Prove for ir::Instance {
             .map(|axis| axis.abs().max_element())
             .fold(f64::INFINITY, f64::min);
         if volume < 1e-9 || smallest < SMALLEST {
-            let finding = Diagnostic::new(
-                &codes::BAD_ROTATION,
-                "a mesh is placed by a map that flattens it",
-            );
+            let finding =
+                Diagnostic::new(&codes::BAD_ROTATION, "the transform of a mesh flattens it");
             let at = proof.at("worldFromObject");
             proof.check.report(at, "", finding);
             return None;
