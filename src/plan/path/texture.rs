@@ -237,6 +237,12 @@ mod tests {
     }
 
     #[test]
+    fn an_area_up_to_the_edge_does_not_wrap_around() {
+        assert_eq!(texels([0.5, 0.75], 8, Wrap::Repeat), 2..8);
+        assert_eq!(texels([0.25, 0.5], 8, Wrap::Repeat), 0..6);
+    }
+
+    #[test]
     fn what_may_wrap_around_shows_all() {
         assert_eq!(texels([0.0, 0.5], 64, Wrap::Repeat), 0..64);
         assert_eq!(texels([0.5, 1.5], 64, Wrap::Repeat), 0..64);

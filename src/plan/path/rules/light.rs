@@ -246,3 +246,26 @@ fn is_beside(space: &Space, apex: Vec3, axis: Vec3, cosine: f64) -> bool {
     let outside = across * cosine - along * sine;
     outside > radius + SLACK * to.length()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{cos, sin};
+
+    #[test]
+    fn a_box_is_beside_a_cone_where_the_ball_around_it_is() {
+        // The ball of radius 0.1·√3, four units from the apex, touches a cone of 30° at 32.48°.
+        let cosine = cos(30_f64.to_radians());
+        for (degrees, is_outside) in [(0.0, false), (32.0, false), (33.0, true), (120.0, true)] {
+            let angle = f64::to_radians(degrees);
+            let apex = Vec3::new(1.0, -2.0, 3.0);
+            let center = apex + Vec3::new(sin(angle), 0.0, cos(angle)) * 4.0;
+            let space = Space::around(center, Vec3::splat(0.1));
+            assert_eq!(
+                is_beside(&space, apex, Vec3::Z, cosine),
+                is_outside,
+                "{degrees}°"
+            );
+        }
+    }
+}
