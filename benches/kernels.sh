@@ -83,15 +83,15 @@ def table(method, kind, none, effects, everything, count):
         wrong.append(f"{len(rows)} kernels, not {count}")
 
 print("Whitted's integrator:\n")
-table("render_with", "Features", "first hit", {
+table("sum_with", "Features", "first hit", {
     "pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus"),
 }, lambda can: "naive" not in can, 24)
 print("\nPaths:\n")
-table("render_paths_with", "PathFeatures", "unaimed", {
-    "Fresnel": ("microfacets", "FRESNEL"), "refraction": ("transmission", "REFRACTION"), "sheen": ("layers", "SHEEN"),
+table("sum_paths_with", "PathFeatures", "unaimed", {
+    "albedo tables": ("microfacets", "albedo::look_up"), "sheen": ("layers", "sheen::Fibres"), "coat": ("layers", "coat::Coat"),
     "torus": (None, "Torus"),
 }, lambda can: True, 6)
-sys.exit("\n".join(wrong))
+sys.exit("\n".join(wrong) or 0)
 END
 cat <<'END'
 

@@ -15,6 +15,7 @@ mod effort;
 mod extreme;
 mod law;
 mod need;
+mod path_materials;
 mod path_rules;
 mod paths;
 mod precision;

@@ -12,7 +12,7 @@ use rtc::math::Vec3;
 use rtc::plan::{Effect, Plan, Rule, Rules};
 
 /// White without reflection, seen from both sides.
-fn white() -> Standard {
+pub(super) fn white() -> Standard {
     Standard {
         metallic: 0.0,
         specular: 0.0,
@@ -22,7 +22,7 @@ fn white() -> Standard {
 }
 
 /// A stage whose paths are traced, with surfaces of glTF materials.
-fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
+pub(super) fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
     let mut scene = stage();
     scene.settings.mode = Mode::Path(PathSettings {
         samples: 4,
@@ -35,7 +35,7 @@ fn traced(surfaces: &[(Shape, Standard)]) -> Scene {
 }
 
 /// Adds a surface with a material of its own.
-fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
+pub(super) fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
     scene.surfaces.push(Surface {
         shape: shape.clone(),
         material: MaterialId(scene.materials.len() as u32),
@@ -54,7 +54,7 @@ fn sun(direction: Vec3) -> ir::Light {
 }
 
 /// A white light at a point, which falls off with the square of the distance.
-fn lamp(position: [f64; 3]) -> ir::Light {
+pub(super) fn lamp(position: [f64; 3]) -> ir::Light {
     ir::Light::Punctual(Punctual {
         emitter: Emitter::Point {
             position,
@@ -65,7 +65,7 @@ fn lamp(position: [f64; 3]) -> ir::Light {
 }
 
 /// Adds a mesh, and returns an instance of it.
-fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
+pub(super) fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
     scene.meshes.push(mesh);
     Shape::Instance(ir::Instance {
         mesh: ir::MeshId(scene.meshes.len() as u32 - 1),
@@ -74,7 +74,7 @@ fn placed(scene: &mut Scene, mesh: ir::Mesh) -> Shape {
 }
 
 /// A triangle across the view.
-fn across() -> ir::Mesh {
+pub(super) fn across() -> ir::Mesh {
     ir::Mesh {
         name: "across".to_owned(),
         positions: vec![[-2.0, -2.0, 1.0], [2.0, -2.0, 1.1], [0.0, 2.0, 1.3]].into(),
@@ -86,7 +86,7 @@ fn across() -> ir::Mesh {
 
 /// Whether a rule removes an effect from a scene. The picture by it, and by all rules, keeps its
 /// bits in any case.
-fn fires(rule: Rule, scene: &Scene) -> bool {
+pub(super) fn fires(rule: Rule, scene: &Scene) -> bool {
     let proof = proven(scene);
     let unpruned = film(&proof, Rules::NONE);
     for rules in [Rules::NONE.with(rule), Rules::ALL] {
