@@ -110,7 +110,7 @@ while read -r scene limit; do
     [ -e "$scene" ] || continue
     echo "$(basename "$scene") $(count planned "$scene") $(count everything "$scene") $(count unpruned "$scene") $limit" \
         "$(target/release/examples/kernels time "$scene")" | awk '{
-        printf "| `%s` | %d | %d | %.2f | %d | %.2f | %s | %.3f | %.3f | %.2f |\n",
+        printf "| `%s` | %.0f | %.0f | %.2f | %.0f | %.2f | %s | %.3f | %.3f | %.2f |\n",
             $1, $2, $3, $2 / $3, $4, $2 / $4, $5, $6, $7, $7 / $6
         exit $2 > $3 || $2 > $5 * $4
     }'

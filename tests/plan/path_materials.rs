@@ -172,6 +172,11 @@ fn a_texture_is_opaque_where_all_its_texels_are() {
     assert!(fires(Rule::PathOpaque, &veil(255)));
     assert!(!fires(Rule::PathOpaque, &veil(254)));
     let plan = Plan::new(&proven(&veil(255)), Rules::ALL);
+    assert!(
+        plan.verdicts
+            .iter()
+            .all(|verdict| !verdict.because.is_empty())
+    );
     let mut verdicts = plan.verdicts.iter();
     let textures = verdicts.find(|verdict| verdict.effect == Effect::Textures);
     assert_eq!(textures.unwrap().facts.len(), 1, "the material with a map");
