@@ -25,8 +25,8 @@ macro_rules! parameters {
             normal_map: map = None, "Option::is_none";
             normal_scale: number = 1.0, "is_one";
             alpha: alpha = Alpha::Opaque, "is_default";
-            /// Whether the camera sees the back where paths are traced. It sees that of what
-            /// transmits, and all other rays meet it.
+            /// Whether camera rays of traced paths see the back. They always see the back of a
+            /// transmitting material, and all other rays hit the back of any material.
             double_sided: flag = false, "is_default";
             unlit: flag = false, "is_default";
             ior: ior = 1.5, "never";

@@ -126,7 +126,7 @@ impl ShapeFacts for Triangle {
 }
 
 impl ShapeFacts for Quad {
-    /// A patch is met by formulas whose error nobody has bounded, so that it may be anywhere.
+    /// The formulas of a patch have no known error bound, so it may be anywhere.
     fn body(&self, _: &[Space]) -> Body {
         let [a, b, c, d] = self.vertices;
         if !self.is_flat() {

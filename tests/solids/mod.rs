@@ -39,28 +39,14 @@ const SOLIDS: &[Solid] = &[
         distance: |p, z, rho| (rho - p.radius).max(-z).max(z - p.height),
     },
     Solid {
-        words: |p| {
-            let place = format!(
-                "position: {}, up: {}",
-                text(p.base),
-                text(p.axis * p.height)
-            );
-            format!("type: cone, {place}, radius: {:?}", p.radius)
-        },
+        words: |p| upright("cone", p),
         distance: |p, z, rho| {
             let slant = (p.height * p.height + p.radius * p.radius).sqrt();
             ((rho - p.radius * (1.0 - z / p.height)) * p.height / slant).max(-z)
         },
     },
     Solid {
-        words: |p| {
-            let place = format!(
-                "position: {}, up: {}",
-                text(p.base),
-                text(p.axis * p.height)
-            );
-            format!("type: paraboloid, {place}, radius: {:?}", p.radius)
-        },
+        words: |p| upright("paraboloid", p),
         distance: |p, z, rho| {
             let bend = p.radius * p.radius / p.height;
             let gradient = (4.0 * rho * rho + bend * bend).sqrt();
@@ -68,6 +54,15 @@ const SOLIDS: &[Solid] = &[
         },
     },
 ];
+
+/// The words of a solid whose `up` leads from its base to its top.
+fn upright(kind: &str, p: &Place) -> String {
+    let (base, up) = (text(p.base), text(p.axis * p.height));
+    format!(
+        "type: {kind}, position: {base}, up: {up}, radius: {:?}",
+        p.radius
+    )
+}
 
 fn text(v: Vec3) -> String {
     format!("{:?}", v.to_array())

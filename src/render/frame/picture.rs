@@ -173,18 +173,14 @@ pub(in crate::render) fn asked(job: &Job, samples: Range<u32>) -> SampleRanges {
 /// The pixels of `crop` of a film of the whole picture. A film of the size of `crop` stays as it
 /// is.
 fn cut(film: Film, crop: Crop) -> Film {
+    if (film.image.width, film.image.height) == (crop.width, crop.height) {
+        return film;
+    }
     let Film {
         image,
         coverage,
         counts,
     } = film;
-    if (image.width, image.height) == (crop.width, crop.height) {
-        return Film {
-            image,
-            coverage,
-            counts,
-        };
-    }
     let width = image.width as usize;
     let rows = (crop.y..crop.y + crop.height).map(|y| y as usize * width + crop.x as usize);
     let row = |start: usize| start..start + crop.width as usize;
@@ -193,11 +189,11 @@ fn cut(film: Film, crop: Crop) -> Film {
         height: crop.height,
         pixels: rows
             .clone()
-            .flat_map(|start| image.pixels[row(start)].to_vec())
+            .flat_map(|start| image.pixels[row(start)].iter().copied())
             .collect(),
     };
     let coverage = rows
-        .flat_map(|start| coverage[row(start)].to_vec())
+        .flat_map(|start| coverage[row(start)].iter().copied())
         .collect();
     Film {
         image,

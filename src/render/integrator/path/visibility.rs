@@ -72,8 +72,8 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
                 return transmittance;
             }
-            // What is met within the segment may be missed to within rounding: it hides the light,
-            // as it does where no surface is tested.
+            // By rounding, the closest-hit search may miss a surface that blocks the segment. It
+            // hides the light, as an opaque surface does.
             let Some(hit) = self.world.closest_hit_from(&ray, from) else {
                 return 0.0;
             };

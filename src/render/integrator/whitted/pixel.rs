@@ -20,7 +20,7 @@ pub(super) struct PixelState {
     place: [u32; 3],
     /// The cell of the previous sample, where a cell has several points of the lens.
     cell: Option<Cell>,
-    /// The previous sample, where it says what this one is, or is to say so.
+    /// The previous sample, if all samples of the pixel are proven to be equal, or checked for it.
     last: Option<Sample>,
     /// Whether all samples are proven to be equal.
     is_uniform: bool,
@@ -31,11 +31,14 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
 
     #[inline(always)]
     fn begin(&mut self, first: &SampleId) {
-        let place = self.grid.place_of(first.index);
-        let several = Self::can(Features::CAMERA) && self.grid.samples() > 1;
+        if !Self::can(Features::CAMERA) {
+            self.pixel = PixelState::default();
+            return;
+        }
+        let several = self.grid.samples() > 1;
         let class = || self.world.plan.region.class_of(first.pixel);
         self.pixel = PixelState {
-            place,
+            place: self.grid.place_of(first.index),
             is_uniform: several && class() == PixelClass::Uniform,
             ..PixelState::default()
         };
