@@ -5,7 +5,7 @@
 //!
 //! 1. [`math`], [`color`]: vectors, exact and robust arithmetic; colour spaces and tone curves.
 //!    `standard`: the table of the parameters of the glTF material, which every later room reads.
-//! 2. [`image`]: pixel files. [`source`]: files, spans into them, limits, and
+//! 2. [`profile`]: how the intensity of a light depends on the direction. [`image`]: pixel files. [`source`]: files, spans into them, limits, and
 //!    [`source::tree`], the spanned tree that YAML and JSON become.
 //! 3. [`diag`]: one diagnostic type, the table of codes, the printers.
 //! 4. [`ir`]: the intermediate representation, [`ir::Scene`] and its nouns, with a version.
@@ -37,6 +37,7 @@ pub mod math;
 pub mod passes;
 pub mod pipeline;
 pub mod plan;
+pub mod profile;
 pub mod render;
 pub mod source;
 mod standard;

@@ -20,6 +20,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("color", 0),
     ("standard", 0),
     ("image", 1),
+    ("profile", 1),
     ("source", 1),
     ("diag", 2),
     ("ir", 3),

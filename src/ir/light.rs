@@ -1,5 +1,7 @@
 //! The lights.
 
+use crate::math::{Vec3, unit};
+use crate::profile::Profile;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -71,6 +73,108 @@ pub enum Emitter {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         range: Option<f64>,
     },
+}
+
+/// How an emitter is written in a scene of the course.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spelling {
+    /// Its `type`.
+    pub kind: &'static str,
+    /// The keys of its points and directions, with their values.
+    pub triples: Vec<(&'static str, [f64; 3])>,
+    /// The key of the intensity.
+    pub intensity: &'static str,
+}
+
+/// The table of emitters: what all stages ask of one.
+impl Emitter {
+    /// Where it stands, unless it is infinitely far away.
+    #[must_use]
+    pub fn position(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Sun { .. } => None,
+            Self::Point { position, .. } | Self::Spot { position, .. } => Some(*position),
+        }
+    }
+
+    /// The direction to a sun, else that in which it shines.
+    #[must_use]
+    pub fn direction(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Point { .. } => None,
+            Self::Sun { direction } | Self::Spot { direction, .. } => Some(*direction),
+        }
+    }
+
+    /// Beyond this distance it is dark.
+    #[must_use]
+    pub fn range(&self) -> Option<f64> {
+        match self {
+            Self::Sun { .. } => None,
+            Self::Point { range, .. } | Self::Spot { range, .. } => *range,
+        }
+    }
+
+    /// How its intensity depends on the direction.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn profile(&self) -> Result<Profile, String> {
+        match self {
+            Self::Sun { .. } | Self::Point { .. } => Ok(Profile::Uniform),
+            Self::Spot {
+                direction,
+                inner_angle,
+                outer_angle,
+                ..
+            } => Profile::cone(axis(*direction)?, *inner_angle, *outer_angle),
+        }
+    }
+
+    /// Moves its position, turns its directions, and multiplies its range.
+    pub fn transform(
+        &mut self,
+        place: impl Fn([f64; 3]) -> [f64; 3],
+        mut turn: impl FnMut([f64; 3]) -> [f64; 3],
+        scale: f64,
+    ) {
+        match self {
+            Self::Sun { direction } => *direction = turn(*direction),
+            Self::Point { position, range } => {
+                *position = place(*position);
+                *range = range.map(|range| range * scale);
+            }
+            Self::Spot {
+                position,
+                direction,
+                inner_angle: _,
+                outer_angle: _,
+                range,
+            } => {
+                *position = place(*position);
+                *direction = turn(*direction);
+                *range = range.map(|range| range * scale);
+            }
+        }
+    }
+
+    /// How a scene of the course writes it, if that can.
+    #[must_use]
+    pub fn spelling(&self) -> Option<Spelling> {
+        match self {
+            Self::Sun { direction } => Some(Spelling {
+                kind: "sun",
+                triples: vec![("direction", *direction)],
+                intensity: "irradiance",
+            }),
+            Self::Point { .. } | Self::Spot { .. } => None,
+        }
+    }
+}
+
+/// The unit vector of a direction.
+fn axis(direction: [f64; 3]) -> Result<Vec3, String> {
+    unit(Vec3::from_array(direction)).ok_or_else(|| "a light shines in no direction".to_owned())
 }
 
 /// A point light, or with a radius the sphere around it: then shadows have soft edges. It is no

@@ -224,18 +224,14 @@ fn stand_lights(scene: &mut Scene) {
 
 /// The light without falloff that gives the middle of the scene as much as a physical one.
 fn as_point(light: &Punctual, ball: Ball) -> PointLight {
-    let (position, irradiance) = match &light.emitter {
-        Emitter::Sun { direction } => {
-            let direction = unit(Vec3::from_array(*direction)).unwrap_or(Vec3::Y);
-            (
-                (ball.center + direction * (FAR * ball.radius)).to_array(),
-                1.0,
-            )
-        }
-        Emitter::Point { position, range: _ } | Emitter::Spot { position, .. } => {
-            let square = Vec3::from_array(*position).distance_squared(ball.center);
-            (*position, 1.0 / square.max(ball.radius * ball.radius))
-        }
+    let (position, irradiance) = if let Some(position) = light.emitter.position() {
+        let square = Vec3::from_array(position).distance_squared(ball.center);
+        (position, 1.0 / square.max(ball.radius * ball.radius))
+    } else {
+        let direction = light.emitter.direction().map(Vec3::from_array);
+        let direction = direction.and_then(unit).unwrap_or(Vec3::Y);
+        let position = ball.center + direction * (FAR * ball.radius);
+        (position.to_array(), 1.0)
     };
     // A white surface that faces the light shows its colour here, its irradiance over π there.
     PointLight {

@@ -5,9 +5,10 @@ use crate::diag::Diagnostic;
 use crate::diag::codes;
 use crate::ir::{self, Field, Noun, Place};
 use crate::math::{NonNegative, Positive, Vec3, unit};
+use crate::profile::Profile;
 
 /// A light of any kind.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Light {
     /// A light of the course, in units of the display.
     Course(CourseLight),
@@ -27,14 +28,12 @@ pub struct CourseLight {
 }
 
 /// A light without extent, in physical units.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Punctual {
     /// From infinitely far away.
     Directional(DirectionalLight),
-    /// From a point into all directions.
+    /// From a point.
     Point(PointLight),
-    /// From a point into a cone.
-    Spot(SpotLight),
 }
 
 /// A light infinitely far away.
@@ -46,30 +45,15 @@ pub struct DirectionalLight {
     pub irradiance: Vec3,
 }
 
-/// A point that shines equally in all directions.
-#[derive(Clone, Copy, Debug)]
+/// A point that shines.
+#[derive(Clone, Debug)]
 pub struct PointLight {
     /// Where it stands.
     pub position: Vec3,
-    /// The radiant intensity, each channel at least 0.
+    /// The radiant intensity, each channel at least 0, by how much of it goes in a direction.
     pub intensity: Vec3,
-    /// The falloff.
-    pub falloff: Falloff,
-}
-
-/// A point that shines into a cone.
-#[derive(Clone, Copy, Debug)]
-pub struct SpotLight {
-    /// Where it stands.
-    pub position: Vec3,
-    /// The unit vector to where it shines.
-    pub direction: Vec3,
-    /// The cosine of the inner angle: full intensity inside it.
-    pub inner: f64,
-    /// The cosine of the outer angle, less than that of the inner one: no light outside it.
-    pub outer: f64,
-    /// The radiant intensity in its direction, each channel at least 0.
-    pub intensity: Vec3,
+    /// How much of the intensity goes in which direction.
+    pub profile: Profile,
     /// The falloff.
     pub falloff: Falloff,
 }
@@ -113,48 +97,34 @@ fn punctual(light: &ir::Punctual, index: usize, check: &mut Check<'_>) -> Option
     let at = place(Noun::Light, index, Field::Whole);
     let ir::Punctual { emitter, intensity } = light;
     let intensity = check.color(*intensity, at);
-    match emitter {
-        ir::Emitter::Sun { direction } => {
-            let direction = direction_of(*direction, at, check);
-            Some(Punctual::Directional(DirectionalLight {
-                direction: direction?,
-                irradiance: intensity?,
-            }))
-        }
-        ir::Emitter::Point { position, range } => {
-            let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
-            Some(Punctual::Point(PointLight {
-                position: position?,
-                intensity: intensity?,
-                falloff: falloff?,
-            }))
-        }
-        ir::Emitter::Spot {
-            position,
-            direction,
-            inner_angle,
-            outer_angle,
-            range,
-        } => {
-            let (position, falloff) = (check.vector(*position, at), falloff(*range, at, check));
-            let direction = direction_of(*direction, at, check);
-            let (inner, outer) = cone(*inner_angle, *outer_angle, at, check)?;
-            Some(Punctual::Spot(SpotLight {
-                position: position?,
-                direction: direction?,
-                inner,
-                outer,
-                intensity: intensity?,
-                falloff: falloff?,
-            }))
-        }
+    let place = emitter.position().map(|position| {
+        (
+            check.vector(position, at),
+            falloff(emitter.range(), at, check),
+        )
+    });
+    let direction = emitter.direction().map(|direction| {
+        check
+            .direction(direction, "direction of a light", at)
+            .and_then(unit)
+    });
+    if direction == Some(None) {
+        return None;
     }
-}
-
-fn direction_of(direction: [f64; 3], at: Place, check: &mut Check<'_>) -> Option<Vec3> {
-    check
-        .direction(direction, "direction of a light", at)
-        .and_then(unit)
+    let Some((position, falloff)) = place else {
+        return Some(Punctual::Directional(DirectionalLight {
+            direction: direction??,
+            irradiance: intensity?,
+        }));
+    };
+    let refuse = |fault| check.report(at, "", Diagnostic::new(&codes::BAD_LIGHT, fault));
+    let profile = emitter.profile().map_err(refuse).ok();
+    Some(Punctual::Point(PointLight {
+        position: position?,
+        intensity: intensity?,
+        profile: profile?,
+        falloff: falloff?,
+    }))
 }
 
 fn falloff(range: Option<f64>, at: Place, check: &mut Check<'_>) -> Option<Falloff> {
@@ -164,21 +134,6 @@ fn falloff(range: Option<f64>, at: Place, check: &mut Check<'_>) -> Option<Fallo
             .map(Falloff::Ranged),
         None => Some(Falloff::Square),
     }
-}
-/// The cosines of the angles of a spot light.
-fn cone(inner: f64, outer: f64, at: Place, check: &mut Check<'_>) -> Option<(f64, f64)> {
-    let sound =
-        0.0 <= inner && inner < outer && outer <= std::f64::consts::FRAC_PI_2 * (1.0 + 1e-6);
-    if !sound {
-        let message =
-            format!("a spot light has an inner angle of {inner} and an outer one of {outer}");
-        check.report(
-            at,
-            "",
-            Diagnostic::new(&codes::BAD_LIGHT, message).hint("0 ≤ inner < outer ≤ π/2"),
-        );
-    }
-    sound.then(|| (libm::cos(inner), libm::cos(outer)))
 }
 
 /// The limit on lights times spheres: beyond it the quadratic search for notes is left out.

@@ -21,7 +21,7 @@ pub use camera::{Camera, Lens, Projection};
 pub use check::LARGEST;
 pub use environment::Environment;
 pub use image::Image;
-pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual, SpotLight};
+pub use light::{CourseLight, DirectionalLight, Falloff, Light, PointLight, Punctual};
 pub use material::Material;
 pub use mesh::Mesh;
 pub use phong::{Bump, Maps, Phong};

@@ -2,6 +2,7 @@
 //! grid, so that things touch, line up and coincide.
 
 mod extreme;
+mod light;
 mod paths;
 
 use rtc::ir::{self, ImageId, MaterialId, MeshId, Scene, Texture, TextureId};

@@ -13,6 +13,7 @@ mod cut;
 mod dice;
 mod effort;
 mod extreme;
+mod lamps;
 mod law;
 mod need;
 mod path_materials;

@@ -51,20 +51,13 @@ fn scale_light(light: &mut ir::Light, factor: f64) {
         }
         ir::Light::Punctual(punctual) => punctual,
     };
-    match &mut punctual.emitter {
-        ir::Emitter::Sun { direction: _ } => {}
-        ir::Emitter::Point { position, range }
-        | ir::Emitter::Spot {
-            position,
-            direction: _,
-            inner_angle: _,
-            outer_angle: _,
-            range,
-        } => {
-            scale(position, factor);
-            *range = range.map(|range| range * factor);
-            punctual.intensity = punctual.intensity.map(|channel| channel * factor * factor);
-        }
+    let is_far = punctual.emitter.position().is_none();
+    let place = |position: [f64; 3]| position.map(|component| component * factor);
+    punctual
+        .emitter
+        .transform(place, |direction| direction, factor);
+    if !is_far {
+        punctual.intensity = punctual.intensity.map(|channel| channel * factor * factor);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Text;
 use super::material::file_name;
-use crate::ir::{Emitter, Environment, Image, Light, PointLight, Punctual};
+use crate::ir::{Environment, Image, Light, PointLight, Punctual};
 
 impl Text {
     pub(super) fn light(&mut self, light: &Light) -> Result<(), String> {
@@ -18,16 +18,15 @@ impl Text {
                     self.number("radius", *radius, 4);
                 }
             }
-            Light::Punctual(Punctual {
-                emitter: Emitter::Sun { direction },
-                intensity,
-            }) => {
-                self.line(2, "- type: sun");
-                self.numbers("direction", direction, 4);
-                self.numbers("irradiance", intensity, 4);
-            }
-            Light::Punctual(_) => {
-                return Err("a point or spot light in physical units has no spelling".to_owned());
+            Light::Punctual(Punctual { emitter, intensity }) => {
+                let spelling = emitter
+                    .spelling()
+                    .ok_or("a point or spot light in physical units has no spelling")?;
+                self.line(2, &format!("- type: {}", spelling.kind));
+                for (key, value) in &spelling.triples {
+                    self.numbers(key, value, 4);
+                }
+                self.numbers(spelling.intensity, intensity, 4);
             }
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! Lights as each integrator sees them: Whitted's integrator sees lights of the course, paths see physical ones.
 
+use crate::profile::Profile;
 use crate::valid::{CourseLight, Falloff, Light, PointLight, Punctual};
 use std::f64::consts::PI;
 
@@ -18,10 +19,11 @@ pub fn course(lights: &[Light]) -> Vec<CourseLight> {
 #[must_use]
 pub fn punctual(lights: &[Light]) -> Vec<Punctual> {
     let physical = |light: &Light| match light {
-        Light::Punctual(light) => *light,
+        Light::Punctual(light) => light.clone(),
         Light::Course(light) => Punctual::Point(PointLight {
             position: light.position,
             intensity: light.color * PI,
+            profile: Profile::Uniform,
             falloff: Falloff::None,
         }),
     };
@@ -57,7 +59,7 @@ mod tests {
             Punctual::Point(first),
             Punctual::Directional(_),
             Punctual::Point(second),
-        ] = punctual(&lights)[..]
+        ] = &punctual(&lights)[..]
         else {
             panic!("three lights of their kinds")
         };

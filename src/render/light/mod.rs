@@ -61,7 +61,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let punctual = world.lights.punctual.iter().enumerate();
         let mut lights = punctual
             .filter(|(index, _)| left(*index) != LightLeft::Nothing)
-            .map(|(index, light)| Light::Punctual(*light, left(index)))
+            .map(|(index, light)| Light::Punctual(light.clone(), left(index)))
             .collect::<Vec<_>>();
         let mut firsts = vec![None; world.surfaces.len()];
         for (index, surface) in world.surfaces.iter().enumerate() {

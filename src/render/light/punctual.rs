@@ -2,17 +2,15 @@
 
 use super::Incident;
 use crate::math::Vec3;
-use std::f64::consts::PI;
+use crate::profile::Profile;
 
 /// A light without extent.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::render) enum Punctual {
     /// From infinitely far away.
     Directional(DirectionalLight),
-    /// From a point into all directions.
+    /// From a point.
     Point(PointLight),
-    /// From a point into a cone.
-    Spot(SpotLight),
 }
 
 /// A light infinitely far away.
@@ -24,27 +22,15 @@ pub(in crate::render) struct DirectionalLight {
     pub(in crate::render) irradiance: Vec3,
 }
 
-/// A point light of equal intensity in all directions.
-#[derive(Clone, Copy, Debug)]
+/// A point light.
+#[derive(Clone, Debug)]
 pub(in crate::render) struct PointLight {
     /// Where it stands.
     pub(in crate::render) position: Vec3,
-    /// The radiant intensity.
+    /// The radiant intensity, by the factors of the profile.
     pub(in crate::render) intensity: Vec3,
+    pub(in crate::render) profile: Profile,
     pub(in crate::render) falloff: Falloff,
-}
-
-/// A point light with a cone.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct SpotLight {
-    /// The light on the axis of the cone.
-    pub(in crate::render) point: PointLight,
-    /// The unit axis of the cone, away from the light.
-    pub(in crate::render) direction: Vec3,
-    /// The cosine of the inner angle: full intensity within it.
-    pub(in crate::render) inner: f64,
-    /// The cosine of the outer angle: dark beyond it.
-    pub(in crate::render) outer: f64,
 }
 
 /// The attenuation of light with distance.
@@ -63,8 +49,7 @@ impl Punctual {
     pub(super) fn power(&self, disc: f64) -> f64 {
         match self {
             Self::Directional(sun) => sun.irradiance.max_element() * disc,
-            Self::Point(point) => point.power(disc, 4.0 * PI),
-            Self::Spot(spot) => spot.point.power(disc, 2.0 * PI * (1.0 - spot.outer)),
+            Self::Point(point) => point.power(disc),
         }
     }
 
@@ -74,18 +59,6 @@ impl Punctual {
             Self::Directional(sun) => (sun.direction, None, sun.irradiance, 1.0),
             Self::Point(point) => {
                 let (wi, strength) = point.towards(from)?;
-                (wi, Some(point.position), point.intensity, strength)
-            }
-            Self::Spot(SpotLight {
-                point,
-                direction,
-                inner,
-                outer,
-            }) => {
-                let (wi, strength) = point.towards(from)?;
-                // KHR_lights_punctual: the square of a ramp between the cosines.
-                let ramp = ((-wi.dot(*direction) - outer) / (inner - outer)).clamp(0.0, 1.0);
-                let strength = ramp * ramp * strength;
                 (wi, Some(point.position), point.intensity, strength)
             }
         };
@@ -100,24 +73,23 @@ impl Punctual {
 }
 
 impl PointLight {
-    /// The approximate power of the light, emitted into a solid angle.
-    fn power(&self, disc: f64, solid_angle: f64) -> f64 {
+    /// The approximate power of the light.
+    fn power(&self, disc: f64) -> f64 {
         let weight = match self.falloff {
             // Without attenuation, distance does not matter.
             Falloff::None => disc,
-            Falloff::Square | Falloff::Ranged(_) => solid_angle,
+            Falloff::Square | Falloff::Ranged(_) => self.profile.solid_angle(),
         };
         self.intensity.max_element() * weight
     }
 
-    /// The unit vector to the light, and its attenuation.
+    /// The unit vector to the light, and the share of its intensity that arrives.
     fn towards(&self, from: Vec3) -> Option<(Vec3, f64)> {
         let wi = (self.position - from).try_normalize()?;
-        Some((
-            wi,
-            self.falloff
-                .attenuation(self.position.distance_squared(from)),
-        ))
+        let attenuation = self
+            .falloff
+            .attenuation(self.position.distance_squared(from));
+        Some((wi, self.profile.factor(-wi) * attenuation))
     }
 }
 

@@ -4,7 +4,7 @@ use super::texture::Textures;
 use crate::plan::{EnvironmentLeft, Plan, facts};
 use crate::render::light::course::CourseLight;
 use crate::render::light::environment::Environment;
-use crate::render::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual, SpotLight};
+use crate::render::light::punctual::{DirectionalLight, Falloff, PointLight, Punctual};
 use crate::valid::{self, Proof};
 
 /// The lights of a world. There are two kinds of lists; the one that the integrator does not use is
@@ -63,23 +63,6 @@ fn punctual(light: valid::Punctual) -> Punctual {
             irradiance,
         }),
         valid::Punctual::Point(light) => Punctual::Point(point(light)),
-        valid::Punctual::Spot(valid::SpotLight {
-            position,
-            direction,
-            inner,
-            outer,
-            intensity,
-            falloff,
-        }) => Punctual::Spot(SpotLight {
-            point: point(valid::PointLight {
-                position,
-                intensity,
-                falloff,
-            }),
-            direction,
-            inner,
-            outer,
-        }),
     }
 }
 
@@ -87,11 +70,13 @@ fn point(light: valid::PointLight) -> PointLight {
     let valid::PointLight {
         position,
         intensity,
+        profile,
         falloff,
     } = light;
     PointLight {
         position,
         intensity,
+        profile,
         falloff: match falloff {
             valid::Falloff::None => Falloff::None,
             valid::Falloff::Square => Falloff::Square,

@@ -5,7 +5,7 @@
 use super::super::scale::{scale_shape, scaled};
 use super::Dice;
 use rtc::ir::{
-    self, Emitter, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId,
+    self, ImageId, Light, Map, Material, Mode, Scene, Shape, Standard, Texture, TextureId,
 };
 use rtc::math::Vec3;
 
@@ -111,25 +111,8 @@ impl Dice {
 
     fn punctual(&mut self) -> Light {
         let range = self.pick(&[None, Some(6.0), Some(30.0)]);
-        let emitter = match self.roll(3) {
-            0 => Emitter::Sun {
-                direction: self.axis(),
-            },
-            1 => Emitter::Point {
-                position: self.point(6),
-                range,
-            },
-            _ => {
-                let (position, direction) = (self.point(6), self.axis());
-                Emitter::Spot {
-                    position,
-                    direction,
-                    inner_angle: 0.1,
-                    outer_angle: self.pick(&[0.2, 1.5]),
-                    range,
-                }
-            }
-        };
+        let (position, direction) = (self.point(6), self.axis());
+        let emitter = self.emitter(position, direction, range);
         Light::Punctual(ir::Punctual {
             emitter,
             intensity: self.pick(&[[0.0; 3], [3.0, 2.0, 1.0], [40.0; 3]]),
@@ -216,29 +199,14 @@ impl Dice {
     /// Gives directions, whose length has no meaning, another one, or bends them by a component
     /// that vanishes beside them.
     fn stretch_directions(&mut self, scene: &mut Scene) {
-        let shapes = scene
-            .surfaces
-            .iter_mut()
-            .filter_map(|surface| direction(&mut surface.shape));
-        let lights = scene.lights.iter_mut().filter_map(|light| match light {
-            Light::Punctual(ir::Punctual {
-                emitter: Emitter::Sun { direction },
-                ..
-            })
-            | Light::Punctual(ir::Punctual {
-                emitter: Emitter::Spot { direction, .. },
-                ..
-            }) => Some(direction),
-            Light::Point(_) | Light::Punctual(_) => None,
-        });
-        for direction in shapes.chain(lights) {
-            if self.chance(2) {
-                let length =
-                    self.pick(&[1e-300, 1e-200, 1e-161, 1e-155, 1e155, 1e161, 1e200, 1e300]);
-                *direction = direction.map(|component| component * length);
+        for surface in &mut scene.surfaces {
+            if let Some(direction) = direction(&mut surface.shape) {
+                *direction = self.stretched(*direction);
             }
-            if self.chance(8) {
-                direction[0] += Vec3::from_array(*direction).abs().max_element() * 1e-162;
+        }
+        for light in &mut scene.lights {
+            if let Light::Punctual(ir::Punctual { emitter, .. }) = light {
+                emitter.transform(|point| point, |direction| self.stretched(direction), 1.0);
             }
         }
         for mesh in scene
@@ -253,6 +221,17 @@ impl Dice {
                 .map(|normal| normal.map(|component| component * length))
                 .collect();
         }
+    }
+
+    fn stretched(&mut self, mut direction: [f64; 3]) -> [f64; 3] {
+        if self.chance(2) {
+            let length = self.pick(&[1e-300, 1e-200, 1e-161, 1e-155, 1e155, 1e161, 1e200, 1e300]);
+            direction = direction.map(|component| component * length);
+        }
+        if self.chance(8) {
+            direction[0] += Vec3::from_array(direction).abs().max_element() * 1e-162;
+        }
+        direction
     }
 
     /// Makes one shape thin, flat or long, or the eye far.

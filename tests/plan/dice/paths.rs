@@ -3,8 +3,8 @@
 
 use super::Dice;
 use rtc::ir::{
-    self, Alpha, Emitter, Environment, Filter, ImageId, Map, Material, MaterialId, Mode,
-    PathSettings, Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
+    self, Alpha, Environment, Filter, ImageId, Map, Material, MaterialId, Mode, PathSettings,
+    Pixels, Punctual, Sampled, Scene, Standard, Texture, TextureId, Wrap,
 };
 
 use serde_json::json;
@@ -193,19 +193,8 @@ impl Dice {
     fn path_light(&mut self) -> ir::Light {
         let position = [self.number(3), self.number(3), 6.0];
         let range = self.pick(&[None, None, Some(0.5), Some(20.0)]);
-        let emitter = match self.roll(3) {
-            0 => Emitter::Sun {
-                direction: [1.0, 2.0, 3.0],
-            },
-            1 => Emitter::Point { position, range },
-            _ => Emitter::Spot {
-                position,
-                direction: [0.0, self.pick(&[0.0, 1.0]), self.pick(&[-1.0, 1.0])],
-                inner_angle: 0.2,
-                outer_angle: 0.5,
-                range,
-            },
-        };
+        let direction = [0.0, self.pick(&[0.0, 1.0]), self.pick(&[-1.0, 1.0])];
+        let emitter = self.emitter(position, direction, range);
         let intensity = self.pick(&[[0.0; 3], [3.0, 2.0, 4.0], [20.0; 3]]);
         ir::Light::Punctual(Punctual { emitter, intensity })
     }

@@ -5,8 +5,8 @@ use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
 use crate::front::{FrontOptions, gltf, over_limit};
 use crate::ir::{
-    Emitter, Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual,
-    Scene, Shape, Surface, Texture, TextureId,
+    Field, ImageId, Light, Lowered, Material, MeshId, Noun, Origins, Place, Punctual, Scene, Shape,
+    Surface, Texture, TextureId,
 };
 use crate::math::Vec3;
 use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
@@ -239,16 +239,13 @@ fn placed(light: &Light, world: DAffine3) -> Light {
         return light.clone();
     };
     let mut emitter = emitter.clone();
-    if let Emitter::Point { position, .. } | Emitter::Spot { position, .. } = &mut emitter {
-        *position = world
-            .transform_point3(Vec3::from_array(*position))
-            .to_array();
-    }
-    if let Emitter::Sun { direction } | Emitter::Spot { direction, .. } = &mut emitter {
-        *direction = world
-            .transform_vector3(Vec3::from_array(*direction))
-            .to_array();
-    }
+    let place = |point| world.transform_point3(Vec3::from_array(point)).to_array();
+    let turn = |direction| {
+        world
+            .transform_vector3(Vec3::from_array(direction))
+            .to_array()
+    };
+    emitter.transform(place, turn, 1.0);
     Light::Punctual(Punctual {
         emitter,
         intensity: *intensity,

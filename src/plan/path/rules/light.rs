@@ -9,7 +9,7 @@ use crate::plan::path::draft::{Draft, EnvironmentLeft, LightLeft, lets_light_thr
 use crate::plan::path::facts::is_delta;
 use crate::plan::rules::Rule;
 use crate::plan::space::{Flat, MARGIN, Sides, Space};
-use crate::valid::{Alpha, Falloff, PointLight, Punctual, SpotLight};
+use crate::valid::{Alpha, Falloff, Punctual};
 
 fn place(light: usize) -> Place {
     Place::new(Noun::Light, light, Field::Whole)
@@ -22,7 +22,7 @@ pub(super) const BLACK: PathRule = PathRule {
     because: "all lights have intensity 0",
     apply: |draft| {
         let lights = draft.punctual;
-        let is_black = |light: &usize| intensity(&lights[*light]) == Vec3::ZERO;
+        let is_black = |light: &usize| is_dark(&lights[*light]);
         leave(draft, LightLeft::Nothing, is_black)
     },
 };
@@ -173,10 +173,7 @@ fn hides_nothing(draft: &Draft<'_>, surface: usize) -> bool {
 fn is_off(light: &Punctual, flat: &Flat) -> bool {
     match light {
         Punctual::Directional(sun) => sun.direction.dot(flat.normal).abs() > 4.0 * MARGIN,
-        Punctual::Point(PointLight { position, .. })
-        | Punctual::Spot(SpotLight { position, .. }) => {
-            flat.sides(&point(*position)) != Sides::BOTH
-        }
+        Punctual::Point(light) => flat.sides(&point(light.position)) != Sides::BOTH,
     }
 }
 
@@ -189,11 +186,11 @@ fn is_black(texels: &Texels) -> bool {
     }
 }
 
-fn intensity(light: &Punctual) -> Vec3 {
+/// Whether a light sends nothing in any direction.
+fn is_dark(light: &Punctual) -> bool {
     match light {
-        Punctual::Directional(sun) => sun.irradiance,
-        Punctual::Point(point) => point.intensity,
-        Punctual::Spot(spot) => spot.intensity,
+        Punctual::Directional(sun) => sun.irradiance == Vec3::ZERO,
+        Punctual::Point(light) => light.intensity == Vec3::ZERO || light.profile.is_dark(),
     }
 }
 
@@ -201,8 +198,7 @@ fn intensity(light: &Punctual) -> Vec3 {
 fn position(light: &Punctual) -> Option<Vec3> {
     match light {
         Punctual::Directional(_) => None,
-        Punctual::Point(point) => Some(point.position),
-        Punctual::Spot(spot) => Some(spot.position),
+        Punctual::Point(light) => Some(light.position),
     }
 }
 
@@ -212,24 +208,18 @@ fn point(at: Vec3) -> Space {
 
 /// Whether a light surely does not reach a surface.
 fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
-    let Some(space) = body.space() else {
+    let (Some(space), Punctual::Point(light)) = (body.space(), light) else {
         return false;
     };
-    let is_beyond = |position: Vec3, falloff: Falloff| match falloff {
+    let is_beyond = match light.falloff {
         Falloff::Ranged(range) => {
-            let margin = 8.0 * MARGIN * (space.size() + position.abs().max_element());
-            space.distance(position) > range.get() * (1.0 + MARGIN) + margin
+            let margin = 8.0 * MARGIN * (space.size() + light.position.abs().max_element());
+            space.distance(light.position) > range.get() * (1.0 + MARGIN) + margin
         }
         Falloff::None | Falloff::Square => false,
     };
-    match light {
-        Punctual::Directional(_) => false,
-        Punctual::Point(point) => is_beyond(point.position, point.falloff),
-        Punctual::Spot(spot) => {
-            let is_beside = is_beside(space, spot.position, spot.direction, spot.outer);
-            is_beyond(spot.position, spot.falloff) || is_beside
-        }
-    }
+    let cone = light.profile.bounding_cone();
+    is_beyond || cone.is_some_and(|(axis, cosine)| is_beside(space, light.position, axis, cosine))
 }
 
 /// Whether the ball around a box lies outside of a cone, given by its apex, its axis and the cosine

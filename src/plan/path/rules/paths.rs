@@ -9,7 +9,7 @@ use crate::plan::path::draft::{Draft, LightLeft};
 use crate::plan::rules::Rule;
 use crate::plan::space::Space;
 use crate::plan::window::Shown;
-use crate::valid::{Falloff, PointLight, Punctual, SpotLight, Standard};
+use crate::valid::{Falloff, Punctual, Standard};
 
 fn depth() -> Place {
     Place::new(Noun::Settings, 0, Field::MaxDepth)
@@ -100,9 +100,7 @@ fn is_choice_by_size(draft: &Draft<'_>) -> bool {
     let chosen = || draft.punctual.iter().zip(&draft.lights).filter(is_chosen);
     let is_by_size = |(light, _): (&Punctual, &LightLeft)| match light {
         Punctual::Directional(_) => true,
-        Punctual::Point(PointLight { falloff, .. }) | Punctual::Spot(SpotLight { falloff, .. }) => {
-            matches!(falloff, Falloff::None)
-        }
+        Punctual::Point(light) => matches!(light.falloff, Falloff::None),
     };
     chosen().count() > 1 && chosen().any(is_by_size)
 }
@@ -144,8 +142,7 @@ fn end(light: &Punctual, start: &Space, other: &Space) -> Space {
                 max: start.max + step,
             }
         }
-        Punctual::Point(PointLight { position, .. })
-        | Punctual::Spot(SpotLight { position, .. }) => Space::around(*position, Vec3::ZERO),
+        Punctual::Point(light) => Space::around(light.position, Vec3::ZERO),
     }
 }
 
