@@ -5,6 +5,7 @@ pub mod course;
 pub mod gltf;
 pub mod mesh;
 pub mod pixels;
+mod words;
 
 use crate::diag::{Diagnostic, codes};
 use crate::source::Exceeded;

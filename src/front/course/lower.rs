@@ -1,7 +1,7 @@
 //! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
 //! value.
 
-use super::assets::{Asset, Wanted};
+use super::assets::Wanted;
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
 use super::object::mesh;
@@ -11,7 +11,7 @@ use super::syntax;
 use super::texture::Files;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::FrontOptions;
-use crate::ir::{self, Field, ImageId, Lowered, MaterialId, MeshId, Noun, Origins, Place};
+use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
 use crate::source::tree::yaml::{self, Mistake};
 use crate::source::tree::{NodeContent, NodeId};
 use crate::source::{FileId, SourceMap, Span};
@@ -211,21 +211,9 @@ impl Lowering {
             span,
         } in &wanted
         {
-            let (noun, index) = match asset {
-                Asset::Image(ImageId(index)) | Asset::Environment(ImageId(index)) => {
-                    (Noun::Image, *index)
-                }
-                Asset::Mesh(MeshId(index)) => (Noun::Mesh, *index),
-                Asset::Gltf(_) => continue,
-            };
-            origins.record(
-                Place {
-                    noun,
-                    index,
-                    field: Field::Whole,
-                },
-                *span,
-            );
+            if let Some(place) = asset.place() {
+                origins.record(place, *span);
+            }
         }
         origins.finish();
         UnfinishedScene {

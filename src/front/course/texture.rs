@@ -88,7 +88,7 @@ impl Files {
         self.want(Asset::Gltf(place), file);
     }
 
-    fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {
+    pub(super) fn want(&mut self, asset: Asset, file: &Spanned<FileName>) {
         self.wanted.push(Wanted {
             asset,
             path: file.value.0.clone(),

@@ -5,12 +5,11 @@
 
 mod obj;
 mod off;
-mod scan;
 
-pub use scan::MeshFault;
+pub use crate::front::words::WordFault;
 
+use crate::front::words::{Lines, Word};
 use crate::source::{Budget, Exceeded};
-use scan::{Lines, Word};
 
 /// So many faults of one file are told.
 pub const MAX_FAULTS: usize = 10;
@@ -21,14 +20,14 @@ pub struct Parsed {
     /// What is drawn.
     pub mesh: ParsedMesh,
     /// Elements that don't show: the first, and how many.
-    pub not_drawn: Option<(MeshFault, usize)>,
+    pub not_drawn: Option<(WordFault, usize)>,
 }
 
 /// Why a mesh file can't be read.
 #[derive(Debug)]
 pub enum Unread {
     /// Its faults in the order of the file, at least one.
-    Faults(Vec<MeshFault>),
+    Faults(Vec<WordFault>),
     /// It would take more than the budget has.
     Limit(Exceeded),
 }

@@ -5,8 +5,8 @@
 //! Groups and materials make no difference. Corners without a normal, where others have one, are
 //! shaded flat.
 
-use super::scan::{Lines, MeshFault, Word, numbers};
 use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
+use crate::front::words::{Lines, Word, WordFault, numbers};
 use crate::source::{Budget, Resource};
 
 /// How many there are of what corners refer to: positions, texture coordinates, normals.
@@ -54,8 +54,8 @@ struct Check {
     triangles: usize,
     /// Whether any corner has a texture coordinate, and a normal.
     used: [bool; 2],
-    faults: Vec<MeshFault>,
-    not_drawn: Option<(MeshFault, usize)>,
+    faults: Vec<WordFault>,
+    not_drawn: Option<(WordFault, usize)>,
 }
 
 /// What corners refer to.
@@ -71,7 +71,7 @@ impl Vertices {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), MeshFault> {
+    fn read(&mut self, part: usize, head: &Word<'_>, rest: &[Word<'_>]) -> Result<(), WordFault> {
         match part {
             0 => self.positions.push(numbers(head, rest)?),
             // A height of a texture is rarely written.
@@ -118,7 +118,7 @@ impl Check {
         }
     }
 
-    fn face(&mut self, corners: &[Word<'_>], so_far: Counts) -> Result<(), MeshFault> {
+    fn face(&mut self, corners: &[Word<'_>], so_far: Counts) -> Result<(), WordFault> {
         for corner in corners {
             let [_, uv, normal] = indices(corner, so_far, self.vertices.counts())?;
             self.used[0] |= uv.is_some();
@@ -318,7 +318,7 @@ fn part_of(head: &Word<'_>) -> Option<usize> {
 
 /// The indices of a corner, from 0: `v`, `v/vt`, `v//vn` or `v/vt/vn`, each from 1 or, negative,
 /// from the last so far.
-fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, MeshFault> {
+fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, WordFault> {
     if corner.bytes[0] == b'/' {
         return Err(corner.fault(
             format!("the corner `{}` has no vertex", corner.text()),
@@ -340,7 +340,7 @@ fn indices(corner: &Word<'_>, so_far: Counts, total: Counts) -> Result<Corner, M
     Ok(found)
 }
 
-fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, MeshFault> {
+fn resolve(index: &Word<'_>, noun: &str, so_far: usize, total: usize) -> Result<u32, WordFault> {
     let number = index.integer()?;
     let distance = usize::try_from(number.unsigned_abs()).unwrap_or(usize::MAX);
     let resolved = if number < 0 {

@@ -2,8 +2,8 @@
 //!
 //! Nothing is allocated by a count: the lines that are there are read.
 
-use super::scan::{Lines, MeshFault, Word, numbers};
 use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
+use crate::front::words::{Lines, Word, WordFault, numbers};
 use crate::source::{Budget, Resource};
 
 /// True if the word opens an OFF file of any kind.
@@ -48,7 +48,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     /// The words of the next line; `count` says who promised one.
-    fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], MeshFault> {
+    fn line(&mut self, count: &Count<'a>) -> Result<&[Word<'a>], WordFault> {
         if self.lines.next(&mut self.words) {
             return Ok(&self.words);
         }
@@ -73,7 +73,7 @@ struct Head<'a> {
     faces: Count<'a>,
 }
 
-fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, MeshFault> {
+fn head<'a>(reader: &mut Reader<'a>) -> Result<Head<'a>, WordFault> {
     reader.lines.next(&mut reader.words);
     let head = reader.words[0];
     let has_normals = match head.bytes {
@@ -113,7 +113,7 @@ fn body<'a>(
     reader: &mut Reader<'a>,
     head: &Head<'a>,
     parsed: &mut Parsed,
-    faults: &mut Vec<MeshFault>,
+    faults: &mut Vec<WordFault>,
 ) {
     for _ in 0..head.vertices.value {
         match reader.line(&head.vertices) {
@@ -135,7 +135,7 @@ fn body<'a>(
     }
 }
 
-fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut ParsedMesh) -> Result<(), MeshFault> {
+fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut ParsedMesh) -> Result<(), WordFault> {
     mesh.positions.push(numbers(&words[0], words)?);
     if has_normals {
         mesh.normals
@@ -145,7 +145,7 @@ fn vertex(words: &[Word<'_>], has_normals: bool, mesh: &mut ParsedMesh) -> Resul
 }
 
 /// A polygon, as the fan of its triangles; what follows its corners is its colour.
-fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), MeshFault> {
+fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result<(), WordFault> {
     let (head, rest) = (&words[0], &words[1..]);
     let arity = head.integer()?;
     let corners = usize::try_from(arity)
@@ -163,7 +163,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result
     let indices = corners
         .iter()
         .map(|corner| index(corner, vertices))
-        .collect::<Result<Vec<u32>, MeshFault>>()?;
+        .collect::<Result<Vec<u32>, WordFault>>()?;
     parsed.mesh.triangles.extend(
         indices[1..]
             .windows(2)
@@ -172,7 +172,7 @@ fn face(words: &[Word<'_>], vertices: &Count<'_>, parsed: &mut Parsed) -> Result
     Ok(())
 }
 
-fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, MeshFault> {
+fn index(corner: &Word<'_>, vertices: &Count<'_>) -> Result<u32, WordFault> {
     let number = corner.integer()?;
     let index = u32::try_from(number)
         .ok()

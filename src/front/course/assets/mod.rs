@@ -10,7 +10,7 @@ mod mesh;
 
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::front::FrontOptions;
-use crate::ir::{ImageId, Lowered, MeshId};
+use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Place};
 use crate::source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -37,6 +37,18 @@ pub enum Asset {
     Environment(ImageId),
     /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
     Gltf([[f64; 3]; 4]),
+}
+
+impl Asset {
+    /// The noun of the IR that the file becomes, if it is one.
+    pub(super) fn place(&self) -> Option<Place> {
+        match self {
+            Self::Image(id) | Self::Environment(id) => Some((Noun::Image, id.0)),
+            Self::Mesh(id) => Some((Noun::Mesh, id.0)),
+            Self::Gltf(_) => None,
+        }
+        .map(|(noun, index)| Place::new(noun, index as usize, Field::Whole))
+    }
 }
 
 /// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.

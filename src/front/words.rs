@@ -1,5 +1,5 @@
-//! Lines of words with their places, for mesh files: bytes in any encoding, comments gone, lines
-//! joined by `\`.
+//! Lines of words with their places, for files of meshes and of lamps: bytes in any encoding,
+//! comments gone, lines joined by `\`.
 
 use crate::source::{FileId, Span};
 
@@ -11,9 +11,9 @@ pub(super) struct Word<'a> {
     start: usize,
 }
 
-/// What is wrong with a mesh file, and where.
+/// What is wrong with such a file, and where.
 #[derive(Debug)]
-pub struct MeshFault {
+pub struct WordFault {
     start: usize,
     end: usize,
     /// What is wrong.
@@ -22,7 +22,7 @@ pub struct MeshFault {
     pub label: String,
 }
 
-impl MeshFault {
+impl WordFault {
     /// Where it is.
     #[must_use]
     pub fn span(&self, file: FileId) -> Span {
@@ -52,8 +52,8 @@ impl<'a> Word<'a> {
     }
 
     /// A fault at this word.
-    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> MeshFault {
-        MeshFault {
+    pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordFault {
+        WordFault {
             start: self.start,
             end: self.start + self.bytes.len(),
             message: message.into(),
@@ -74,7 +74,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as a finite number.
-    pub(super) fn number(&self) -> Result<f64, MeshFault> {
+    pub(super) fn number(&self) -> Result<f64, WordFault> {
         let number: Option<f64> = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -88,7 +88,7 @@ impl<'a> Word<'a> {
     }
 
     /// The word as an integer.
-    pub(super) fn integer(&self) -> Result<i64, MeshFault> {
+    pub(super) fn integer(&self) -> Result<i64, WordFault> {
         let integer = std::str::from_utf8(self.bytes)
             .ok()
             .and_then(|text| text.parse().ok());
@@ -105,7 +105,7 @@ impl<'a> Word<'a> {
 pub(super) fn numbers<const N: usize>(
     line: &Word<'_>,
     words: &[Word<'_>],
-) -> Result<[f64; N], MeshFault> {
+) -> Result<[f64; N], WordFault> {
     let mut values = [0.0; N];
     for (at, value) in values.iter_mut().enumerate() {
         let missing = || {
