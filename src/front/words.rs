@@ -1,7 +1,7 @@
 //! Lines of words with their places, for files of meshes and of lamps: bytes in any encoding,
 //! comments gone, lines joined by `\`.
 
-use crate::source::{FileId, Span};
+use crate::source::{Exceeded, FileId, Span};
 
 /// A word of a file.
 #[derive(Clone, Copy, Debug)]
@@ -20,6 +20,21 @@ pub struct WordFault {
     pub message: String,
     /// What is here.
     pub label: String,
+}
+
+/// Why such a file can't be read.
+#[derive(Debug)]
+pub enum Unread {
+    /// Its faults in the order of the file, at least one.
+    Faults(Vec<WordFault>),
+    /// It would take more than the budget has.
+    Limit(Exceeded),
+}
+
+impl From<Exceeded> for Unread {
+    fn from(fault: Exceeded) -> Self {
+        Self::Limit(fault)
+    }
 }
 
 impl WordFault {

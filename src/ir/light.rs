@@ -77,11 +77,13 @@ pub enum Emitter {
 
 /// How an emitter is written in a scene of the course.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spelling {
+pub struct Spelling<'a> {
     /// Its `type`.
     pub kind: &'static str,
     /// The keys of its points and directions, with their values.
     pub triples: Vec<(&'static str, [f64; 3])>,
+    /// The file of its profile.
+    pub file: Option<&'a str>,
     /// The key of the intensity.
     pub intensity: &'static str,
 }
@@ -160,11 +162,12 @@ impl Emitter {
 
     /// How a scene of the course writes it, if that can.
     #[must_use]
-    pub fn spelling(&self) -> Option<Spelling> {
+    pub fn spelling(&self) -> Option<Spelling<'_>> {
         match self {
             Self::Sun { direction } => Some(Spelling {
                 kind: "sun",
                 triples: vec![("direction", *direction)],
+                file: None,
                 intensity: "irradiance",
             }),
             Self::Point { .. } | Self::Spot { .. } => None,

@@ -32,7 +32,8 @@ fn expected(emitter: &Emitter) -> f64 {
     };
     let distance = position.length();
     let window = emitter.range().map_or(1.0, |range| {
-        (1.0 - (distance / range).powi(4)).clamp(0.0, 1.0)
+        let square = (distance / range) * (distance / range);
+        (1.0 - square * square).clamp(0.0, 1.0)
     });
     let to = position / distance;
     let factor = emitter.profile().unwrap().factor(-to);

@@ -26,6 +26,9 @@ impl Text {
                 for (key, value) in &spelling.triples {
                     self.numbers(key, value, 4);
                 }
+                if let Some(file) = spelling.file {
+                    self.line(4, &format!("file: {}", file_name(file)?));
+                }
                 self.numbers(spelling.intensity, intensity, 4);
             }
         }

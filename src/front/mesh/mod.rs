@@ -6,10 +6,10 @@
 mod obj;
 mod off;
 
-pub use crate::front::words::WordFault;
+pub use crate::front::words::{Unread, WordFault};
 
 use crate::front::words::{Lines, Word};
-use crate::source::{Budget, Exceeded};
+use crate::source::Budget;
 
 /// So many faults of one file are told.
 pub const MAX_FAULTS: usize = 10;
@@ -21,21 +21,6 @@ pub struct Parsed {
     pub mesh: ParsedMesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordFault, usize)>,
-}
-
-/// Why a mesh file can't be read.
-#[derive(Debug)]
-pub enum Unread {
-    /// Its faults in the order of the file, at least one.
-    Faults(Vec<WordFault>),
-    /// It would take more than the budget has.
-    Limit(Exceeded),
-}
-
-impl From<Exceeded> for Unread {
-    fn from(fault: Exceeded) -> Self {
-        Self::Limit(fault)
-    }
 }
 
 /// A mesh without a name.

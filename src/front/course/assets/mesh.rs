@@ -1,19 +1,26 @@
 //! The meshes: their files found and read, each once.
 
+use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, codes};
-use crate::front::mesh::{MAX_FAULTS, Parsed, ParsedMesh, Unread, is_mesh, parse};
-use crate::front::over_limit;
+use crate::front::mesh::{Parsed, ParsedMesh, is_mesh, parse};
 use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
-use crate::source::{FileId, FileKind, Found};
+use crate::source::{FileKind, Found};
 use std::collections::BTreeMap;
-
-/// The largest mesh file read, in bytes: some two million triangles.
-const MAX_BYTES: u64 = 1 << 28;
 
 /// Such files.
 pub(super) const KIND: FileKind = FileKind {
     extensions: &["obj", "off"],
+    begins: is_mesh,
+};
+
+const TEXT: TextKind = TextKind {
+    noun: "mesh",
+    is_not: "neither OBJ nor OFF",
+    code: &codes::BAD_MESH_FILE,
+    without: Without::Object,
+    // Some two million triangles.
+    max_bytes: 1 << 28,
     begins: is_mesh,
 };
 
@@ -65,43 +72,15 @@ pub(super) fn settle(mesh_of: &BTreeMap<u32, MeshId>, scene: &mut Scene) {
 
 /// The mesh in a file, if there is a sound one.
 fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<ParsedMesh> {
-    let file = read(found, wish, porter)?;
-    match parse(porter.map.bytes(file), porter.map.budget()) {
-        Ok(Parsed { mesh, not_drawn }) => {
-            if let Some((first, count)) = not_drawn {
-                let message = format!("{} show: {}", count_of(count), first.message);
-                let finding =
-                    Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
-                porter
-                    .sink
-                    .push(finding.also(wish.span, "the file is named here"));
-            }
-            return Some(mesh);
-        }
-        Err(Unread::Limit(fault)) => {
-            let what = format!("the mesh `{}`", found.shown.display());
-            porter.refuse(
-                over_limit(&what, &fault).at(wish.span, "named here"),
-                Without::Object,
-            );
-        }
-        // Lenient, the object is left out once.
-        Err(Unread::Faults(faults)) => {
-            let told = if porter.options.lenient {
-                1
-            } else {
-                MAX_FAULTS
-            };
-            for fault in faults.into_iter().take(told) {
-                let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
-                let finding = finding
-                    .at(fault.span(file), fault.label)
-                    .also(wish.span, "the file is named here");
-                porter.refuse(finding, Without::Object);
-            }
-        }
+    let (file, Parsed { mesh, not_drawn }) = porter.read_text(found, wish, &TEXT, parse)?;
+    if let Some((first, count)) = not_drawn {
+        let message = format!("{} show: {}", count_of(count), first.message);
+        let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
+        porter
+            .sink
+            .push(finding.also(wish.span, "the file is named here"));
     }
-    None
+    Some(mesh)
 }
 
 fn count_of(count: usize) -> String {
@@ -109,28 +88,5 @@ fn count_of(count: usize) -> String {
         "an element of this file does not".to_owned()
     } else {
         format!("{count} elements of this file don't")
-    }
-}
-
-fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<FileId> {
-    match porter.loader.found(found, MAX_BYTES, porter.map) {
-        Ok(bytes) if is_mesh(&bytes) => Some(porter.map.add_found(found, bytes)),
-        // A finding within would quote a file that is none of the scene's business.
-        Ok(bytes) => {
-            let name = found.shown.display();
-            let message = match bytes.is_empty() {
-                true => format!("the mesh file `{name}` is empty"),
-                false => format!("`{name}` is neither OBJ nor OFF"),
-            };
-            porter.refuse(
-                Diagnostic::new(&codes::BAD_MESH_FILE, message).at(wish.span, "named here"),
-                Without::Object,
-            );
-            None
-        }
-        Err(error) => {
-            porter.unreadable(found, &error.to_string(), wish.span, Without::Object);
-            None
-        }
     }
 }

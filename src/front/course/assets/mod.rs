@@ -7,6 +7,7 @@ mod environment;
 mod gltf;
 mod image;
 mod mesh;
+mod text;
 
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::front::FrontOptions;

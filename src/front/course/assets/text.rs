@@ -1,0 +1,80 @@
+//! Text files that a scene names: each fault has its place in the file.
+
+use super::{Porter, Wanted, Without};
+use crate::diag::{Code, Diagnostic};
+use crate::front::over_limit;
+use crate::front::words::Unread;
+use crate::source::{Budget, FileId, Found};
+
+/// A kind of text file.
+pub(super) struct TextKind {
+    /// What it holds.
+    pub(super) noun: &'static str,
+    /// What is said of a file of another kind.
+    pub(super) is_not: &'static str,
+    /// The code of its faults.
+    pub(super) code: &'static Code,
+    /// What a lenient run does without the file.
+    pub(super) without: Without,
+    /// The largest file read, in bytes.
+    pub(super) max_bytes: u64,
+    /// Whether a file that begins so is of this kind.
+    pub(super) begins: fn(&[u8]) -> bool,
+}
+
+impl Porter<'_> {
+    /// What is in a text file, and the file in the source map; `None` is reported.
+    pub(super) fn read_text<T>(
+        &mut self,
+        found: &Found,
+        wish: &Wanted,
+        kind: &TextKind,
+        parse: fn(&[u8], &Budget) -> Result<T, Unread>,
+    ) -> Option<(FileId, T)> {
+        let file = self.open_text(found, wish, kind)?;
+        match parse(self.map.bytes(file), self.map.budget()) {
+            Ok(parsed) => return Some((file, parsed)),
+            Err(Unread::Limit(fault)) => {
+                let what = format!("the {} `{}`", kind.noun, found.shown.display());
+                let finding = over_limit(&what, &fault).at(wish.span, "named here");
+                self.refuse(finding, kind.without);
+            }
+            Err(Unread::Faults(faults)) => {
+                // Lenient, what the file is for is left out once.
+                let told = if self.options.lenient {
+                    1
+                } else {
+                    faults.len()
+                };
+                for fault in faults.into_iter().take(told) {
+                    let finding = Diagnostic::new(kind.code, fault.message.as_str())
+                        .at(fault.span(file), fault.label)
+                        .also(wish.span, "the file is named here");
+                    self.refuse(finding, kind.without);
+                }
+            }
+        }
+        None
+    }
+
+    fn open_text(&mut self, found: &Found, wish: &Wanted, kind: &TextKind) -> Option<FileId> {
+        match self.loader.found(found, kind.max_bytes, self.map) {
+            Ok(bytes) if (kind.begins)(&bytes) => Some(self.map.add_found(found, bytes)),
+            // A finding within would quote a file that is none of the scene's business.
+            Ok(bytes) => {
+                let name = found.shown.display();
+                let message = match bytes.is_empty() {
+                    true => format!("the {} file `{name}` is empty", kind.noun),
+                    false => format!("`{name}` is {}", kind.is_not),
+                };
+                let finding = Diagnostic::new(kind.code, message).at(wish.span, "named here");
+                self.refuse(finding, kind.without);
+                None
+            }
+            Err(error) => {
+                self.unreadable(found, &error.to_string(), wish.span, kind.without);
+                None
+            }
+        }
+    }
+}
