@@ -68,24 +68,19 @@ pub(super) fn check(
     false
 }
 
-/// What each form that has all that is given has besides, in words.
+/// What each form that has all that is given and lacks the least has besides, in words.
 fn missing(record: &Record, given: &[&str]) -> Vec<String> {
     let has_all = |form: &&&[&str]| given.iter().all(|name| form.contains(name));
-    let possible: Vec<_> = record.forms.iter().filter(has_all).collect();
-    // A form with more keys than another is not worth recommending; with nothing given, the first
-    // one is.
-    let within = |small: &[&str], large: &[&str]| {
-        small.len() < large.len() && small.iter().all(|name| large.contains(name))
+    let possible = record.forms.iter().filter(has_all);
+    // With nothing given the first form is worth recommending.
+    let least = match given {
+        [] => record.forms.first().map(|form| form.len()),
+        _ => possible.clone().map(|form| form.len()).min(),
     };
-    let smallest = possible
-        .iter()
-        .filter(|form| !possible.iter().any(|other| within(other, form)));
-    let missing = smallest.map(|form| {
-        let missing: Vec<_> = form
-            .iter()
-            .copied()
-            .filter(|name| !given.contains(name))
-            .collect();
+    let nearest = possible.filter(|form| Some(form.len()) == least);
+    let missing = nearest.map(|form| {
+        let lacks = |name: &&str| !given.contains(name);
+        let missing: Vec<_> = form.iter().copied().filter(lacks).collect();
         keys(record, &missing)
     });
     missing
