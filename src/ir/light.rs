@@ -1,7 +1,7 @@
 //! The lights.
 
 use crate::math::{Vec3, unit};
-use crate::profile::Profile;
+use crate::profile::{MeasuredAngles, Profile};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,8 +33,9 @@ impl Light {
 pub struct Punctual {
     /// How and from where it shines.
     pub emitter: Emitter,
-    /// Linear Rec. 709: of a sun the irradiance on a surface that faces it, of the others the
-    /// radiant intensity (power per steradian); each channel at least 0.
+    /// Linear Rec. 709: of a sun the irradiance on a surface that faces it, of a measured lamp a
+    /// factor of its intensity, of the others the radiant intensity (power per steradian); each
+    /// channel at least 0.
     #[schemars(inner(range(min = 0.0)))]
     pub intensity: [f64; 3],
 }
@@ -73,6 +74,46 @@ pub enum Emitter {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         range: Option<f64>,
     },
+    /// From a point, as measured: the intensity is a factor of the candelas.
+    Lamp {
+        /// Where it stands.
+        position: [f64; 3],
+        /// Its axis, where the vertical angle is 0; of any length but 0.
+        direction: [f64; 3],
+        /// The direction of the horizontal angle 0; only its part across the axis counts.
+        horizontal: [f64; 3],
+        /// What was measured.
+        photometry: Box<Photometry>,
+    },
+}
+
+/// The intensity of a lamp, measured around its axis (type C of LM-63-2002), in between linear in
+/// both angles.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Arbitrary)]
+#[serde(rename_all = "camelCase", deny_unknown_fields)]
+pub struct Photometry {
+    /// The name of its file.
+    pub name: String,
+    /// Angles from the axis in degrees, ascending within 0 to 180; beyond them it is dark.
+    pub vertical: Vec<f64>,
+    /// Angles about the axis in degrees, ascending from 0 to 360; or 0 alone, for a lamp that is the
+    /// same all around. Against the axis they are seen to run counterclockwise.
+    pub horizontal: Vec<f64>,
+    /// The intensity at all vertical angles of each horizontal one, at least 0.
+    pub candela: Vec<f64>,
+}
+
+impl Photometry {
+    /// That of a lamp without light.
+    #[must_use]
+    pub fn dark(name: String) -> Self {
+        Self {
+            name,
+            vertical: vec![0.0, 180.0],
+            horizontal: vec![0.0],
+            candela: vec![0.0; 2],
+        }
+    }
 }
 
 /// How an emitter is written in a scene of the course.
@@ -95,7 +136,9 @@ impl Emitter {
     pub fn position(&self) -> Option<[f64; 3]> {
         match self {
             Self::Sun { .. } => None,
-            Self::Point { position, .. } | Self::Spot { position, .. } => Some(*position),
+            Self::Point { position, .. }
+            | Self::Spot { position, .. }
+            | Self::Lamp { position, .. } => Some(*position),
         }
     }
 
@@ -104,7 +147,9 @@ impl Emitter {
     pub fn direction(&self) -> Option<[f64; 3]> {
         match self {
             Self::Point { .. } => None,
-            Self::Sun { direction } | Self::Spot { direction, .. } => Some(*direction),
+            Self::Sun { direction }
+            | Self::Spot { direction, .. }
+            | Self::Lamp { direction, .. } => Some(*direction),
         }
     }
 
@@ -112,7 +157,7 @@ impl Emitter {
     #[must_use]
     pub fn range(&self) -> Option<f64> {
         match self {
-            Self::Sun { .. } => None,
+            Self::Sun { .. } | Self::Lamp { .. } => None,
             Self::Point { range, .. } | Self::Spot { range, .. } => *range,
         }
     }
@@ -130,6 +175,24 @@ impl Emitter {
                 outer_angle,
                 ..
             } => Profile::cone(axis(*direction)?, *inner_angle, *outer_angle),
+            Self::Lamp {
+                position: _,
+                direction,
+                horizontal,
+                photometry,
+            } => {
+                let angles = MeasuredAngles {
+                    vertical: photometry.vertical.clone(),
+                    horizontal: photometry.horizontal.clone(),
+                };
+                let horizontal = Vec3::from_array(*horizontal);
+                Profile::measured(
+                    axis(*direction)?,
+                    horizontal,
+                    angles,
+                    photometry.candela.clone(),
+                )
+            }
         }
     }
 
@@ -157,6 +220,16 @@ impl Emitter {
                 *direction = turn(*direction);
                 *range = range.map(|range| range * scale);
             }
+            Self::Lamp {
+                position,
+                direction,
+                horizontal,
+                photometry: _,
+            } => {
+                *position = place(*position);
+                *direction = turn(*direction);
+                *horizontal = turn(*horizontal);
+            }
         }
     }
 
@@ -169,6 +242,21 @@ impl Emitter {
                 triples: vec![("direction", *direction)],
                 file: None,
                 intensity: "irradiance",
+            }),
+            Self::Lamp {
+                position,
+                direction,
+                horizontal,
+                photometry,
+            } => Some(Spelling {
+                kind: "ies",
+                triples: vec![
+                    ("position", *position),
+                    ("direction", *direction),
+                    ("horizontal", *horizontal),
+                ],
+                file: Some(&photometry.name),
+                intensity: "color",
             }),
             Self::Point { .. } | Self::Spot { .. } => None,
         }

@@ -24,7 +24,7 @@ pub use bounds::Ball;
 pub use camera::{Camera, Lens, Projection};
 pub use environment::Environment;
 pub use image::{Image, ImageId, Pixels};
-pub use light::{Emitter, Light, PointLight, Punctual, Spelling};
+pub use light::{Emitter, Light, Photometry, PointLight, Punctual, Spelling};
 pub use material::{Bump, Material, MaterialId, Phong};
 pub use mesh::{Mesh, MeshId};
 pub use origin::{Field, Noun, Origins, Place};

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use rtc::ir::{
     Alpha, Bump, Camera, Column, Emitter, Environment, Filter, Gooch, Image, ImageId, Instance,
     Lens, Light, Map, Material, MaterialId, Mesh, MeshId, Mode, PathSettings, Pattern, Phong,
-    Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape, Sphere,
-    Standard, Surface, Texture, TextureId, Triangle, Wrap,
+    Photometry, Pixels, Plane, PointLight, Projection, Punctual, Sampled, Scene, Settings, Shape,
+    Sphere, Standard, Surface, Texture, TextureId, Triangle, Wrap,
 };
 
 fn number() -> impl Strategy<Value = f64> {
@@ -192,6 +192,24 @@ fn light() -> impl Strategy<Value = Light> {
             }
         ),
     ];
+    let list = || prop::collection::vec(number(), 0..4);
+    let photometry = (list(), list(), list()).prop_map(|(vertical, horizontal, candela)| {
+        Box::new(Photometry {
+            name: "lamp.ies".to_owned(),
+            vertical,
+            horizontal,
+            candela,
+        })
+    });
+    let lamp = (triple(), triple(), triple(), photometry).prop_map(
+        |(position, direction, horizontal, photometry)| Emitter::Lamp {
+            position,
+            direction,
+            horizontal,
+            photometry,
+        },
+    );
+    let emitter = prop_oneof![emitter, lamp];
     let punctual = (emitter, triple())
         .prop_map(|(emitter, intensity)| Light::Punctual(Punctual { emitter, intensity }));
     prop_oneof![point, punctual]

@@ -32,4 +32,8 @@ super::codes! { RE:
     NORMALS_AS_BUMP = "RE008", Note, "a bump map holds normals and is used as a normal map",
         "A bump map is grey, its brightness the height of the surface. This one is coloured as normal maps are: blue \
          along the normal, red and green across. It is used as one; `normalMap` says so from the start.";
+    BAD_PHOTOMETRY = "RE009", Error, "the profile of a lamp is faulty",
+        "Profiles are LM-63 files (`.ies`) of type C with `TILT=NONE`: after that line stand the counts of angles, the \
+         angles in ascending order, and the candelas, none of them negative. The label is at the first place that can't \
+         be. With `--lenient` the light is dark, with a warning.";
 }

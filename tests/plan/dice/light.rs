@@ -1,7 +1,7 @@
 //! Made-up emitters.
 
 use super::Dice;
-use rtc::ir::Emitter;
+use rtc::ir::{Emitter, Photometry};
 
 impl Dice {
     /// An emitter of any kind.
@@ -11,9 +11,15 @@ impl Dice {
         direction: [f64; 3],
         range: Option<f64>,
     ) -> Emitter {
-        match self.roll(3) {
+        match self.roll(4) {
             0 => Emitter::Sun { direction },
             1 => Emitter::Point { position, range },
+            2 => Emitter::Lamp {
+                position,
+                direction,
+                horizontal: self.pick(&[[1.0, 0.25, 0.125], [-2.0, 1.0, 0.5]]),
+                photometry: Box::new(self.photometry()),
+            },
             _ => Emitter::Spot {
                 position,
                 direction,
@@ -23,6 +29,20 @@ impl Dice {
             },
         }
     }
+    /// A profile that is dark, the same all around, or neither.
+    fn photometry(&mut self) -> Photometry {
+        let vertical = self.pick(&[&[0.0, 20.0, 45.0][..], &[0.0, 90.0], &[90.0, 120.0, 180.0]]);
+        let horizontal = self.pick(&[&[0.0][..], &[0.0, 30.0, 180.0, 360.0]]);
+        let candela = self.pick(&[&[0.0][..], &[1.0], &[2.0, 0.5, 0.0, 1.0]]);
+        let count = vertical.len() * horizontal.len();
+        Photometry {
+            name: "lamp.ies".to_owned(),
+            vertical: vertical.to_vec(),
+            horizontal: horizontal.to_vec(),
+            candela: candela.iter().copied().cycle().take(count).collect(),
+        }
+    }
+
     /// An emitter above the origin that shines down, more or less.
     pub(in super::super) fn emitter_above(&mut self) -> Emitter {
         let position = [self.number(1), self.number(1), self.pick(&[1.0, 1.5, 3.0])];

@@ -136,6 +136,23 @@ OFF = b"""OFF
 3 0 3 5
 """
 
+
+def washer():
+    """A lamp on a ceiling that lights a wall on the side of its horizontal angle 0, and a little of the floor."""
+    vertical, horizontal = range(0, 91, 10), range(0, 181, 45)
+    rows = []
+    for around in horizontal:
+        side = (1 + math.cos(math.radians(around))) / 2
+        lobe = [max(0, math.cos(math.radians(3 * (angle - 50)))) for angle in vertical]
+        rows.append([120 * side**2 * (l if abs(a - 50) < 30 else 0) + 12 * math.cos(math.radians(a))
+                     for a, l in zip(vertical, lobe)])
+    lines = ["IESNA:LM-63-2002", "[TEST] made up by tests/render/make", "[MANUFAC] none", "TILT=NONE",
+             f"1 1000 1 {len(vertical)} {len(horizontal)} 1 2 0 0 0", "1 1 10",
+             " ".join(map(str, vertical)), " ".join(map(str, horizontal))]
+    lines += [" ".join(f"{round(value, 1) + 0.0:.1f}" for value in row) for row in rows]
+    return "\r\n".join(lines).encode() + b"\r\n"
+
+
 FILES = {
     "letters.png": (lambda: png(16, 16, letters), ["texture", "material", "aov"]),
     "checker.png": (lambda: png(32, 32, checker), ["camera"]),
@@ -143,5 +160,6 @@ FILES = {
     "pyramids.png": (lambda: png(64, 32, pyramids), ["texture", "mode"]),
     "sky.hdr": (lambda: hdr(32, 16, sky), ["light", "alpha", "layer"]),
     "ball.obj": (obj, ["shape", "texture"]),
+    "washer.ies": (washer, ["light"]),
     "octahedron.off": (lambda: OFF, ["shape"]),
 }

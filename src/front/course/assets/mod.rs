@@ -7,6 +7,7 @@ mod environment;
 mod gltf;
 mod image;
 mod mesh;
+mod photometry;
 mod text;
 
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
@@ -38,6 +39,8 @@ pub enum Asset {
     Environment(ImageId),
     /// A glTF asset, placed by a transform as of an instance: nothing until its file is there.
     Gltf([[f64; 3]; 4]),
+    /// The profile of the lamp of this index, dark until its file is there.
+    Photometry(usize),
 }
 
 impl Asset {
@@ -46,7 +49,7 @@ impl Asset {
         match self {
             Self::Image(id) | Self::Environment(id) => Some((Noun::Image, id.0)),
             Self::Mesh(id) => Some((Noun::Mesh, id.0)),
-            Self::Gltf(_) => None,
+            Self::Gltf(_) | Self::Photometry(_) => None,
         }
         .map(|(noun, index)| Place::new(noun, index as usize, Field::Whole))
     }
@@ -77,7 +80,7 @@ pub fn bring(
         sink,
     };
     let (mut images, mut meshes) = (Known::default(), Known::default());
-    let mut assets = gltf::Assets::default();
+    let (mut assets, mut profiles) = (gltf::Assets::default(), Known::default());
     // Which image and which mesh came of each that was wanted.
     let (mut image_of, mut mesh_of) = (BTreeMap::new(), BTreeMap::new());
     for wish in wanted {
@@ -96,6 +99,9 @@ pub fn bring(
             }
             Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
             Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
+            Asset::Photometry(light) => {
+                photometry::bring(light, &wish, lowered, &mut profiles, &mut porter);
+            }
         }
     }
     image::settle(&image_of, &mut lowered.scene);
@@ -140,6 +146,7 @@ struct Porter<'run> {
 enum Without {
     Color,
     Environment,
+    Light,
     Object,
 }
 
@@ -148,6 +155,7 @@ impl Without {
         match self {
             Self::Color => "the texture is left out",
             Self::Environment => "the environment is left out",
+            Self::Light => "the light is dark",
             Self::Object => "the object is left out",
         }
     }
@@ -158,7 +166,7 @@ impl Porter<'_> {
     fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
         let extensions: &[&str] = match without {
             Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
-            Without::Object | Without::Color | Without::Environment => &[""],
+            Without::Object | Without::Color | Without::Environment | Without::Light => &[""],
         };
         let mut first_fault = None;
         for extension in extensions {
@@ -219,6 +227,7 @@ fn kind_of(asset: &Asset) -> &'static FileKind {
         Asset::Mesh(_) => &mesh::KIND,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,
+        Asset::Photometry(_) => &photometry::KIND,
     }
 }
 
