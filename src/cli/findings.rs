@@ -17,6 +17,16 @@ pub(super) fn nothing_in_view(proven: &Proven) -> Diagnostic {
         .hint("check where the camera stands and looks, and where the objects are")
 }
 
+/// Remarks that a picture is shown brighter or darker than its values, in stops.
+pub(super) fn exposed(stops: f64) -> Diagnostic {
+    let message =
+        format!("the picture is exposed by {stops:+.2} stops, to show what its lights light");
+    let hint = format!(
+        "`--exposure {stops:.4}` says the same, `--exposure 0` shows the values as they are"
+    );
+    Diagnostic::new(&codes::EXPOSED, message).hint(hint)
+}
+
 /// Warns of what the arithmetic chosen loses; none of the robust one.
 pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
     let loss = plan::loss(&proven.scene, arithmetic)?;

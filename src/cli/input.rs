@@ -4,8 +4,8 @@ use super::Failure;
 use super::args::{self, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::pixels;
-use crate::ir::{Lowered, Scene};
+use crate::front::{gltf, pixels};
+use crate::ir::{Light, Lowered, Scene};
 use crate::passes::{EnvironmentOverride, Stage, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
@@ -154,6 +154,17 @@ impl Input {
         change(&mut lowered);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })
+    }
+
+    /// Whether the input is a glTF asset with lights of its own, in the scene made of it.
+    pub(super) fn is_lit_asset(&self, scene: &Scene) -> bool {
+        let (Some(file), Some(stage)) = (self.file, &self.stage) else {
+            return false;
+        };
+        let own = scene.lights.len().saturating_sub(stage.suns.len());
+        let own = if stage.without_lights { 0 } else { own };
+        gltf::recognise(self.map.name(file), self.map.bytes(file))
+            && scene.lights[..own].iter().any(Light::shines)
     }
 
     /// Tells what was found since the last time, and whether the input is fit for use.

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::args::{self, BitDepth};
+use super::parse::Exposure;
 use crate::color::Tone;
 use crate::image::{self, Association, BackgroundFill, Image, Lost, Origin, Picture};
 use crate::render::{Aov, Background, Values};
@@ -12,6 +13,9 @@ use std::path::Path;
 pub(super) struct OutputLook {
     kind: OutputFormat,
     tone: Option<Tone>,
+    /// The exposure asked for.
+    asked: Option<Exposure>,
+    /// The exposure in stops; 0 until an automatic one is found.
     stops: f64,
     background: BackgroundFill,
     /// The layers wanted, each once.
@@ -35,6 +39,11 @@ impl OutputLook {
                 "`--tonemap` is for PNG; an EXR holds linear values".to_owned(),
             ));
         }
+        if kind == OutputFormat::Exr && args.exposure == Some(Exposure::Auto) {
+            return Err(Failure::Trouble(
+                "`--exposure auto` is for PNG; an EXR holds linear values".to_owned(),
+            ));
+        }
         let mut aovs: Vec<Aov> = Vec::new();
         for aov in args.aov.iter().map(|layer| Aov::from(*layer)) {
             if !aovs.contains(&aov) {
@@ -49,10 +58,40 @@ impl OutputLook {
         Ok(Self {
             kind,
             tone,
-            stops: args.exposure,
+            asked: args.exposure,
+            stops: match args.exposure {
+                Some(Exposure::Stops(stops)) => stops,
+                Some(Exposure::Auto) | None => 0.0,
+            },
             background: args.background,
             aovs,
         })
+    }
+
+    /// Whether the exposure is to be found: if it is asked for, or for the PNG of an asset with
+    /// lights of its own.
+    pub(super) fn finds_exposure(&self, is_lit_asset: bool) -> bool {
+        match self.asked {
+            Some(Exposure::Auto) => true,
+            Some(Exposure::Stops(_)) => false,
+            None => is_lit_asset && self.kind != OutputFormat::Exr,
+        }
+    }
+
+    /// Sets the exposure that was found, in stops.
+    pub(super) fn expose(&mut self, stops: f64) {
+        self.stops = stops;
+    }
+
+    /// The exposure in stops, if it was found and changes the picture; never that of an EXR.
+    pub(super) fn found_exposure(&self) -> Option<f64> {
+        let is_asked = matches!(self.asked, Some(Exposure::Stops(_)));
+        (!is_asked && self.stops != 0.0).then_some(self.stops)
+    }
+
+    /// What values are multiplied by before they are shown.
+    pub(super) fn exposure(&self) -> f64 {
+        image::exposure(self.stops)
     }
 
     /// Which values a film of this mode must hold.
@@ -142,9 +181,13 @@ impl OutputLook {
             OutputFormat::Png16 => image::FileFormat::Png16,
             OutputFormat::Exr => image::FileFormat::Exr(origin()),
         };
-        picture
+        let bytes = picture
             .encode(&form)
-            .map_err(|error| Failure::Trouble(error.to_string()))
+            .map_err(|error| Failure::Trouble(error.to_string()))?;
+        Ok(match self.found_exposure() {
+            Some(stops) => image::commented(&bytes, &format!("exposure {stops:.4} stops")),
+            None => bytes,
+        })
     }
 }
 

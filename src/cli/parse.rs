@@ -154,12 +154,26 @@ pub(super) fn setting(text: &str) -> Result<(String, String), String> {
     pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
 }
 
-pub(super) fn stops(text: &str) -> Result<f64, String> {
+/// An exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Exposure {
+    /// By what is seen.
+    Auto,
+    /// In stops.
+    Stops(f64),
+}
+
+pub(super) fn exposure(text: &str) -> Result<Exposure, String> {
+    if text == "auto" {
+        return Ok(Exposure::Auto);
+    }
     let stops = text
         .parse()
         .ok()
         .filter(|stops| (-64.0..=64.0).contains(stops));
-    stops.ok_or_else(|| "expected -64 to 64 stops".to_owned())
+    stops
+        .map(Exposure::Stops)
+        .ok_or_else(|| "expected `auto` or -64 to 64 stops".to_owned())
 }
 
 pub(super) fn background(text: &str) -> Result<BackgroundFill, String> {
@@ -240,7 +254,7 @@ mod tests {
             seconds,
             &["0", "-1", "nan", "inf", "1e300", "x"]
         ));
-        assert!(are_refused(stops, &["65", "-65", "nan", "x"]));
+        assert!(are_refused(exposure, &["65", "-65", "nan", "x", "Auto"]));
         assert!(are_refused(degrees, &["0", "180", "-5", "nan", "x"]));
     }
 

@@ -5,6 +5,12 @@ mod tone;
 
 pub use tone::Tone;
 
+/// The luminance of a linear colour (Rec. 709-6, section 3).
+#[must_use]
+pub fn luminance([r, g, b]: [f64; 3]) -> f64 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 /// ⌊255·v⌋ with `v` clamped to [0, 1]; NaN is 0.
 #[must_use]
 #[expect(

@@ -37,6 +37,12 @@ pub struct Look {
     pub background: BackgroundFill,
 }
 
+/// What values are multiplied by at an exposure in stops, at most 2^±64.
+#[must_use]
+pub fn exposure(stops: f64) -> f64 {
+    libm::exp2(stops.clamp(-64.0, 64.0))
+}
+
 impl Look {
     /// The picture of a film, with the coverage of its pixels.
     #[must_use]
@@ -46,7 +52,7 @@ impl Look {
         coverage: Vec<f32>,
         association: Association,
     ) -> Picture {
-        let exposure = libm::exp2(self.stops.clamp(-64.0, 64.0));
+        let exposure = exposure(self.stops);
         for (pixel, alpha) in film.pixels.iter_mut().zip(&coverage) {
             let alpha = f64::from(*alpha);
             let weight = if self.background == BackgroundFill::Film {

@@ -11,7 +11,8 @@ mod range;
 mod texels;
 
 pub use decode::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, is_picture};
-pub use look::{Association, BackgroundFill, Look};
+pub use look::{Association, BackgroundFill, Look, exposure};
+pub use png::commented;
 pub use radiance::{Radiance, RadianceFile, is_radiance};
 pub use range::Lost;
 pub use texels::{Texel, Texels};

@@ -1,5 +1,5 @@
 //! PNG of 8 and 16 bits per channel: red, green, blue, and opacity where there is one. It carries
-//! no colour profile, no gamma and no time.
+//! no colour profile, no gamma and no time; a comment if there is one to make.
 
 use super::{EncodeError, Picture};
 use crate::color;
@@ -58,6 +58,18 @@ fn encode(
     Ok(bytes)
 }
 
+/// A PNG with a comment, in Latin-1 without control characters (PNG, third edition, section 11.3.3.2).
+#[must_use]
+pub fn commented(png: &[u8], comment: &str) -> Vec<u8> {
+    /// The signature, and the header: length, type, 13 bytes, checksum.
+    const HEAD: usize = 8 + 4 + 4 + 13 + 4;
+    let body = [b"tEXtComment\0", comment.as_bytes()].concat();
+    let length = u32::try_from(body.len() - 4).unwrap_or_default();
+    let (head, rest) = png.split_at(HEAD);
+    let checksum = crc32fast::hash(&body).to_be_bytes();
+    [head, &length.to_be_bytes(), &body, &checksum, rest].concat()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{FileFormat, Image};
@@ -72,6 +84,26 @@ mod tests {
             height: 5,
             pixels,
         })
+    }
+
+    #[test]
+    fn a_comment_is_read_and_changes_no_pixel() {
+        let plain = ramp().encode(&FileFormat::Png8).unwrap();
+        let commented = commented(&plain, "exposure -3.3333 stops");
+        let read = |bytes: &[u8]| {
+            let mut reader = ::png::Decoder::new(std::io::Cursor::new(bytes.to_vec()))
+                .read_info()
+                .unwrap();
+            let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+            reader.next_frame(&mut pixels).unwrap();
+            let texts = reader.info().uncompressed_latin1_text.clone();
+            let texts = texts.into_iter().map(|text| (text.keyword, text.text));
+            (pixels, texts.collect::<Vec<_>>())
+        };
+        let ((before, none), (after, texts)) = (read(&plain), read(&commented));
+        assert_eq!((before, none.len()), (after, 0));
+        let comment = ("Comment".to_owned(), "exposure -3.3333 stops".to_owned());
+        assert_eq!(texts, [comment]);
     }
 
     #[test]

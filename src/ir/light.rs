@@ -17,6 +17,16 @@ pub enum Light {
 }
 
 impl Light {
+    /// Whether it has any intensity.
+    #[must_use]
+    pub fn shines(&self) -> bool {
+        let intensity = match self {
+            Self::Point(light) => light.color,
+            Self::Punctual(light) => light.intensity,
+        };
+        intensity.iter().any(|channel| *channel > 0.0)
+    }
+
     /// The light, if it is one of the course.
     #[must_use]
     pub fn point(&self) -> Option<&PointLight> {

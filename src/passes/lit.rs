@@ -18,11 +18,7 @@ const FAINT: f64 = 0.05;
 /// lamps on a dashboard or eyes: they light nothing, and the studio is wanted. Unlit materials
 /// light nothing at all.
 pub(super) fn is_lit(scene: &Scene) -> bool {
-    let shines = |light: &Light| match light {
-        Light::Point(light) => light.color.iter().any(|channel| *channel > 0.0),
-        Light::Punctual(light) => light.intensity.iter().any(|channel| *channel > 0.0),
-    };
-    scene.environment.is_some() || scene.lights.iter().any(shines) || glow(scene) >= FAINT
+    scene.environment.is_some() || scene.lights.iter().any(Light::shines) || glow(scene) >= FAINT
 }
 
 /// What the surfaces that glow would make a white surface show, by the strongest channel.

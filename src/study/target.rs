@@ -38,6 +38,8 @@ pub struct Order {
     pub background: Background,
     /// What the picture holds; errors are those of display values in any case.
     pub values: Values,
+    /// What values are multiplied by before they are shown, where paths are traced.
+    pub exposure: f64,
     /// Whether soft lights keep their number of points. Otherwise it is chosen.
     pub keep_lights: bool,
     /// Where sampling starts: another seed gives independent noise.
@@ -136,7 +138,7 @@ fn in_rounds(
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
     spread(world, scene, light_samples);
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
-    film.background = order.background;
+    (film.background, film.exposure) = (order.background, order.exposure);
     (watch.round)(Progress {
         pixels: film.len() as u64,
         error: None,

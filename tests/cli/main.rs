@@ -9,6 +9,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
+mod exposure;
 mod looks;
 mod numbers;
 #[cfg(unix)]

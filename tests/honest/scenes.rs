@@ -142,6 +142,7 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
         height,
     };
     Order {
+        exposure: 1.0,
         goal,
         crop,
         background: Background::Environment,

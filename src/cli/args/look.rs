@@ -1,7 +1,7 @@
 //! What `rtc render` is told of the look of a picture: how bright, by which tone map, before what,
 //! with which layers.
 
-use super::super::parse::{background, stops};
+use super::super::parse::{Exposure, background, exposure};
 use crate::color::Tone;
 use crate::image::BackgroundFill;
 use crate::render::Aov;
@@ -13,9 +13,10 @@ pub(in crate::cli) struct LookArgs {
     /// traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
     pub(in crate::cli) tonemap: Option<Tonemap>,
-    /// Exposure in stops, of EXR too: each doubles the values
-    #[arg(long, value_name = "STOPS", default_value = "0", value_parser = stops, allow_negative_numbers = true)]
-    pub(in crate::cli) exposure: f64,
+    /// Exposure in stops, of EXR too: each doubles the values; or `auto`, by what is seen
+    /// [default: auto for the PNG of a glTF asset with lights of its own, else 0]
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    pub(in crate::cli) exposure: Option<Exposure>,
     /// What is behind all surfaces: `env`, the surroundings of the scene; `transparent`; or a
     /// colour R,G,B in the values that the file is to hold. Light stays as it is
     #[arg(long, value_name = "WHAT", default_value = "env", value_parser = background)]

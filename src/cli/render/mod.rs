@@ -12,7 +12,7 @@ use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
 use crate::image::{Layers, Lost, Origin};
-use crate::ir::Scene;
+use crate::ir::{Camera, Scene};
 use crate::passes::{self, Overrides};
 use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
@@ -46,7 +46,7 @@ struct Subject {
 
 /// Renders the scene and writes the picture.
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
-    let plan = RenderSetup::new(args)?;
+    let mut plan = RenderSetup::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
     let outcome = plan.carry_out(
         &mut Input::staged(&args.file, &args.reading, &args.stage)?,
@@ -96,9 +96,10 @@ impl RenderSetup {
         })
     }
 
-    fn carry_out(&self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let mut set = Ok(());
+    fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
+        let (mut set, mut camera) = (Ok(()), None);
         let proven = input::require(input, talk, |lowered| {
+            camera = Some(lowered.scene.camera.clone());
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| {
                 passes::set(&mut lowered.scene.settings, name, value)
@@ -115,6 +116,14 @@ impl RenderSetup {
             proven,
             renderer: None,
         };
+        if let Some(camera) = camera
+            && self
+                .look
+                .finds_exposure(input.is_lit_asset(&subject.proven.lowered.scene))
+        {
+            self.expose(&mut subject, &camera, input, &interrupt)?;
+            input.tell(talk)?;
+        }
         let Some(count) = self.turntable else {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
         };
@@ -134,6 +143,25 @@ impl RenderSetup {
                 talk,
                 &interrupt,
             )?;
+        }
+        Ok(())
+    }
+
+    /// Finds the exposure of all pictures by the first view, whatever the size of the picture.
+    fn expose(
+        &mut self,
+        subject: &mut Subject,
+        camera: &Camera,
+        input: &mut Input,
+        interrupt: &Interrupt,
+    ) -> Result<(), Failure> {
+        let (proven, renderer) = self.renderer(subject).map_err(no_threads)?;
+        let on_pixel = |_| !interrupt.is_raised();
+        let stops = renderer.exposure(&proven.lowered.scene, camera, &on_pixel);
+        let stops = stops.ok_or(Failure::Interrupted)?;
+        self.look.expose(stops);
+        if stops != 0.0 {
+            input.push(findings::exposed(stops));
         }
         Ok(())
     }
@@ -171,7 +199,7 @@ impl RenderSetup {
             input.push(findings::nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
-        let summary = shot.summary(path, verbose);
+        let summary = shot.summary(path, self.look.found_exposure(), verbose);
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
         let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);

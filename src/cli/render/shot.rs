@@ -25,8 +25,8 @@ pub(super) struct Rendered {
 }
 
 impl Rendered {
-    /// What is said of it; if `verbose`, with how often each effect was simulated.
-    pub(super) fn summary(&self, path: &Path, verbose: bool) -> String {
+    /// What is said of it, with the exposure that was found for it; if `verbose`, with how often each effect was simulated.
+    pub(super) fn summary(&self, path: &Path, exposure: Option<f64>, verbose: bool) -> String {
         let Self {
             image,
             counts,
@@ -35,8 +35,11 @@ impl Rendered {
             coverage: _,
         } = self;
         let work = progress::summary(counts.rays(), *elapsed);
+        let exposed = exposure.map_or_else(String::new, |stops| {
+            format!("exposed by {stops:+.2} stops, ")
+        });
         let line = format!(
-            "{}: {}×{}, {work}",
+            "{}: {}×{}, {exposed}{work}",
             path.display(),
             image.width,
             image.height
@@ -121,6 +124,7 @@ impl RenderSetup {
             crop: window,
             background: self.look.background(),
             values: self.look.values(&subject.proven.scene.settings().mode),
+            exposure: self.look.exposure(),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
         };

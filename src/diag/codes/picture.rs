@@ -30,4 +30,10 @@ super::codes! { RD:
          picture takes more than `--limit rays`, 2^32 unless another limit is set, and the key that makes them so many. \
          With `--verify-effects` each of the two renders has that limit; with `--time-budget` rounds of samples end \
          there, and it is found only if not even the first is done. `rtc cost` and `--allow-huge` have none.";
+    EXPOSED = "RD007", Note, "the picture is shown brighter or darker than its values",
+        "The lights of a glTF asset are in lux and candela: a sun has 100 000 lux, a white page in it a radiance of 30 000, \
+         and 1 is white. So the PNG of an asset with lights of its own is exposed as a camera would: by whole thirds of a \
+         stop, so that what is lit is a middle grey in the mean and hardly anything of it is clipped. The exposure is found \
+         from 64 × 64 pixels of the whole view; it does not depend on the size, the part or the samples of the picture, and \
+         is one for all pictures of a turntable. `--exposure` sets it. An EXR holds the values as they are.";
 }

@@ -14,8 +14,9 @@ use crate::math::Vec3;
 /// The samples of a pixel so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Replicates {
-    /// The tone map of the mean; `None` where each sample is clamped to [0, 1].
-    tone: Option<Tone>,
+    /// The tone map of the mean, and what the mean is multiplied by before; `None` where each sample
+    /// is clamped to [0, 1].
+    tone: Option<(Tone, f64)>,
     /// Per replicate, the sum of its samples, clamped if `tone` is `None`. Replicates 0 and 1 are
     /// the first half.
     sums: [Vec3; 4],
@@ -29,12 +30,14 @@ pub struct Replicates {
     hits: [u64; 2],
 }
 
-/// A part of a growing picture, with 192 bytes per pixel.
+/// A part of a growing picture, with 200 bytes per pixel.
 #[derive(Clone, Debug)]
 pub struct ProgressiveFilm {
     seed: u64,
     /// The background, where paths are traced.
     pub background: Background,
+    /// What values are multiplied by before they are shown, where paths are traced.
+    pub exposure: f64,
     pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
@@ -48,6 +51,7 @@ impl ProgressiveFilm {
         Self {
             seed,
             background: Background::default(),
+            exposure: 1.0,
             pixels: Tiled::new(crop, Replicates::default()),
             counts: Counts::default(),
         }
@@ -189,7 +193,7 @@ impl Replicates {
     }
 
     /// The same samples, shown by `tone`.
-    pub(in crate::render) fn toned(self, tone: Option<Tone>) -> Self {
+    pub(in crate::render) fn toned(self, tone: Option<(Tone, f64)>) -> Self {
         Self { tone, ..self }
     }
 }
@@ -219,13 +223,13 @@ impl Accumulator for Replicates {
     }
 }
 
-fn shown(tone: Tone, mean: Vec3) -> Vec3 {
-    Vec3::from_array(tone.display(mean.to_array()))
+fn shown((tone, exposure): (Tone, f64), mean: Vec3) -> Vec3 {
+    Vec3::from_array(tone.display((mean * exposure).to_array()))
 }
 
 /// The square of the slope of the tone map near a mean grey, over an interval of the given
 /// deviation.
-fn slope(tone: Tone, mean: f64, deviation: f64) -> f64 {
+fn slope(tone: (Tone, f64), mean: f64, deviation: f64) -> f64 {
     if deviation == 0.0 {
         return 0.0;
     }

@@ -41,7 +41,8 @@ impl<S: Geometry> World<S> {
     ) -> bool {
         let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
         let tracer = || PathTracer::<S, F>::new(self, &lights, Strategy::Mis, on_pixel);
-        add_samples(film, wanted, Some(DISPLAY), || tracer().before(background))
+        let tone = (DISPLAY, film.exposure);
+        add_samples(film, wanted, Some(tone), || tracer().before(background))
     }
 
     /// Grows with the features `F`.
@@ -62,7 +63,7 @@ impl<S: Geometry> World<S> {
 fn add_samples<'run, I: Integrator<'run, Sample = Sample>>(
     film: &mut ProgressiveFilm,
     wanted: &Wanted<'_>,
-    tone: Option<Tone>,
+    tone: Option<(Tone, f64)>,
     worker: impl Fn() -> I + Sync + Send,
 ) -> bool {
     let seed = film.seed();

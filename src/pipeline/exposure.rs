@@ -1,0 +1,151 @@
+//! Automatic exposure: how bright a scene is shown whose lights are in lux and candela.
+//!
+//! It is found by a small render of the whole view, always of the same size and samples, so that it
+//! does not depend on those of the picture, nor on the part of it that is rendered.
+
+use super::{Options, Renderer, prove};
+use crate::color::luminance;
+use crate::diag::Sink;
+use crate::ir::{Camera, Lowered, Mode, Origins, Scene};
+use crate::math::{exp, ln};
+use crate::render::{Background, Film, Job, OnPixel, Values};
+use crate::source::Limits;
+use crate::valid::{Proof, ProofOptions};
+
+/// The small render: its sides in pixels, and the paths of each.
+const SIDE: u32 = 64;
+const PATHS: u32 = 16;
+/// What is lit is shown as a grey card in the mean of the logarithms of its luminance.
+const GREY: f64 = 0.18;
+/// So much of what is lit is at most white in all channels.
+const UNCLIPPED: f64 = 0.95;
+/// Pixels darker than this part of the bright ones count as if they were as bright.
+const DARK: f64 = 1e-3;
+
+impl Renderer {
+    /// The exposure of a proven scene as seen by a camera, in whole thirds of a stop; 0 of one
+    /// whose surfaces are dark. The scene is that of the renderer, but for its camera and settings.
+    /// `None` if `on_pixel` said stop.
+    pub fn exposure(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        on_pixel: &OnPixel<'_>,
+    ) -> Option<f64> {
+        let own = self.world.scene().clone();
+        self.change(small(scene, camera));
+        let job = Job {
+            values: Values::Linear,
+            background: Background::Nothing,
+            ..Job::default()
+        };
+        let film = self.render(&job, on_pixel);
+        self.change(own);
+        film.as_ref().map(stops)
+    }
+}
+
+/// The scene as the small render shows it.
+fn small(scene: &Scene, camera: &Camera) -> Proof {
+    let mut scene = scene.clone();
+    let [width, height] = camera.size.map(|side| f64::from(side) / f64::from(SIDE));
+    scene.camera = Camera {
+        right: camera.right.map(|step| step * width),
+        up: camera.up.map(|step| step * height),
+        size: [SIDE; 2],
+        ..camera.clone()
+    };
+    if let Mode::Path(path) = &mut scene.settings.mode {
+        path.samples = PATHS;
+    }
+    let lowered = Lowered {
+        scene,
+        origins: Origins::default(),
+    };
+    let options = Options {
+        valid: ProofOptions {
+            limits: Limits::NONE,
+        },
+        ..Options::default()
+    };
+    prove(&lowered, &options, &mut Sink::default())
+        .expect("the scene was proven before, and another size of its picture is in range")
+}
+
+/// The exposure at which the surfaces of a film are neither too dark nor too bright.
+fn stops(film: &Film) -> f64 {
+    // What covers a pixel in part is as bright as if it covered it whole.
+    let pixels = film.image.pixels.iter().zip(&film.coverage);
+    let shown = pixels.map(|(pixel, covered)| pixel.map(|value| value / f64::from(*covered)));
+    let is_lit = |pixel: &[f64; 3]| luminance(*pixel) > 0.0 && luminance(*pixel).is_finite();
+    let lit: Vec<[f64; 3]> = shown.filter(is_lit).collect();
+    let mut brightest: Vec<f64> = lit.iter().map(|[r, g, b]| r.max(*g).max(*b)).collect();
+    brightest.sort_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "an index within the list"
+    )]
+    let index = (UNCLIPPED * brightest.len() as f64) as usize;
+    let Some(bright) = brightest.get(index) else {
+        return 0.0;
+    };
+    // The geometric mean of the luminance.
+    let logarithms = lit
+        .iter()
+        .map(|pixel| ln(luminance(*pixel).max(DARK * bright)));
+    let mean = exp(logarithms.sum::<f64>() / lit.len() as f64);
+    let factor = (GREY / mean).min(1.0 / bright);
+    let stops = ln(factor) / std::f64::consts::LN_2;
+    (3.0 * stops).round() / 3.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::Image;
+    use crate::render::Counts;
+
+    fn exposed(pixels: Vec<[f64; 3]>, coverage: Vec<f32>) -> f64 {
+        let image = Image {
+            width: u32::try_from(pixels.len()).expect("few pixels"),
+            height: 1,
+            pixels,
+        };
+        stops(&Film {
+            image,
+            coverage,
+            counts: Counts::default(),
+        })
+    }
+
+    #[test]
+    fn an_even_grey_is_shown_as_a_grey_card() {
+        let third = |stops: f64| (3.0 * stops).round() / 3.0;
+        for radiance in [1e-6, 0.18, 3.0, 54_000.0] {
+            let expected = third(-ln(radiance / GREY) / std::f64::consts::LN_2);
+            let found = exposed(vec![[radiance; 3]; 40], vec![1.0; 40]);
+            assert!((found - expected).abs() < 1e-9, "{radiance}: {found}");
+            // Half covered, and beside a background that is no surface.
+            let mut half = vec![[radiance / 2.0; 3]; 40];
+            half.extend([[0.0; 3]; 60]);
+            let coverage = [vec![0.5; 40], vec![0.0; 60]].concat();
+            assert!((exposed(half, coverage) - expected).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn bright_surfaces_are_kept_below_white() {
+        // A tenth of the picture is 64 times as bright as a grey card.
+        let mut pixels = vec![[GREY; 3]; 90];
+        pixels.extend([[64.0 * GREY, 0.0, 0.0]; 10]);
+        let found = exposed(pixels, vec![1.0; 100]);
+        assert!(64.0 * GREY * libm::exp2(found) <= 1.0 + 0.13, "{found}");
+    }
+
+    #[test]
+    fn what_is_dark_is_left_as_it_is() {
+        assert_eq!(exposed(vec![[0.0; 3]; 9], vec![1.0; 9]), 0.0);
+        assert_eq!(exposed(vec![], vec![]), 0.0);
+    }
+}
