@@ -51,7 +51,7 @@ fn main() {
         setup::load_set_up(path, samples)
     } else {
         let mut lowered = setup::load(path);
-        pipeline::stage(&mut lowered, &Stage::default(), &mut Sink::default());
+        pipeline::stage(&mut lowered, &Stage::default(), true, &mut Sink::default());
         lowered
     };
     resize(&mut lowered.scene, SIDES[0], samples);

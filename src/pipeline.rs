@@ -13,7 +13,7 @@ use crate::front::{course, gltf};
 use crate::image::Layers;
 use crate::ir::{Lowered, Origins, Scene};
 use crate::math::BasisFault;
-use crate::passes::Stage;
+use crate::passes::{Framing, Stage, Staged};
 use crate::plan::Plan;
 use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
 use crate::source::{FileId, SourceMap};
@@ -91,18 +91,26 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
     }
 }
 
-/// Puts view and light into a scene that was read, and what has no light into the studio.
-pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
-    let mismatch = match stage.apply(lowered) {
-        Ok(false) => return,
-        Ok(true) => {
-            let note = Diagnostic::new(
-                &codes::STUDIO,
-                "the scene has no light, so it stands in the studio",
-            );
-            return sink.push(note.hint(
-                "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness",
-            ));
+/// Puts view and light into a scene that was read, which has a camera of its own or not, and what has
+/// no light into the studio. Returns how its view was found, if it was.
+pub fn stage(
+    lowered: &mut Lowered,
+    stage: &Stage,
+    has_camera: bool,
+    sink: &mut Sink,
+) -> Option<Framing> {
+    let mismatch = match stage.apply(lowered, has_camera) {
+        Ok(Staged { is_dark, framing }) => {
+            if is_dark {
+                let note = Diagnostic::new(
+                    &codes::STUDIO,
+                    "the scene has no light, so it stands in the studio",
+                );
+                sink.push(note.hint(
+                    "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness",
+                ));
+            }
+            return framing;
         }
         Err(BasisFault::ZeroGaze) => (
             &codes::EYE_IS_CENTER,
@@ -118,6 +126,7 @@ pub fn stage(lowered: &mut Lowered, stage: &Stage, sink: &mut Sink) {
         ),
     };
     sink.push(Diagnostic::new(mismatch.0, mismatch.1));
+    None
 }
 
 /// Proves a scene. `None` if it or what was read before has errors; the sink says which.

@@ -11,7 +11,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut worst = Ok(());
     for path in &args.files {
         let mut input = Input::read(path, &args.reading);
-        input.prove(|_| ());
+        input.prove(|_, _| ());
         match input.tell(&mut talk) {
             Err(gone @ Failure::ClosedPipe) => return Err(gone),
             Err(Failure::Findings) if worst.is_err() => {}

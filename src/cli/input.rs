@@ -5,8 +5,8 @@ use super::args::{self, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::{gltf, pixels};
-use crate::ir::{Light, Lowered, Scene};
-use crate::passes::{EnvironmentOverride, Stage, View};
+use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
+use crate::passes::{EnvironmentOverride, Framing, Stage, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
 use crate::valid::Proof;
@@ -28,6 +28,8 @@ pub(super) struct Input {
     options: Options,
     /// Its view and light; none for a scene that is not to be shown.
     stage: Option<Stage>,
+    /// It will be seen from all around.
+    pub(super) all_around: bool,
 }
 
 /// A scene that was proven, and that from which it was.
@@ -36,6 +38,16 @@ pub(super) struct Proven {
     pub(super) lowered: Lowered,
     /// The proof.
     pub(super) scene: Proof,
+}
+
+/// What kind of scene was read.
+pub(super) struct Kind {
+    /// It is a glTF asset.
+    pub(super) is_asset: bool,
+    /// It is one with lights of its own, and they are not left out.
+    pub(super) is_lit_asset: bool,
+    /// How its view was found, if it has none of its own.
+    pub(super) framing: Option<Framing>,
 }
 
 impl Input {
@@ -89,6 +101,7 @@ impl Input {
             file,
             options,
             stage: None,
+            all_around: false,
         }
     }
 
@@ -104,6 +117,7 @@ impl Input {
             center,
             up,
             yfov,
+            orbit,
             env,
             env_color,
             sun,
@@ -121,6 +135,7 @@ impl Input {
                 center: *center,
                 up: *up,
                 yfov: *yfov,
+                orbit: *orbit,
             },
             integrator: integrator.map(Into::into),
             environment: picture,
@@ -146,25 +161,31 @@ impl Input {
     }
 
     /// Lowers the scene, sets the stage, lets `change` change it, and proves it.
-    pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered)) -> Option<Proven> {
+    pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered, &Kind)) -> Option<Proven> {
         let mut lowered = pipeline::load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
+        let mut kind = Kind {
+            is_asset: self.is_asset(),
+            is_lit_asset: self.is_asset() && lowered.scene.lights.iter().any(Light::shines),
+            framing: None,
+        };
         if let Some(stage) = &self.stage {
-            pipeline::stage(&mut lowered, stage, &mut self.sink);
+            // An asset without a camera is seen by one that we choose.
+            let camera = lowered
+                .origins
+                .span(Place::new(Noun::Camera, 0, Field::Whole));
+            let has_camera = self.all_around || !kind.is_asset || camera.is_some();
+            kind.is_lit_asset &= !stage.without_lights;
+            kind.framing = pipeline::stage(&mut lowered, stage, has_camera, &mut self.sink);
         }
-        change(&mut lowered);
+        change(&mut lowered, &kind);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })
     }
 
-    /// Whether the input is a glTF asset with lights of its own, in the scene made of it.
-    pub(super) fn is_lit_asset(&self, scene: &Scene) -> bool {
-        let (Some(file), Some(stage)) = (self.file, &self.stage) else {
-            return false;
-        };
-        let own = scene.lights.len().saturating_sub(stage.suns.len());
-        let own = if stage.without_lights { 0 } else { own };
-        gltf::recognise(self.map.name(file), self.map.bytes(file))
-            && scene.lights[..own].iter().any(Light::shines)
+    /// Whether the input is a glTF asset by itself.
+    fn is_asset(&self) -> bool {
+        let recognise = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
+        self.file.is_some_and(recognise)
     }
 
     /// Tells what was found since the last time, and whether the input is fit for use.
@@ -217,7 +238,7 @@ impl Input {
 pub(super) fn require(
     input: &mut Input,
     talk: &mut Talk,
-    change: impl FnOnce(&mut Lowered),
+    change: impl FnOnce(&mut Lowered, &Kind),
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;

@@ -1,7 +1,7 @@
 //! Values of arguments: the words people type to the values they mean, or what was expected.
 
 use crate::image::BackgroundFill;
-use crate::passes::Sun;
+use crate::passes::{Orbit, Sun};
 use crate::plan::Rule;
 use crate::render::Crop;
 use crate::source::Resource;
@@ -152,6 +152,24 @@ pub(super) fn setting(text: &str) -> Result<(String, String), String> {
         .split_once('=')
         .map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()));
     pair.ok_or_else(|| "expected a name and a value, as multipleScattering=false".to_owned())
+}
+
+/// The angles of an orbit in degrees.
+pub(super) fn orbit(text: &str) -> Result<Orbit, String> {
+    let angles = numbers(text).unwrap_or_default();
+    let (azimuth, elevation, roll) = match angles[..] {
+        [azimuth, elevation] => (azimuth, elevation, 0.0),
+        [azimuth, elevation, roll] => (azimuth, elevation, roll),
+        _ => return Err("expected two or three angles in degrees, as 30,20".to_owned()),
+    };
+    if !(-90.0..=90.0).contains(&elevation) {
+        return Err("the elevation is -90 to 90 degrees".to_owned());
+    }
+    Ok(Orbit {
+        azimuth: azimuth.to_radians(),
+        elevation: elevation.to_radians(),
+        roll: roll.to_radians(),
+    })
 }
 
 /// An exposure.

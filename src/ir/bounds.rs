@@ -1,7 +1,7 @@
 //! Where a scene is: a ball around all of it that has an end. Its middle is what cameras without a
 //! target look at.
 
-use super::{Column, Scene};
+use super::{Column, Scene, Shape};
 use crate::math::Vec3;
 
 /// A ball.
@@ -18,18 +18,10 @@ impl Scene {
     /// there is nothing that has an end, and an extent.
     #[must_use]
     pub fn ball(&self) -> Option<Ball> {
-        let boxes: Vec<[Vec3; 2]> = self
-            .meshes
-            .iter()
-            .map(|mesh| around(&mesh.positions))
-            .collect();
+        let boxes = self.mesh_boxes();
         let each = |visit: &mut dyn FnMut(Vec3)| {
             for surface in &self.surfaces {
-                let bounded = surface.shape.bounded();
-                bounded.cubes(&boxes, &mut |center, half| {
-                    let corners = box_corners([center - half, center + half]);
-                    corners.into_iter().for_each(&mut *visit);
-                });
+                surface.shape.corners_around(&boxes, visit);
             }
         };
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -42,6 +34,26 @@ impl Scene {
             radius: square.sqrt(),
         };
         (center.is_finite() && ball.radius.is_finite() && ball.radius > 0.0).then_some(ball)
+    }
+}
+
+impl Scene {
+    /// The boxes around the meshes, each by its least and greatest corner.
+    #[must_use]
+    pub fn mesh_boxes(&self) -> Vec<[Vec3; 2]> {
+        let meshes = self.meshes.iter();
+        meshes.map(|mesh| around(&mesh.positions)).collect()
+    }
+}
+
+impl Shape {
+    /// Visits the corners of boxes around the shape; none if it has no end. `meshes` are the boxes
+    /// around the meshes of the scene.
+    pub fn corners_around(&self, meshes: &[[Vec3; 2]], visit: &mut dyn FnMut(Vec3)) {
+        self.bounded().cubes(meshes, &mut |center, half| {
+            let corners = box_corners([center - half, center + half]);
+            corners.into_iter().for_each(&mut *visit);
+        });
     }
 }
 

@@ -1,9 +1,10 @@
 //! The camera: an eye, an image plane, and a lens.
 
-use crate::math::{Vec3, cos, length, sin, unit, unit_scale};
+use crate::math::{Vec3, atan2, cos, length, sin, unit, unit_scale};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// A camera with any frustum, sheared ones included.
 ///
@@ -92,6 +93,24 @@ impl Camera {
         (center - eye)
             .dot(unit(right.cross(up)).unwrap_or(Vec3::ZERO))
             .abs()
+    }
+
+    /// The angle from bottom to top, in radians, above 0 and below π; none where rays run side by
+    /// side.
+    #[must_use]
+    pub fn yfov(&self) -> Option<f64> {
+        let half = length(Vec3::from_array(self.up)) * f64::from(self.size[1]) / 2.0;
+        let angle = 2.0 * atan2(half, self.distance());
+        (self.projection == Projection::Perspective && angle > 0.0 && angle < PI).then_some(angle)
+    }
+
+    /// Gives the picture another size in pixels. It shows at least what it showed before: where its
+    /// shape is another one there is more at two sides.
+    pub fn fit(&mut self, size: [u32; 2]) {
+        let ratio = |side: usize| f64::from(self.size[side]) / f64::from(size[side]);
+        let ratio = ratio(0).max(ratio(1));
+        let scaled = |step: [f64; 3]| step.map(|component| component * ratio);
+        (self.right, self.up, self.size) = (scaled(self.right), scaled(self.up), size);
     }
 
     /// Opens to an angle from bottom to top, in radians, in its place.

@@ -1,12 +1,14 @@
 //! Passes: a scene in, the same scene changed out, before it is proven. What one run asks for that
 //! the scene does not say itself: other settings, another view, other light, the studio.
 
+mod framing;
 mod lit;
 mod overrides;
 mod settings;
 mod stage;
 mod studio;
 
+pub use framing::{Framing, Orbit};
 pub use overrides::Overrides;
 pub use settings::set;
-pub use stage::{EnvironmentOverride, IntegratorChoice, Stage, Sun, View};
+pub use stage::{EnvironmentOverride, IntegratorChoice, Stage, Staged, Sun, View};

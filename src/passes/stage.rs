@@ -1,10 +1,11 @@
 //! What is said about view and light on one occasion: it replaces the camera, the lights and the
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
+use super::framing::{Framing, Orbit};
 use super::{lit, studio};
 use crate::ir::{
-    Ball, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings, PointLight,
-    Projection, Punctual, Scene,
+    Ball, Camera, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings,
+    PointLight, Projection, Punctual, Scene,
 };
 use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, unit};
 use std::f64::consts::PI;
@@ -35,6 +36,8 @@ pub struct View {
     pub up: Option<[f64; 3]>,
     /// The angle that the picture spans from bottom to top, in radians, above 0 and below π.
     pub yfov: Option<f64>,
+    /// From where all of the scene is seen, as large as it fits.
+    pub orbit: Option<Orbit>,
 }
 
 /// By which rules light is followed.
@@ -64,17 +67,30 @@ pub struct Sun {
     pub irradiance: [f64; 3],
 }
 
+/// What became of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Staged {
+    /// It had no light, and was put into the studio.
+    pub is_dark: bool,
+    /// How its view was found, if it was.
+    pub framing: Option<Framing>,
+}
+
 /// Distance of a sun, in scene radii, for integrators that need a position.
 const FAR: f64 = 1e4;
 
 impl Stage {
-    /// Puts view and light into a scene. True if it had no light, and was put into the studio.
+    /// Puts view and light into a scene, which has a camera of its own or not.
     ///
     /// # Errors
     /// If the view has no direction, or no upward one.
-    pub fn apply(&self, lowered: &mut Lowered) -> Result<bool, BasisFault> {
+    pub fn apply(&self, lowered: &mut Lowered, has_camera: bool) -> Result<Staged, BasisFault> {
         let Lowered { scene, origins } = lowered;
-        if self.view != View::default() {
+        let framing = self.view.framing(&scene.camera, has_camera);
+        if let Some(framing) = &framing {
+            framing.apply(scene);
+            origins.forget(Noun::Camera);
+        } else if self.view != View::default() {
             self.view.apply(scene)?;
             origins.forget(Noun::Camera);
         }
@@ -102,11 +118,25 @@ impl Stage {
         if is_dark {
             studio::enter(scene);
         }
-        Ok(is_dark)
+        Ok(Staged { is_dark, framing })
     }
 }
 
 impl View {
+    /// How a view is found: of a scene without a camera, or from where one is asked for.
+    fn framing(&self, camera: &Camera, has_camera: bool) -> Option<Framing> {
+        let is_placed = self.eye.is_some() || self.center.is_some() || self.up.is_some();
+        if is_placed || (has_camera && self.orbit.is_none()) {
+            return None;
+        }
+        let own = has_camera.then(|| camera.yfov()).flatten();
+        Some(Framing {
+            orbit: self.orbit.unwrap_or_default(),
+            yfov: self.yfov.or(own),
+            size: Some(camera.size),
+        })
+    }
+
     fn apply(&self, scene: &mut Scene) -> Result<(), BasisFault> {
         if self.eye.is_some() || self.center.is_some() || self.up.is_some() {
             self.aim(scene)?;

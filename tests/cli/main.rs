@@ -10,6 +10,7 @@
     reason = "a test stops at the first surprise, and makes the files it needs"
 )]
 mod exposure;
+mod framing;
 mod looks;
 mod numbers;
 #[cfg(unix)]

@@ -130,14 +130,17 @@ fn a_camera_is_found_by_its_name_that_of_its_node_and_its_index() {
 #[test]
 fn a_sun_asked_for_is_the_light_of_an_asset() {
     let folder = folder();
-    let show = |words: &str| picture(folder.path(), &format!("{words} --size 8x8 --spp 4"));
+    let show = |words: &str| {
+        let few = format!("{words} --size 8x8 --spp 4 --exposure 0");
+        picture(folder.path(), &few)
+    };
     let sunny = show("sunny.gltf");
     assert_eq!(show("square.gltf --sun 0,0,3,2"), sunny);
     assert_eq!(
         show("sunny.gltf --no-scene-lights --sun 0,0,1,2,2,2"),
         sunny
     );
-    let one = values(folder.path(), "sunny.gltf --spp 4");
+    let one = values(folder.path(), "sunny.gltf --spp 4 --exposure 0");
     let two = values(
         folder.path(),
         "square.gltf --sun 0,0,1,0.5 --sun 0,0,1,1.5 --spp 4",
@@ -277,7 +280,7 @@ fn an_asset_that_a_scene_holds_looks_as_it_does_alone() {
         fs::write(folder.path().join("held.yaml"), holding(eye, center, rest)).unwrap();
         picture(folder.path(), "held.yaml --spp 4")
     };
-    let view = "--eye 0,0,3 --center 0,0,0 --yfov 30 --size 24x16 --spp 4";
+    let view = "--eye 0,0,3 --center 0,0,0 --yfov 30 --size 24x16 --spp 4 --exposure 0";
     let alone = |words: &str| picture(folder.path(), &format!("{words} {view}"));
     let square = "Objects:\n- {type: gltf, file: square.gltf}\n";
     let sun = "Lights:\n- {type: sun, direction: [0, 0, 1], irradiance: 2}\n";

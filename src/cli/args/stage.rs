@@ -1,6 +1,6 @@
 //! What every command that shows a scene is told of view and light.
 
-use super::super::parse::{color, degrees, sun, vector};
+use super::super::parse::{color, degrees, orbit, sun, vector};
 use crate::passes;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -21,6 +21,11 @@ pub(in crate::cli) struct StageArgs {
     /// The angle the picture spans from bottom to top, in degrees
     #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub(in crate::cli) yfov: Option<f64>,
+    /// All of the scene from an angle, in degrees: around from the front to the right, above the
+    /// horizon, and about the view [default of a glTF asset without a camera: 34,23]
+    #[arg(long, value_name = "AZIMUTH,ELEVATION[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
+        conflicts_with_all = ["eye", "center", "up"])]
+    pub(in crate::cli) orbit: Option<passes::Orbit>,
     /// A picture of the surroundings, .hdr or .exr: longitude across, its middle towards -z
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) env: Option<PathBuf>,

@@ -5,15 +5,15 @@ mod shot;
 use super::Failure;
 use super::args;
 use super::findings;
-use super::input::{self, Input, Proven};
+use super::input::{self, Input, Kind, Proven};
 use super::interrupt::Interrupt;
 use super::look::OutputLook;
 use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
 use crate::image::{Layers, Lost, Origin};
-use crate::ir::{Camera, Scene};
-use crate::passes::{self, Overrides};
+use crate::ir::{Camera, Mode, Scene};
+use crate::passes::{self, Framing, Overrides};
 use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
 use crate::render::Crop;
@@ -48,10 +48,9 @@ struct Subject {
 pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let mut plan = RenderSetup::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = plan.carry_out(
-        &mut Input::staged(&args.file, &args.reading, &args.stage)?,
-        &mut talk,
-    );
+    let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
+    input.all_around = args.turntable.is_some();
+    let outcome = plan.carry_out(&mut input, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -97,9 +96,11 @@ impl RenderSetup {
     }
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let (mut set, mut camera) = (Ok(()), None);
-        let proven = input::require(input, talk, |lowered| {
-            camera = Some(lowered.scene.camera.clone());
+        let (mut set, mut first) = (Ok(()), None);
+        let proven = input::require(input, talk, |lowered, kind| {
+            let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
+            first = Some((lowered.scene.camera.clone(), kind.is_lit_asset && is_traced));
+            resize(&mut lowered.scene, self.overrides.size, kind);
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| {
                 passes::set(&mut lowered.scene.settings, name, value)
@@ -116,10 +117,8 @@ impl RenderSetup {
             proven,
             renderer: None,
         };
-        if let Some(camera) = camera
-            && self
-                .look
-                .finds_exposure(input.is_lit_asset(&subject.proven.lowered.scene))
+        if let Some((camera, is_lit_asset)) = first
+            && self.look.finds_exposure(is_lit_asset)
         {
             self.expose(&mut subject, &camera, input, &interrupt)?;
             input.tell(talk)?;
@@ -341,6 +340,16 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
         None => all,
         Some([]) => Rules::NONE,
         Some(named) => named.iter().fold(all, |rules, rule| rules.without(*rule)),
+    }
+}
+
+/// Gives the view of an asset a picture of another size: it shows no less than before. Other scenes
+/// keep their height.
+fn resize(scene: &mut Scene, size: Option<[u32; 2]>, kind: &Kind) {
+    match (size, kind.framing) {
+        (Some(_), Some(framing)) => Framing { size, ..framing }.apply(scene),
+        (Some(size), None) if kind.is_asset => scene.camera.fit(size),
+        _ => {}
     }
 }
 

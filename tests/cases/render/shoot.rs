@@ -95,7 +95,7 @@ fn stage(
         suns: options.suns.clone(),
         without_lights: false,
     };
-    pipeline::stage(lowered, &stage, sink);
+    pipeline::stage(lowered, &stage, true, sink);
     Ok(())
 }
 

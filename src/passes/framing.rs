@@ -1,0 +1,285 @@
+//! Framing: a camera that shows all of a scene, as large as it fits.
+
+use crate::ir::{Alpha, Camera, Lens, Material, Mesh, Projection, Scene, Shape, Surface};
+use crate::math::{Vec3, acos, atan2, cos, sin};
+use glam::DAffine3;
+use std::f64::consts::FRAC_PI_2;
+
+/// So much of the picture the subject spans, in the direction in which it fills more of it.
+const SPAN: f64 = 0.85;
+/// The opening where the scene has no camera of its own, in degrees from bottom to top, and the
+/// sides of its picture.
+const OPENING: f64 = 35.0;
+const SIZE: [u32; 2] = [512; 2];
+/// A ground is thinner than this part of its width, and at least so many times as wide as what
+/// stands on it.
+const FLAT: f64 = 0.02;
+const WIDE: f64 = 2.0;
+/// Beyond so many triangles in all, each mesh counts as the box around it.
+const TRIANGLES: usize = 1 << 22;
+
+/// From where a scene is seen, in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    /// Around the upward axis: 0 is the front (+z), a quarter turn the right (+x).
+    pub azimuth: f64,
+    /// Above the horizon, −π/2 to π/2.
+    pub elevation: f64,
+    /// By how much the camera is turned about its view, clockwise as one looks through it.
+    pub roll: f64,
+}
+
+impl Default for Orbit {
+    /// A three-quarter view: 34° to the right of the front, 23° above.
+    fn default() -> Self {
+        let from = Vec3::new(2.0, 1.5, 3.0).normalize();
+        Self {
+            azimuth: atan2(from.x, from.z),
+            elevation: FRAC_PI_2 - acos(from.y),
+            roll: 0.0,
+        }
+    }
+}
+
+/// How all of a scene is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Framing {
+    /// From where.
+    pub orbit: Orbit,
+    /// The angle from bottom to top in radians, above 0 and below π; usual without.
+    pub yfov: Option<f64>,
+    /// Width and height of the picture in pixels; square without.
+    pub size: Option<[u32; 2]>,
+}
+
+impl Framing {
+    /// Puts a camera into a scene so that its subject, what is no ground under it, fills 85 % of
+    /// the picture in one direction, in the middle. A scene of planes alone, or of nothing, keeps
+    /// its camera.
+    pub fn apply(&self, scene: &mut Scene) {
+        let Some(ball) = scene.ball() else { return };
+        let axes = self.orbit.axes();
+        let size = self.size.unwrap_or(SIZE);
+        let half = self.yfov.unwrap_or(OPENING.to_radians()) / 2.0;
+        let tangent = sin(half) / cos(half);
+        let aspect = f64::from(size[0]) / f64::from(size[1]);
+        let tangents = [tangent * aspect, tangent];
+        let mut fit = Fit::new(axes, tangents.map(|tangent| tangent * SPAN));
+        Subject::of(scene).corners(&mut |corner| fit.add(corner - ball.center));
+        let Some((eye, depth)) = fit.eye() else {
+            return;
+        };
+        let [x, y, z] = axes;
+        // The picture stands in the middle of the depth of the subject.
+        let distance = eye.dot(z) - depth;
+        let step = |axis: Vec3, tangent: f64, count: u32| {
+            (axis * (2.0 * tangent * distance / f64::from(count))).to_array()
+        };
+        scene.camera = Camera {
+            eye: (ball.center + eye).to_array(),
+            center: (ball.center + eye - z * distance).to_array(),
+            right: step(x, tangents[0], size[0]),
+            up: step(y, tangents[1], size[1]),
+            size,
+            lens: Lens {
+                radius: 0.0,
+                samples: 1,
+            },
+            projection: Projection::Perspective,
+        };
+    }
+}
+
+impl Orbit {
+    /// The axes of the camera: to the right, up, and from the scene to the eye.
+    fn axes(&self) -> [Vec3; 3] {
+        let Self {
+            azimuth,
+            elevation,
+            roll,
+        } = *self;
+        let elevation = elevation.clamp(-FRAC_PI_2, FRAC_PI_2);
+        let ahead = Vec3::new(sin(azimuth), 0.0, cos(azimuth));
+        let z = ahead * cos(elevation) + Vec3::Y * sin(elevation);
+        let x = Vec3::new(cos(azimuth), 0.0, -sin(azimuth));
+        let y = z.cross(x);
+        // Turn the camera about its view.
+        let (sine, cosine) = (sin(roll), cos(roll));
+        [x * cosine - y * sine, y * cosine + x * sine, z]
+    }
+}
+
+/// The place of an eye from which all points lie within two angles to both sides.
+///
+/// A point at (a, b, c) along the axes is seen within the tangent t from (e, f, g) if
+/// |a − e| ≤ t·(g − c): four half spaces, of which the outermost ones decide.
+struct Fit {
+    axes: [Vec3; 3],
+    tangents: [f64; 2],
+    /// To each side of x and y the largest ±a + t·c.
+    bounds: [[f64; 2]; 2],
+    /// The least and the greatest c.
+    depth: [f64; 2],
+}
+
+impl Fit {
+    fn new(axes: [Vec3; 3], tangents: [f64; 2]) -> Self {
+        Self {
+            axes,
+            tangents,
+            bounds: [[f64::NEG_INFINITY; 2]; 2],
+            depth: [f64::INFINITY, f64::NEG_INFINITY],
+        }
+    }
+
+    fn add(&mut self, point: Vec3) {
+        let [x, y, z] = self.axes.map(|axis| axis.dot(point));
+        for ((bounds, along), tangent) in self.bounds.iter_mut().zip([x, y]).zip(self.tangents) {
+            bounds[0] = bounds[0].max(along + tangent * z);
+            bounds[1] = bounds[1].max(tangent * z - along);
+        }
+        self.depth = [self.depth[0].min(z), self.depth[1].max(z)];
+    }
+
+    /// The nearest such eye, from which the points are in the middle, and the middle of their depth
+    /// along the third axis; `None` without points, and for one alone.
+    fn eye(&self) -> Option<(Vec3, f64)> {
+        let far = |k: usize| (self.bounds[k][0] + self.bounds[k][1]) / (2.0 * self.tangents[k]);
+        let aside = |k: usize| (self.bounds[k][0] - self.bounds[k][1]) / 2.0;
+        let back = far(0).max(far(1));
+        let depth = self.depth[0] + (self.depth[1] - self.depth[0]) / 2.0;
+        let [x, y, z] = self.axes;
+        let eye = x * aside(0) + y * aside(1) + z * back;
+        (eye.is_finite() && back > depth).then_some((eye, depth))
+    }
+}
+
+/// What a picture is of.
+struct Subject<'scene> {
+    scene: &'scene Scene,
+    surfaces: Vec<&'scene Surface>,
+    /// The boxes around the meshes.
+    boxes: Vec<[Vec3; 2]>,
+    /// Whether each mesh counts as the box around it.
+    is_boxed: bool,
+}
+
+impl<'scene> Subject<'scene> {
+    /// All surfaces that show, but for those that others stand on.
+    fn of(scene: &'scene Scene) -> Self {
+        let shows = |surface: &&Surface| {
+            let material = scene.materials.get(surface.material.0 as usize);
+            !material.is_some_and(is_invisible)
+        };
+        let triangles =
+            |surface: &&Surface| mesh(scene, surface).map_or(0, |(mesh, _)| mesh.triangles.len());
+        let count = scene.surfaces.iter().map(|surface| triangles(&surface));
+        let mut subject = Self {
+            scene,
+            surfaces: scene.surfaces.iter().filter(shows).collect(),
+            boxes: scene.mesh_boxes(),
+            is_boxed: count.fold(0, usize::saturating_add) > TRIANGLES,
+        };
+        if subject.surfaces.is_empty() {
+            subject.surfaces = scene.surfaces.iter().collect();
+        }
+        subject.leave_ground();
+        subject
+    }
+
+    /// Leaves out the surfaces that others stand on.
+    fn leave_ground(&mut self) {
+        let boxes: Vec<_> = self
+            .surfaces
+            .iter()
+            .map(|surface| self.around(surface))
+            .collect();
+        let standing = boxes.iter().filter(|around| !is_flat(**around));
+        let rest = standing.fold(EMPTY, |[low, high], [from, to]| {
+            [low.min(*from), high.max(*to)]
+        });
+        let mut boxes = boxes.into_iter();
+        self.surfaces.retain(|_| {
+            !boxes
+                .next()
+                .is_some_and(|around| is_flat(around) && is_under(around, rest))
+        });
+    }
+
+    /// The box around a surface.
+    fn around(&self, surface: &Surface) -> [Vec3; 2] {
+        let mut around = EMPTY;
+        self.each_corner(surface, &mut |corner| {
+            around = [around[0].min(corner), around[1].max(corner)];
+        });
+        around
+    }
+
+    fn corners(&self, visit: &mut dyn FnMut(Vec3)) {
+        for surface in &self.surfaces {
+            self.each_corner(surface, visit);
+        }
+    }
+
+    /// Visits the corners of a surface; of one without any those of a box around it, of one without
+    /// an end none.
+    fn each_corner(&self, surface: &Surface, visit: &mut dyn FnMut(Vec3)) {
+        let Some((mesh, world)) = mesh(self.scene, surface).filter(|_| !self.is_boxed) else {
+            return surface.shape.corners_around(&self.boxes, visit);
+        };
+        let corners = mesh
+            .triangles
+            .iter()
+            .flatten()
+            .map(|corner| *corner as usize);
+        for corner in corners.filter(|corner| *corner < mesh.positions.len()) {
+            visit(world.transform_point3(Vec3::from_array(mesh.positions.at(corner))));
+        }
+    }
+}
+
+/// A box around nothing.
+const EMPTY: [Vec3; 2] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+
+/// The mesh of a surface and its place, if it is one.
+fn mesh<'scene>(scene: &'scene Scene, surface: &Surface) -> Option<(&'scene Mesh, DAffine3)> {
+    let Shape::Instance(instance) = &surface.shape else {
+        return None;
+    };
+    let mesh = scene.meshes.get(instance.mesh.0 as usize)?;
+    Some((
+        mesh,
+        DAffine3::from_cols_array_2d(&instance.world_from_object),
+    ))
+}
+
+/// Whether nothing shows of a material.
+fn is_invisible(material: &Material) -> bool {
+    let Material::Standard(standard) = material else {
+        return false;
+    };
+    match standard.alpha {
+        Alpha::Opaque => false,
+        Alpha::Blend => standard.base_color[3] == 0.0,
+        Alpha::Mask(cutoff) => standard.base_color[3] < cutoff,
+    }
+}
+
+/// Whether a box lies flat.
+fn is_flat([low, high]: [Vec3; 2]) -> bool {
+    let extent = high - low;
+    extent.y <= FLAT * extent.x.min(extent.z) && extent.x.min(extent.z) > 0.0
+}
+
+/// Whether a flat box is a ground under others: below their middle, and much wider.
+fn is_under([low, high]: [Vec3; 2], [from, to]: [Vec3; 2]) -> bool {
+    let (own, others) = (high - low, to - from);
+    let widest = others.x.max(others.z);
+    widest.is_finite()
+        && widest > 0.0
+        && own.x.min(own.z) >= WIDE * widest
+        && high.y <= (from.y + to.y) / 2.0
+}
+
+#[cfg(test)]
+mod tests;
