@@ -12,7 +12,7 @@ pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
     if !v.is_finite() || largest == 0.0 {
         return None;
     }
-    let exponent = libm::ilogb(largest);
+    let exponent = exponent_of(largest);
     let scaled = match power_of_two(-exponent) {
         Some(factor) => v * factor,
         None => Vec3::new(
@@ -44,6 +44,15 @@ pub fn length(v: Vec3) -> f64 {
         || v.length(),
         |(scaled, exponent)| ldexp(scaled.length(), exponent),
     )
+}
+
+/// The exponent of a positive number, as `ilogb` says, read off a normal one.
+#[inline]
+fn exponent_of(x: f64) -> i32 {
+    match i32::try_from(x.to_bits() >> 52) {
+        Ok(biased @ 1..2047) => biased - 1023,
+        _ => libm::ilogb(x),
+    }
 }
 
 /// 2^`exponent`, if it is a normal number.

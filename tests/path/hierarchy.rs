@@ -120,6 +120,12 @@ fn the_world_finds_what_its_surfaces_find() {
         if (t - 1.0).abs() > 1e-9 {
             assert_eq!(world.occluded(origin, target), t < 1.0, "{ray:?}");
         }
+        // A shadow ray that ends on the surface is not hidden by it.
+        if found.is_some() {
+            let end = |t: f64| origin + ray.direction * t;
+            assert!(!world.occluded(origin, end(t)), "{ray:?}");
+            assert!(world.occluded(origin, end(t * (1.0 + 1e-9))), "{ray:?}");
+        }
     }
     assert!(hits > 5000 && ties > 100, "{hits} {ties}");
 }

@@ -29,6 +29,8 @@ pub(in crate::render) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
     by_power: DiscreteDistribution,
+    /// The probability of choosing each light.
+    probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
     firsts: Vec<Option<usize>>,
 }
@@ -73,11 +75,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 let corners = (0..parts)
                     .filter_map(|prim_id| Some((prim_id, surface.shape.corners(prim_id)?)));
                 lights.extend(corners.map(|(prim_id, corners)| {
-                    Light::Triangle(TriangleLight {
-                        surface: index,
-                        prim_id,
-                        corners,
-                    })
+                    Light::Triangle(TriangleLight::new(index, prim_id, corners))
                 }));
             }
         }
@@ -86,6 +84,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             world,
             lights,
             by_power: DiscreteDistribution::new(std::iter::empty()),
+            probabilities: Vec::new(),
             firsts,
         };
         let disc = PI * all.radius_squared();
@@ -94,6 +93,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 .iter()
                 .map(|light| all.weight(light, disc, strategy)),
         );
+        let probability = |index| all.by_power.probability(index);
+        all.probabilities = (0..all.lights.len()).map(probability).collect();
         all
     }
 
@@ -156,8 +157,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         if emission.map.is_none() {
             return emission.factor;
         }
-        let [a, b, c] = triangle.corners;
-        let normal = (b - a).cross(c - a).normalize_or(Vec3::Z);
+        let normal = triangle.normal();
         let ray = Ray {
             origin: point,
             direction: normal,
@@ -190,7 +190,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
     ) -> Option<Incident> {
         // Choose a light by its power.
         let (index, _) = self.by_power.choose(u_light)?;
-        let probability = self.by_power.probability(index);
+        let probability = self.probabilities[index];
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,
             Light::Punctual(light, LightLeft::All) => light.sample(from, probability),
@@ -236,7 +236,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
         let index = first + prim_id as usize;
         match &self.lights[index] {
             Light::Triangle(triangle) => {
-                self.by_power.probability(index) * triangle.pdf(wi, distance_squared)
+                self.probabilities[index] * triangle.pdf(wi, distance_squared)
             }
             Light::Punctual(..) | Light::Environment => 0.0,
         }
@@ -247,7 +247,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
     pub(in crate::render) fn environment(&self, wi: Vec3) -> (Vec3, impl FnOnce() -> f64) {
         let environment = &self.world.lights.environment;
         let (radiance, place) = environment.seen(wi);
-        let probability = self.by_power.probability(self.lights.len() - 1);
+        let probability = self.probabilities[self.lights.len() - 1];
         (radiance, move || probability * environment.pdf(wi, place))
     }
 }

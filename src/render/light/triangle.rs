@@ -8,20 +8,36 @@ pub(in crate::render) struct TriangleLight {
     pub(super) surface: usize,
     pub(super) prim_id: u32,
     pub(super) corners: [Vec3; 3],
+    /// The cross product of two edges, 2·A·n.
+    cross: Vec3,
 }
 
 impl TriangleLight {
+    /// A triangle of a surface.
+    pub(super) fn new(surface: usize, prim_id: u32, corners: [Vec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self {
+            surface,
+            prim_id,
+            corners,
+            cross: (b - a).cross(c - a),
+        }
+    }
+
     pub(super) fn area(&self) -> f64 {
-        let [a, b, c] = self.corners;
-        0.5 * (b - a).cross(c - a).length()
+        0.5 * self.cross.length()
+    }
+
+    /// Its unit normal.
+    pub(super) fn normal(&self) -> Vec3 {
+        self.cross.normalize_or(Vec3::Z)
     }
 
     /// The density per solid angle of [`Self::point`], in the direction `wi` at a squared distance:
     /// `r²/(A·|cos θ|)`.
     pub(super) fn pdf(&self, wi: Vec3, distance_squared: f64) -> f64 {
-        let [a, b, c] = self.corners;
-        // Convert from area to solid angle: the cross product is 2·A·n.
-        let projected = 0.5 * (b - a).cross(c - a).dot(wi).abs();
+        // Convert from area to solid angle.
+        let projected = 0.5 * self.cross.dot(wi).abs();
         if projected > 0.0 {
             distance_squared / projected
         } else {

@@ -4,7 +4,7 @@ use super::kinds::{Plane, Sphere, Triangle};
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::tie;
 use crate::render::shape::triangle::Shear;
 

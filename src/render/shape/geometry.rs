@@ -77,15 +77,57 @@ pub trait Geometry: Sized + Send + Sync {
         0.0
     }
 
+    /// The ray as [`Geometry::intersect_prim`] wants it.
+    #[must_use]
+    #[inline]
+    fn local(&self, ray: &Ray) -> LocalRay {
+        LocalRay::new(*ray)
+    }
+
     /// The root above 0 of one triangle.
     #[must_use]
-    fn intersect_prim(&self, _ray: &Ray, _prim_id: u32) -> Option<f64> {
+    fn intersect_prim(&self, _ray: &LocalRay, _prim_id: u32) -> Option<f64> {
         None
+    }
+
+    /// As [`Geometry::intersect_prim`], of a root below `t_max` alone.
+    #[must_use]
+    #[inline]
+    fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+        self.intersect_prim(ray, prim_id).filter(|t| *t < t_max)
     }
 
     /// A box around it; `None` for unbounded shapes.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
+}
+
+/// A ray in the coordinates of a shape, and its shear.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalRay {
+    /// The ray; its `t` are those of the world.
+    pub ray: Ray,
+    /// Its shear.
+    pub shear: Shear,
+}
+
+impl LocalRay {
+    /// Of no ray.
+    pub(in crate::render) const UNKNOWN: Self = Self {
+        ray: Ray {
+            origin: Vec3::ZERO,
+            direction: Vec3::ZERO,
+        },
+        shear: Shear::NONE,
+    };
+
+    /// That of a ray in the coordinates of the shape.
+    #[must_use]
+    #[inline]
+    pub fn new(ray: Ray) -> Self {
+        let shear = Shear::new(&ray);
+        Self { ray, shear }
+    }
 }
 
 /// The requested [`Details`] beyond normal and colour; others may be omitted.

@@ -4,7 +4,7 @@
 use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::mesh::{PlainMesh, PreparedMesh};
 use crate::render::shape::plain::ray::PlainRay;
 use crate::render::shape::plain::real::{Real, Vector};
@@ -44,18 +44,16 @@ impl Instance {
         ];
         let (axes, mirrors) = ([x, y, z], volume < 0.0);
         let sizes = axes.map(|axis| axis.abs().element_sum()).into();
-        let (mesh, bounds) = (Arc::clone(mesh), Bounds::EMPTY);
         let mut instance = Self {
-            mesh,
+            mesh: Arc::clone(mesh),
             axes,
             origin,
             sizes,
             inverse,
             mirrors,
-            bounds,
+            bounds: Bounds::EMPTY,
             error_bound: 0.0,
         };
-        let mesh = Arc::clone(&instance.mesh);
         let corners = mesh
             .triangles()
             .iter()
@@ -91,7 +89,7 @@ impl Instance {
     }
 
     /// The ray in object space; its `t` are those of the world.
-    #[inline]
+    #[inline(always)]
     fn to_object(&self, ray: &Ray) -> Ray {
         let rows = |v: Vec3| {
             Vec3::new(
@@ -145,30 +143,32 @@ impl Instance {
 
 impl Geometry for Instance {
     fn intersect(&self, ray: &Ray, _: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        let ray = self.to_object(ray);
-        let shear = Shear::new(&ray);
+        let local = self.local(ray);
         let mut best = (t_max, u32::MAX);
-        self.mesh.hierarchy()?.walk::<true>(&ray, t_max, |item| {
-            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&ray, &shear)
-                && (t < best.0 || (t == best.0 && item < best.1))
-            {
-                best = (t, item);
-            }
-            best.0
-        });
+        self.mesh
+            .hierarchy()?
+            .walk::<true>(&local.ray, t_max, |item| {
+                if let Some(t) = self.intersect_prim(&local, item)
+                    && (t < best.0 || (t == best.0 && item < best.1))
+                {
+                    best = (t, item);
+                }
+                best.0
+            });
         (best.1 != u32::MAX).then_some(best)
     }
 
     fn closest_hit(&self, ray: &Ray, shear: &Shear, t_max: f64) -> Option<(f64, u32)> {
-        let local = self.to_object(ray);
-        let local_shear = Shear::new(&local);
+        let local = self.local(ray);
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
-        self.mesh.hierarchy()?.walk::<true>(&local, t_max, |item| {
-            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &local_shear) {
-                nearest.add(t, item);
-            }
-            nearest.t
-        });
+        self.mesh
+            .hierarchy()?
+            .walk::<true>(&local.ray, t_max, |item| {
+                if let Some(t) = self.intersect_prim(&local, item) {
+                    nearest.add(t, item);
+                }
+                nearest.t
+            });
         match nearest.key {
             u32::MAX => None,
             _ if nearest.is_tied() => self.settle(ray, shear, nearest.t),
@@ -177,17 +177,16 @@ impl Geometry for Instance {
     }
 
     fn visit_roots(&self, ray: &Ray, _: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
-        let local = self.to_object(ray);
-        let shear = Shear::new(&local);
-        let Some(hierarchy) = self.mesh.hierarchy() else {
-            return;
-        };
-        hierarchy.walk::<true>(&local, t_max, |item| {
-            if let Some(t) = self.mesh.triangles()[item as usize].intersect(&local, &shear) {
+        let local = self.local(ray);
+        let visit = |item| {
+            if let Some(t) = self.intersect_prim(&local, item) {
                 visit(t, item);
             }
             t_max
-        });
+        };
+        if let Some(hierarchy) = self.mesh.hierarchy() {
+            hierarchy.walk::<true>(&local.ray, t_max, visit);
+        }
     }
 
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
@@ -276,10 +275,24 @@ impl Geometry for Instance {
         self.error_bound
     }
 
-    #[inline]
-    fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
-        let ray = self.to_object(ray);
-        self.mesh.triangles()[prim_id as usize].intersect(&ray, &Shear::new(&ray))
+    #[inline(always)]
+    fn local(&self, ray: &Ray) -> LocalRay {
+        LocalRay::new(self.to_object(ray))
+    }
+
+    #[inline(always)]
+    fn intersect_prim(&self, local: &LocalRay, prim_id: u32) -> Option<f64> {
+        self.mesh.triangles()[prim_id as usize].intersect(&local.ray, &local.shear)
+    }
+
+    /// A shadow ray often ends on a triangle that is a light: its root is soon told to be no less.
+    #[inline(always)]
+    fn intersect_prim_before(&self, local: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+        let triangle = &self.mesh.triangles()[prim_id as usize];
+        if t_max < f64::INFINITY && triangle.is_beyond(&local.ray, t_max) {
+            return None;
+        }
+        self.intersect_prim(local, prim_id).filter(|t| *t < t_max)
     }
 
     fn bounds(&self) -> Option<Bounds> {

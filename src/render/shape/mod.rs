@@ -77,9 +77,23 @@ macro_rules! dispatch {
             }
 
             #[inline]
-            fn intersect_prim(&self, ray: &Ray, prim_id: u32) -> Option<f64> {
+            fn local(&self, ray: &Ray) -> LocalRay {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Geometry>::local(shape, ray),)*
+                }
+            }
+
+            #[inline]
+            fn intersect_prim(&self, ray: &LocalRay, prim_id: u32) -> Option<f64> {
                 match self {
                     $(Self::$Name(shape) => <$Name as Geometry>::intersect_prim(shape, ray, prim_id),)*
+                }
+            }
+
+            #[inline]
+            fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Geometry>::intersect_prim_before(shape, ray, prim_id, t_max),)*
                 }
             }
 
@@ -126,7 +140,7 @@ pub(in crate::render) mod kinds {
 use crate::math::Vec3;
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
-use crate::render::shape::geometry::{Asked, Details, Geometry};
+use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::triangle::Shear;
 use kinds::*;
 

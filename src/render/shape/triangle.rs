@@ -27,6 +27,13 @@ pub struct Shear {
 }
 
 impl Shear {
+    /// That of a ray along z.
+    pub(in crate::render) const NONE: Self = Self {
+        axes: [0, 1, 2],
+        x: 0.0,
+        y: 0.0,
+    };
+
     /// The shear of a ray.
     #[must_use]
     #[inline]
@@ -128,10 +135,17 @@ impl Triangle {
         };
         // Intersect the plane of the triangle.
         if met {
-            self.normal.through(self.vertices[0]).intersect(ray)
+            self.normal.intersect(self.vertices[0], ray)
         } else {
             None
         }
+    }
+
+    /// Whether plain arithmetic can tell that [`Self::intersect`] finds no root below `t_max`.
+    #[must_use]
+    #[inline]
+    pub(in crate::render) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
+        self.normal.is_beyond(self.vertices[0], ray, t_max)
     }
 
     /// The barycentric coordinates of a point of the triangle; they sum to 1.
@@ -164,7 +178,7 @@ impl Triangle {
     /// The point at `t`, moved onto the plane of the triangle.
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
-        self.normal.through(self.vertices[0]).interaction(ray, t)
+        self.normal.interaction(self.vertices[0], ray, t)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::Surface;
 use crate::render::accel::bvh4::Bvh4;
-use crate::render::shape::geometry::Geometry;
+use crate::render::ray::Ray;
+use crate::render::shape::geometry::{Geometry, LocalRay};
 use crate::valid::{self, Proof};
 
 /// The triangles of all flattened instances.
@@ -15,6 +16,69 @@ pub(super) struct Flattened {
 /// A mesh with several instances is flattened if its instances have at most this many triangles
 /// together.
 const MAX_TRIANGLES: usize = 1 << 18;
+
+/// One ray against flattened triangles. The ray is brought to the coordinates of a surface once for
+/// a run of its triangles.
+pub(super) struct FlattenedRay<'walk, S> {
+    surfaces: &'walk [Surface<S>],
+    prims: &'walk [[u32; 2]],
+    ray: &'walk Ray,
+    /// The surface of the triangle before.
+    surface: usize,
+    local: LocalRay,
+}
+
+impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
+    /// Meets no triangle yet.
+    #[inline]
+    pub(super) fn new(
+        ray: &'walk Ray,
+        surfaces: &'walk [Surface<S>],
+        flattened: &'walk Flattened,
+    ) -> Self {
+        Self {
+            surfaces,
+            prims: &flattened.prims,
+            ray,
+            surface: usize::MAX,
+            local: LocalRay::UNKNOWN,
+        }
+    }
+
+    /// The surface and the primitive of a triangle of the hierarchy, and its root above 0; `None`
+    /// for the triangle that the ray starts at.
+    #[inline(always)]
+    pub(super) fn root(&mut self, item: u32, from: (usize, u32)) -> Option<(f64, (usize, u32))> {
+        let key = self.bring_to(item, from)?;
+        let shape = &self.surfaces[key.0].shape;
+        Some((shape.intersect_prim(&self.local, key.1)?, key))
+    }
+
+    /// As [`Self::root`], of a root below `t_max` alone.
+    #[inline(always)]
+    pub(super) fn root_before(
+        &mut self,
+        t_max: f64,
+        item: u32,
+        from: (usize, u32),
+    ) -> Option<(f64, (usize, u32))> {
+        let key = self.bring_to(item, from)?;
+        let shape = &self.surfaces[key.0].shape;
+        Some((shape.intersect_prim_before(&self.local, key.1, t_max)?, key))
+    }
+
+    /// Brings the ray to the surface of a triangle, unless it starts at that triangle.
+    #[inline(always)]
+    fn bring_to(&mut self, item: u32, from: (usize, u32)) -> Option<(usize, u32)> {
+        let [surface, prim_id] = self.prims[item as usize];
+        let key = (surface as usize, prim_id);
+        if key != from && key.0 != self.surface {
+            let shape = &self.surfaces[key.0].shape;
+            (self.surface, self.local) = (key.0, shape.local(self.ray));
+        }
+        (key != from).then_some(key)
+    }
+}
 
 impl Flattened {
     /// Flattens the surfaces with these indices.

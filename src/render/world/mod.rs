@@ -26,7 +26,7 @@ use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
 use crate::valid::Proof;
 use alpha::AlphaTested;
-use flattened::Flattened;
+use flattened::{Flattened, FlattenedRay};
 use light::LightList;
 use settings::Settings;
 
@@ -103,13 +103,10 @@ impl<S: Geometry> World<S> {
         }
         let (ray, unit) = ray.rescaled();
         let mut nearest = self.closest_hit_apart(&ray);
-        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
-            hierarchy.walk::<true>(&ray, nearest.t, |item| {
-                let [surface, prim_id] = prims[item as usize];
-                let key = (surface as usize, prim_id);
-                if key != from
-                    && let Some(t) = self.surfaces[key.0].shape.intersect_prim(&ray, prim_id)
-                {
+        if let Some(flattened) = &self.flattened {
+            let mut triangles = FlattenedRay::new(&ray, &self.surfaces, flattened);
+            flattened.hierarchy.walk::<true>(&ray, nearest.t, |item| {
+                if let Some((t, key)) = triangles.root(item, from) {
                     nearest.add(t, key);
                 }
                 nearest.t
@@ -179,13 +176,10 @@ impl<S: Geometry> World<S> {
             visit(self.bounded[item as usize]);
             t
         });
-        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
-            hierarchy.walk::<true>(ray, t, |item| {
-                let [surface, prim_id] = prims[item as usize];
-                let surface = surface as usize;
-                if (surface, prim_id) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_prim(ray, prim_id)
-                {
+        if let Some(flattened) = &self.flattened {
+            let mut triangles = FlattenedRay::new(ray, &self.surfaces, flattened);
+            flattened.hierarchy.walk::<true>(ray, t, |item| {
+                if let Some((t, (surface, prim_id))) = triangles.root(item, from) {
                     add(t, surface, prim_id);
                 }
                 t
@@ -230,14 +224,10 @@ impl<S: Geometry> World<S> {
             return 0.0;
         }
         let mut transmittance = 1.0;
-        if let Some(Flattened { prims, hierarchy }) = &self.flattened {
-            hierarchy.walk::<true>(&ray, t_max, |item| {
-                let [surface, prim_id] = prims[item as usize];
-                let surface = surface as usize;
-                if (surface, prim_id) != from
-                    && let Some(t) = self.surfaces[surface].shape.intersect_prim(&ray, prim_id)
-                    && t < t_max
-                {
+        if let Some(flattened) = &self.flattened {
+            let mut triangles = FlattenedRay::new(&ray, &self.surfaces, flattened);
+            flattened.hierarchy.walk::<true>(&ray, t_max, |item| {
+                if let Some((t, (surface, prim_id))) = triangles.root_before(t_max, item, from) {
                     transmittance *= pass(Hit {
                         t: t * unit,
                         surface,
