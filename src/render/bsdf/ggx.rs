@@ -20,6 +20,9 @@ pub(super) struct Ggx {
 }
 
 impl Ggx {
+    /// That of roughness 1.
+    pub(super) const ROUGH: Self = Self { x: 1.0, y: 1.0 };
+
     /// The same width, α = roughness², in all directions.
     #[must_use]
     pub(super) fn isotropic(roughness: f64) -> Self {

@@ -73,9 +73,27 @@ pub(super) enum ScatteredDirection {
 }
 
 impl<const F: u32> Microfacet<F> {
+    /// A boundary that lets all light through to the base.
+    const NONE: Self = Self {
+        ggx: Ggx::ROUGH,
+        smooth: false,
+        dark: true,
+        f0: Vec3::ZERO,
+        f90: 0.0,
+        metal: Vec3::ZERO,
+        metallic: 0.0,
+        film: None,
+        tint: Vec3::ZERO,
+        crossing: Crossing::Wall,
+        eta: 1.0,
+    };
+
     /// The boundary of a material, seen from within the body if `inside`.
     #[inline]
     pub(super) fn new(standard: &StandardParameters, inside: bool) -> Self {
+        if !can::<F>(MICROFACETS) {
+            return Self::NONE;
+        }
         let ggx = match standard.anisotropy {
             None => Ggx::isotropic(standard.roughness),
             Some(anisotropy) => Ggx::anisotropic(standard.roughness, anisotropy.strength),

@@ -31,12 +31,12 @@ use std::f64::consts::FRAC_1_PI;
 pub(super) use warp::direction_turned;
 use warp::{cosine_density, cosine_direction};
 
-const LAYERS: PathFeatures = PathFeatures::LAYERS;
-const MICROFACETS: PathFeatures = PathFeatures::MICROFACETS;
-const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
+pub(in crate::render) const LAYERS: PathFeatures = PathFeatures::LAYERS;
+pub(in crate::render) const MICROFACETS: PathFeatures = PathFeatures::MICROFACETS;
+pub(in crate::render) const TRANSMISSION: PathFeatures = PathFeatures::TRANSMISSION;
 
 /// Whether the features `F` hold one: known at compile time.
-const fn can<const F: u32>(feature: PathFeatures) -> bool {
+pub(in crate::render) const fn can<const F: u32>(feature: PathFeatures) -> bool {
     PathFeatures(F).contains(feature)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::math::{Basis, Vec3};
 use crate::render::bsdf::standard::*;
+use crate::render::bsdf::{LAYERS, MICROFACETS, TRANSMISSION, can};
 use crate::render::material::standard::{
     Alpha, AnisotropyLayer, NormalMap, Reflection, StandardMaterial, shown,
 };
@@ -70,8 +71,10 @@ impl<'world> MaterialPoint<'world> {
         self.material.emission.at(&self.uvs)
     }
 
-    /// The parameters of the BSDF; `channel` is the wavelength that a dispersed path picked.
-    pub(in crate::render) fn standard(
+    /// The parameters of the BSDF that the [`PathFeatures`](crate::plan::PathFeatures) `F` need;
+    /// `channel` is the wavelength that a dispersed path picked.
+    #[inline]
+    pub(in crate::render) fn standard<const F: u32>(
         &self,
         frame: &ShadingFrame,
         clearcoat: Vec3,
@@ -86,13 +89,21 @@ impl<'world> MaterialPoint<'world> {
             ior: 0.0,
             specular: 1.0,
             specular_color: Vec3::ONE,
-            transmission: m.transmission.at(&self.uvs),
+            transmission: if can::<F>(TRANSMISSION) {
+                m.transmission.at(&self.uvs)
+            } else {
+                0.0
+            },
             thin_walled: !m.bounds_a_volume,
             multiple_scattering: multiple,
             ..StandardParameters::default()
         };
-        self.reflect(&mut standard, channel);
-        self.add_layers(&mut standard, frame, clearcoat);
+        if can::<F>(MICROFACETS) {
+            self.reflect(&mut standard, channel);
+        }
+        if can::<F>(LAYERS) {
+            self.add_layers(&mut standard, frame, clearcoat);
+        }
         standard
     }
 
@@ -170,7 +181,8 @@ impl<'world> MaterialPoint<'world> {
     }
 
     /// The shading frame with the normal map applied, and the shading normal of the clearcoat.
-    pub(in crate::render) fn frame(
+    #[inline]
+    pub(in crate::render) fn frame<const F: u32>(
         &self,
         at: &Interaction,
         details: &Details,
@@ -189,6 +201,11 @@ impl<'world> MaterialPoint<'world> {
             clamped_shading_normal(normal, at.normal, wo)
         };
         let shading = mapped(&m.normal);
+        if !can::<F>(LAYERS) {
+            let basis = Basis::around(shading);
+            let stretch = None;
+            return (ShadingFrame { basis, stretch }, shading);
+        }
         let coat = m
             .clearcoat
             .as_ref()

@@ -15,7 +15,7 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> 
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
         let first = self.closest_hit(&mut state).map(|vertex| {
             let wo = -state.ray.direction;
-            let (frame, _) = vertex.point.frame(&vertex.at, &vertex.details, wo);
+            let (frame, _) = vertex.point.frame::<F>(&vertex.at, &vertex.details, wo);
             First {
                 albedo: vertex.point.base_color(),
                 normal: frame.to_world(Vec3::Z),

@@ -44,7 +44,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     /// Adds light at a vertex and samples the next direction; false if the path ends there.
     pub(super) fn scatter(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> bool {
         // Attenuate by the medium along the ray (Beer-Lambert).
-        if state.absorption != Vec3::ZERO {
+        if Self::can(PathFeatures::TRANSMISSION) && state.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
             state.beta *= (state.absorption * -state.travelled).map(exp);
         }
@@ -104,7 +104,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         let wi = frame.to_world(sample.wi).normalize();
         // End the path where shading and geometric normal disagree on reflection or transmission:
         // light would leak.
-        let through = sample.wi.z * local.z < 0.0;
+        let through = Self::can(PathFeatures::TRANSMISSION) && sample.wi.z * local.z < 0.0;
         if through != (wi.dot(at.normal) * wo.dot(at.normal) < 0.0) {
             return false;
         }
@@ -134,12 +134,14 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             at, point, details, ..
         } = vertex;
         let wo = -state.ray.direction;
-        if point.material.dispersed.is_some() && state.channel.is_none() && point.transmits() {
+        let is_dispersed =
+            Self::can(PathFeatures::TRANSMISSION) && point.material.dispersed.is_some();
+        if is_dispersed && state.channel.is_none() && point.transmits() {
             self.counts.add(Effect::Dispersion);
             state.pick_wavelength();
         }
-        let (frame, coat) = point.frame(at, details, wo);
-        let standard = point.standard(&frame, coat, state.channel, self.multiple_scattering);
+        let (frame, coat) = point.frame::<F>(at, details, wo);
+        let standard = point.standard::<F>(&frame, coat, state.channel, self.multiple_scattering);
         let wo = frame.to_local(wo);
         let bsdf = Lobes::<F>::new(&standard, wo);
         self.count_shading(vertex, &standard, &bsdf);
