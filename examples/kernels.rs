@@ -1,8 +1,11 @@
-//! `kernels planned|everything|unpruned|NUMBER SCENE` renders 160 × 160 pixels of a scene, or of the
-//! set-up of a reference, 16 paths each where paths are traced, and says nothing, for a profiler to
-//! count the instructions of `picture`: as planned; by the kernel that can do everything; with no
-//! rule of the plan; by the kernel of a number.
-//! `kernels time SCENE` says how long the first two take: the median of pictures made in turns.
+//! `kernels WHICH SCENE [SIZE]` renders a scene, or the set-up of a reference, with 16 paths a pixel
+//! where paths are traced, and says nothing, for a profiler to count the instructions of `picture`.
+//! WHICH is `planned`; `next`, by the next larger kernel; `all`, by the same kernel for all shapes;
+//! `everything`, by the kernel that can do everything for all shapes; or `unpruned`, with no rule of
+//! the plan.
+//! `kernels names SCENE` prints the kernel planned, its shapes, and the next larger kernel.
+//! `kernels time SCENE` prints how long `planned` and `everything` take: the median of pictures made
+//! in turns.
 
 #![expect(clippy::unwrap_used, reason = "a bench stops at the first surprise")]
 
@@ -10,13 +13,16 @@ mod setup;
 
 use rtc::passes::Overrides;
 use rtc::plan::{Features, PathFeatures, Plan, Rules, Shapes};
-use rtc::render::{AnyWorld, Film, Job, KERNELS, PATH_KERNELS};
+use rtc::render::{AnyWorld, Film, Job, KERNELS, PATH_KERNELS, choose, choose_for_paths};
 use rtc::valid::Proof;
 use std::path::Path;
 use std::time::Instant;
 
 /// Paths a pixel.
 const SAMPLES: u32 = 16;
+
+/// Pixels across, and down, where nothing else is asked for.
+const SIZE: u32 = 160;
 
 /// Pictures of each kind that are timed.
 const ROUNDS: usize = 9;
@@ -29,41 +35,65 @@ fn main() {
         .build_global();
     let mut args = std::env::args().skip(1);
     let (which, file) = (args.next().unwrap(), args.next().unwrap());
-    let scene = scene(&file);
+    let size = args.next().map_or(SIZE, |size| size.parse().unwrap());
+    let scene = scene(&file, size);
     let planned = Plan::new(&scene, Rules::ALL);
     match which.as_str() {
         "planned" => count(&scene, &planned),
-        "everything" => count(
-            &scene,
-            &by(&planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1),
-        ),
+        "next" => count(&scene, &by_next(&planned)),
+        "all" => count(&scene, &for_all_shapes(&planned)),
+        "everything" => count(&scene, &everything(&planned)),
         "unpruned" => count(&scene, &Plan::new(&scene, Rules::NONE)),
+        "names" => print_names(&planned),
         "time" => time(&scene, &planned),
-        number => {
-            let number = number.parse().unwrap();
-            count(
-                &scene,
-                &by(&planned, number, number.min(PATH_KERNELS.len() - 1)),
-            );
-        }
+        other => panic!("`{other}` is none of them"),
     }
 }
 
-/// The plan, done by other kernels; for all shapes, where it is the one that can do everything.
-fn by(planned: &Plan, kernel: usize, of_paths: usize) -> Plan {
+/// The plan, done by the smallest kernel that can do more than the one planned; as planned, if
+/// there is none.
+fn by_next(planned: &Plan) -> Plan {
     let mut plan = planned.clone();
-    plan.features = KERNELS[kernel].features;
-    let is_everything = match &mut plan.paths {
+    match &mut plan.paths {
         Some(paths) => {
-            paths.features = PATH_KERNELS[of_paths].features;
-            paths.features == PathFeatures::EVERYTHING
+            let next = (choose_for_paths(paths.features) + 1).min(PATH_KERNELS.len() - 1);
+            paths.features = PATH_KERNELS[next].features;
         }
-        None => plan.features == Features::EVERYTHING,
-    };
-    if is_everything {
-        plan.shapes = Shapes::All;
+        None => {
+            let own = KERNELS[choose(plan.features)].features;
+            let larger = KERNELS.map(|kernel| kernel.features).into_iter();
+            let mut larger = larger.filter(|it| it.contains(own) && *it != own);
+            plan.features = larger.next().unwrap_or(own);
+        }
     }
     plan
+}
+
+fn for_all_shapes(planned: &Plan) -> Plan {
+    Plan {
+        shapes: Shapes::All,
+        ..planned.clone()
+    }
+}
+
+fn everything(planned: &Plan) -> Plan {
+    let mut plan = for_all_shapes(planned);
+    plan.features = Features::EVERYTHING;
+    if let Some(paths) = &mut plan.paths {
+        paths.features = PathFeatures::EVERYTHING;
+    }
+    plan
+}
+
+#[expect(clippy::print_stdout, reason = "this is what it is for")]
+fn print_names(planned: &Plan) {
+    let name = |plan: &Plan| match &plan.paths {
+        Some(paths) => PATH_KERNELS[choose_for_paths(paths.features)].name,
+        None => KERNELS[choose(plan.features)].name,
+    };
+    let (own, next) = (name(planned), name(&by_next(planned)));
+    let next = if next == own { "" } else { next };
+    println!("{own} | {:?} | {next}", planned.shapes);
 }
 
 fn count(scene: &Proof, plan: &Plan) {
@@ -73,8 +103,7 @@ fn count(scene: &Proof, plan: &Plan) {
 /// Prints the medians of both kernels, in seconds.
 #[expect(clippy::disallowed_methods, reason = "a bench tells time")]
 fn time(scene: &Proof, planned: &Plan) {
-    let everything = by(planned, KERNELS.len() - 2, PATH_KERNELS.len() - 1);
-    let worlds = [planned, &everything].map(|plan| AnyWorld::prepare(scene, plan));
+    let worlds = [planned, &everything(planned)].map(|plan| AnyWorld::prepare(scene, plan));
     let mut taken = [const { Vec::new() }; 2];
     for _ in 0..ROUNDS {
         for (taken, world) in taken.iter_mut().zip(&worlds) {
@@ -98,7 +127,7 @@ fn picture(world: &AnyWorld) -> Film {
     world.render(&Job::default(), &|_| true).unwrap()
 }
 
-fn scene(file: &str) -> Proof {
+fn scene(file: &str, size: u32) -> Proof {
     let path = Path::new(file);
     let mut lowered = if path.extension().is_some_and(|it| it == "json") {
         setup::load_set_up(path, SAMPLES)
@@ -106,7 +135,7 @@ fn scene(file: &str) -> Proof {
         setup::load(path)
     };
     Overrides {
-        size: Some([160; 2]),
+        size: Some([size; 2]),
         spp: Some(SAMPLES),
         ..Overrides::default()
     }

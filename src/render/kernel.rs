@@ -24,13 +24,13 @@ const fn kernel(name: &'static str, features: Features) -> Kernel {
 }
 
 const PHONG: Features = Features::LIGHT.with(Features::HIGHLIGHT);
-const WHITTED: Features = PHONG.with(Features::SHADOW).with(Features::BOUNCE);
+const WHITTED: Features = PHONG
+    .with(Features::SHADOW)
+    .with(Features::BOUNCE)
+    .with(Features::CAMERA);
 
-/// All integrators, each for the basic shapes and for all shapes.
-pub const KERNELS: [Kernel; 12] = [
-    kernel("first hit", Features::NONE),
-    kernel("first hit, camera", Features::CAMERA),
-    kernel("diffuse", Features::LIGHT),
+/// All integrators: those that `benches/kernels.md` shows to be worth their code.
+pub const KERNELS: [Kernel; 6] = [
     kernel("phong", PHONG),
     kernel("phong, camera", PHONG.with(Features::CAMERA)),
     kernel("phong, shadows", PHONG.with(Features::SHADOW)),
@@ -38,51 +38,34 @@ pub const KERNELS: [Kernel; 12] = [
         "diffuse, maps, camera",
         Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
     ),
-    kernel("whitted", WHITTED),
-    kernel("whitted, camera", WHITTED.with(Features::CAMERA)),
-    kernel(
-        "whitted, maps, camera",
-        WHITTED.with(Features::MAPS).with(Features::CAMERA),
-    ),
+    kernel("whitted, camera", WHITTED),
     kernel("everything", Features::EVERYTHING),
-    kernel("naive", Features::EVERYTHING.with(Features::NAIVE)),
 ];
-
-/// The few kernels compiled for the rarer cases: other arithmetics, and growing pictures.
-const FEW: [usize; 4] = [1, 4, 10, 11];
 
 /// The index of the integrator with the fewest features among those that have all of `needed`; the
 /// first of equals.
 #[must_use]
 pub fn choose(needed: Features) -> usize {
-    smallest(0..KERNELS.len(), needed)
-}
-
-/// As [`choose`], among the few.
-#[must_use]
-pub(in crate::render) fn choose_of_few(needed: Features) -> usize {
-    smallest(FEW, needed)
-}
-
-fn smallest(kernels: impl IntoIterator<Item = usize>, needed: Features) -> usize {
-    let able = kernels
-        .into_iter()
-        .filter(|index| KERNELS[*index].features.contains(needed));
+    let able = (0..KERNELS.len()).filter(|index| KERNELS[*index].features.contains(needed));
     able.min_by_key(|index| KERNELS[*index].features.count())
         .unwrap_or(KERNELS.len() - 1)
 }
 
-/// Calls a method of a world with the features of the integrator chosen, by its index; of those not
-/// listed the last.
+/// Calls a method of a world with the features of the integrator chosen.
 macro_rules! dispatch {
-    ($chosen:expr; $($index:literal)*; $world:ident.$method:ident $arguments:tt) => {
-        match $chosen {
-            $($index => $crate::render::kernel::dispatch!(@ $world.$method::<$index> $arguments),)*
-            _ => $crate::render::kernel::dispatch!(@ $world.$method::<11> $arguments),
+    ($world:ident.$method:ident $arguments:tt) => {{
+        use $crate::render::kernel::{KERNELS, choose};
+        match choose($world.plan.features) {
+            0 => $crate::render::kernel::dispatch!(@ 0 $world.$method $arguments),
+            1 => $crate::render::kernel::dispatch!(@ 1 $world.$method $arguments),
+            2 => $crate::render::kernel::dispatch!(@ 2 $world.$method $arguments),
+            3 => $crate::render::kernel::dispatch!(@ 3 $world.$method $arguments),
+            4 => $crate::render::kernel::dispatch!(@ 4 $world.$method $arguments),
+            _ => $crate::render::kernel::dispatch!(@ 5 $world.$method $arguments),
         }
-    };
-    (@ $world:ident.$method:ident::<$index:literal> ($($argument:expr),*)) => {
-        $world.$method::<{ $crate::render::kernel::KERNELS[$index].features.0 }>($($argument),*)
+    }};
+    (@ $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {
+        $world.$method::<{ KERNELS[$index].features.0 }>($($argument),*)
     };
 }
 pub(in crate::render) use dispatch;
@@ -149,12 +132,6 @@ impl<S: Geometry> World<S> {
         self.whole(job, |samples, job| self.sum(samples, job, on_pixel))
     }
 
-    /// As [`Self::render`], by one of the [`FEW`] integrators.
-    #[must_use]
-    pub fn render_by_few(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        self.whole(job, |samples, job| self.sum_by_few(samples, job, on_pixel))
-    }
-
     /// As [`Self::render`], where paths are traced by another strategy.
     #[must_use]
     pub fn render_paths(
@@ -179,20 +156,7 @@ impl<S: Geometry> World<S> {
         if let Mode::Path(_) = self.settings.mode {
             return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
         }
-        dispatch!(choose(self.plan.features); 0 1 2 3 4 5 6 7 8 9 10; self.sum_with(job, on_pixel))
-    }
-
-    /// As [`Self::sum`], by one of the [`FEW`] integrators.
-    pub(in crate::render) fn sum_by_few(
-        &self,
-        samples: &Range<u32>,
-        job: &Job,
-        on_pixel: &OnPixel<'_>,
-    ) -> Option<Sums> {
-        if let Mode::Path(_) = self.settings.mode {
-            return self.sum_paths(Strategy::Mis, samples, job, on_pixel);
-        }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.sum_with(job, on_pixel))
+        dispatch!(self.sum_with(job, on_pixel))
     }
 
     fn sum_paths(
@@ -232,10 +196,6 @@ mod tests {
                 .filter(|kernel| kernel.features.contains(needed));
             assert!(
                 smaller.map(|kernel| kernel.features.count()).min() == Some(chosen.count()),
-                "{needed:?}"
-            );
-            assert!(
-                KERNELS[choose_of_few(needed)].features.contains(needed),
                 "{needed:?}"
             );
         }

@@ -9,7 +9,7 @@ use crate::render::film::progressive::{ProgressiveFilm, Replicates};
 use crate::render::integrator::Integrator;
 use crate::render::integrator::path::{PathTracer, Strategy};
 use crate::render::integrator::whitted::Tracer;
-use crate::render::kernel::{choose_of_few, dispatch, dispatch_paths};
+use crate::render::kernel::{dispatch, dispatch_paths};
 use crate::render::light::Lights;
 use crate::render::shape::geometry::Geometry;
 use crate::render::world::World;
@@ -29,7 +29,7 @@ impl<S: Geometry> World<S> {
         if let Mode::Path(_) = self.settings.mode {
             return dispatch_paths!(self.grow_paths(film, wanted, on_pixel));
         }
-        dispatch!(choose_of_few(self.plan.features); 1 4 10; self.grow_with(film, wanted, on_pixel))
+        dispatch!(self.grow_with(film, wanted, on_pixel))
     }
 
     /// Grows by tracing paths with the features `F`.

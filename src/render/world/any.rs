@@ -76,12 +76,7 @@ impl AnyWorld {
     /// `on_pixel` is called from all threads, after each pixel and within long ones.
     #[must_use]
     pub fn render(&self, job: &Job, on_pixel: &OnPixel<'_>) -> Option<Film> {
-        match self {
-            Self::Basic(world) => world.render(job, on_pixel),
-            Self::All(world) => world.render(job, on_pixel),
-            Self::Plain(world) => world.render_by_few(job, on_pixel),
-            Self::F32(world) => world.render_by_few(job, on_pixel),
-        }
+        each!(self, world => world.render(job, on_pixel))
     }
 
     /// Renders a part of a picture: the tiles of the job, and of traced paths only the range of
@@ -96,16 +91,9 @@ impl AnyWorld {
         samples: Option<Range<u32>>,
         on_pixel: &OnPixel<'_>,
     ) -> Result<Option<PartialFilm>, FilmError> {
-        match self {
-            Self::Basic(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
-            Self::All(world) => world.part(job, samples, |s, job| world.sum(s, job, on_pixel)),
-            Self::Plain(world) => {
-                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
-            }
-            Self::F32(world) => {
-                world.part(job, samples, |s, job| world.sum_by_few(s, job, on_pixel))
-            }
-        }
+        each!(self, world => {
+            world.part(job, samples, |samples, job| world.sum(samples, job, on_pixel))
+        })
     }
 
     /// Renders layers of a part of the picture; `None` if `on_pixel` said stop.

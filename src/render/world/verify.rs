@@ -45,7 +45,7 @@ fn naively<S: Prepare>(
 ) -> Option<(Film, Verify)> {
     let mut world = World::<S>::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE));
     world.verify = Some(Verify::new(plan.clone()));
-    let naive = world.render_by_few(job, on_pixel)?;
+    let naive = world.render(job, on_pixel)?;
     Some((naive, world.verify?))
 }
 

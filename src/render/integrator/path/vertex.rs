@@ -28,7 +28,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     pub(super) fn closest_hit(&mut self, state: &mut PathState) -> Option<PathVertex<'world>> {
         state.travelled = 0.0;
         for skipped in 0..MAX_SKIPPED {
-            let hit = self.world.closest_hit_from(&state.ray, state.from)?;
+            let hit = self.next_hit(state)?;
             let surface = &self.world.surfaces[hit.surface];
             let at = surface.shape.interaction(&state.ray, hit.t, hit.prim_id);
             let asked = self.asked(surface.material);
@@ -52,6 +52,13 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
             });
         }
         None
+    }
+
+    /// The closest hit of the ray. It is a function of its own, as is [`Self::visibility`], so that
+    /// `benches/kernels.sh` can count what the hierarchies take of a picture.
+    #[inline(never)]
+    fn next_hit(&self, state: &PathState) -> Option<Hit> {
+        self.world.closest_hit_from(&state.ray, state.from)
     }
 
     /// The surface details that a material needs.

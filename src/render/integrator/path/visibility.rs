@@ -12,6 +12,7 @@ use crate::render::world::{Hit, segment};
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     /// The transmittance to a point, or to infinity.
+    #[inline(never)]
     pub(super) fn visibility(
         &mut self,
         vertex: &PathVertex<'world>,
