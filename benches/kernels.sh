@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # What is in the machine code of each kernel of both integrators, as Markdown: bytes, and whether it reaches `pow`, a texture or
-# the torus, or the code of a BSDF, by the relocations of the release build without link-time optimization; then the
-# instructions of pictures by the kernel planned, beside those by the one that can do everything, and the time of both, taken
-# in turns. Fails where an effect left out is there, or a limit is passed. Needs objdump, c++filt, Python and valgrind.
+# the torus, or the code of a BSDF, by the relocations of the release build without link-time optimization; then what each
+# kernel gains over the next larger one, and each set of shapes over all shapes; then the instructions of pictures by the kernel
+# planned, beside those by the one that can do everything, and the time of both, taken in turns. Fails where an effect left out
+# is there, or a limit is passed. Needs objdump, c++filt, Python and valgrind.
 # `benches/kernels.sh >benches/kernels.md` makes the table that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -59,7 +60,7 @@ def features_of(kind):
 WORLDS = {"basic": "World<rtc::render::shape::basic::Basic>>", "all": "World>"}
 wrong = []
 
-def table(method, kind, none, effects, everything, count):
+def table(method, kind, effects, count):
     """The rows of the kernels that are instances of `method`."""
     features = features_of(kind)
     print("| features | shapes | bytes | share |", " | ".join(effects), "|\n| --- | --- | --: | --: |" + " :-: |" * len(effects))
@@ -74,8 +75,8 @@ def table(method, kind, none, effects, everything, count):
             can = {text for bit, text in features.items() if kernel & bit}
             wanted = {effect: need in can if need else shapes == "all" for effect, (need, _) in effects.items()}
             wrong.extend(f"{kernel} for {shapes} shapes: {effect}" for effect in effects if has[effect] != wanted[effect])
-            rows.append((", ".join(sorted(can)) or none, shapes, sum(size.get(section, 0) for section in sections), has))
-    whole = max(bytes for can, _, bytes, _ in rows if everything(can))
+            rows.append((", ".join(sorted(can)), shapes, sum(size.get(section, 0) for section in sections), has))
+    whole = max(bytes for _, _, bytes, _ in rows)
     for can, shapes, bytes, has in rows:
         marks = " | ".join("✓" if has[effect] else "" for effect in has)
         print(f"| {can} | {shapes} | {bytes} | {100 * bytes / whole:.0f} % | {marks} |")
@@ -83,35 +84,72 @@ def table(method, kind, none, effects, everything, count):
         wrong.append(f"{len(rows)} kernels, not {count}")
 
 print("Whitted's integrator:\n")
-table("sum_with", "Features", "first hit", {
+table("sum_with", "Features", {
     "pow": ("highlight", r"math::pow::pow|^pow$"), "texture": ("maps", "bilinear::look_up"), "torus": (None, "Torus"),
-}, lambda can: "naive" not in can, 24)
+}, 12)
 print("\nPaths:\n")
-table("sum_paths_with", "PathFeatures", "unaimed", {
+table("sum_paths_with", "PathFeatures", {
     "albedo tables": ("microfacets", "albedo::look_up"), "sheen": ("layers", "sheen::Fibres"), "coat": ("layers", "coat::Coat"),
     "torus": (None, "Torus"),
-}, lambda can: True, 6)
+}, 6)
 sys.exit("\n".join(wrong) or 0)
+END
+kernels=target/release/examples/kernels
+count() {
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect="$4" \
+        "$kernels" "$1" "$2" "$3" 2>&1 | sed -n 's/.*Collected : //p'
+}
+picture=kernels::picture
+cat <<'END'
+
+What a kernel gains over the next larger one, and, if it is for the basic shapes, over the same one for all shapes:
+instructions of 40 × 40 pixels, 16 paths each where paths are traced. A kernel stays if scenes planned for it gain 3 % by it.
+
+| kernel | shapes | next larger | scene | instructions | over the next | over all shapes |
+| --- | --- | --- | --- | --: | --: | --: |
+END
+while read -r scene; do
+    [ -e "$scene" ] || continue
+    names=$("$kernels" names "$scene")
+    next=- all=-
+    case $names in *'| ') ;; *) next=$(count next "$scene" 40 "$picture") ;; esac
+    case $names in *'| All |'*) ;; *) all=$(count all "$scene" 40 "$picture") ;; esac
+    echo "$(count planned "$scene" 40 "$picture") $next $all" | awk -v names="${names,,}" -v scene="${scene##*/}" '
+        function gain(other) { return other == "-" ? "" : sprintf("%.1f %%", 100 * (other / $1 - 1)) }
+        { printf "| %s | `%s` | %.0f | %s | %s |\n", names, scene, $1, gain($2), gain($3) }'
+done <<'END'
+scenes/five-spheres.yaml
+scenes/grey-ball.yaml
+tests/render/record/torus.yaml
+tests/render/alpha/transparent.yaml
+scenes/one-light-shadows.yaml
+scenes/globe.yaml
+scenes/camera.yaml
+tests/render/camera/lens.yaml
+scenes/shapes.yaml
+../shared/gltf/refs/CornellLambert.json
+scenes/vases.yaml
+../shared/gltf/refs/FlightHelmet.json
+../shared/gltf/refs/GlassSphere.json
 END
 cat <<'END'
 
-Instructions of 160 × 160 pixels, 16 paths each where paths are traced: as planned; as planned, but by the kernel that can do
-everything for all shapes; with no rule of the plan. The limit is of the last share. Then seconds of the first two, each the
+Instructions of 40 × 40 pixels, 16 paths each where paths are traced: as planned, and of traced paths the share of finding what
+rays hit, which is the same work for all kernels; as planned, but by the kernel that can do everything for all shapes; with no
+rule of the plan. The limit is of the last share. Then CPU seconds of 160 × 160 pixels as planned and by that kernel, each the
 median of nine pictures made in turns by one thread, and how many times as fast the kernel planned is.
 
-| scene | planned | everything | share | no rule | share | limit | planned, s | everything, s | gain |
-| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: |
+| scene | planned | hits | everything | share | no rule | share | limit | planned, s | everything, s | gain |
+| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |
 END
-count() {
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='kernels::picture' \
-        target/release/examples/kernels "$1" "$2" 2>&1 | sed -n 's/.*Collected : //p'
-}
 while read -r scene limit; do
     [ -e "$scene" ] || continue
-    echo "$(basename "$scene") $(count planned "$scene") $(count everything "$scene") $(count unpruned "$scene") $limit" \
-        "$(target/release/examples/kernels time "$scene")" | awk '{
-        printf "| `%s` | %.0f | %.0f | %.2f | %.0f | %.2f | %s | %.3f | %.3f | %.2f |\n",
-            $1, $2, $3, $2 / $3, $4, $2 / $4, $5, $6, $7, $7 / $6
+    hits=$(($(count planned "$scene" 40 '*PathTracer*next_hit') + $(count planned "$scene" 40 '*PathTracer*visibility')))
+    echo "$(basename "$scene") $(count planned "$scene" 40 "$picture") $(count everything "$scene" 40 "$picture")" \
+        "$(count unpruned "$scene" 40 "$picture") $limit $("$kernels" time "$scene") $hits" | awk '{
+        hits = $8 > 0 ? sprintf("%.0f %%", 100 * $8 / $2) : ""
+        printf "| `%s` | %.0f | %s | %.0f | %.2f | %.0f | %.2f | %s | %.3f | %.3f | %.2f |\n",
+            $1, $2, hits, $3, $2 / $3, $4, $2 / $4, $5, $6, $7, $7 / $6
         exit $2 > $3 || $2 > $5 * $4
     }'
 done <<'END'
