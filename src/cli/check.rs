@@ -3,7 +3,7 @@
 use super::Failure;
 use super::args::CheckArgs;
 use super::input::Input;
-use super::talk::Talk;
+use super::talk::{self, Talk};
 
 /// Checks the files and tells what was found.
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
@@ -19,6 +19,27 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
             Ok(()) => {}
         }
     }
+    let is_in_doubt = talk.left_in_doubt();
     talk.finish()?;
+    if worst.is_ok() && is_in_doubt {
+        talk::say(&nothing_found(args.files.len()));
+    }
     worst
+}
+
+/// That all is well with so many files.
+fn nothing_found(files: usize) -> String {
+    match files {
+        1 => "1 scene, no findings".to_owned(),
+        _ => format!("{files} scenes, no findings"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn one_scene_is_one() {
+        assert_eq!(super::nothing_found(1), "1 scene, no findings");
+        assert_eq!(super::nothing_found(12), "12 scenes, no findings");
+    }
 }

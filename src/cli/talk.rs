@@ -5,7 +5,7 @@ use super::{Failure, args, output};
 use crate::diag::{Format, PrintOptions, Printer, Severity, Sink};
 use crate::source::SourceMap;
 use anstream::{AutoStream, ColorChoice};
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 
 /// Where the terminal does not say how wide it is.
 const WIDTH: usize = 100;
@@ -16,6 +16,8 @@ pub(super) struct Talk {
     to_stdout: bool,
     quiet: bool,
     verbose: bool,
+    /// Something was told of a file.
+    has_told: bool,
 }
 
 impl Talk {
@@ -57,18 +59,25 @@ impl Talk {
             to_stdout: false,
             quiet,
             verbose,
+            has_told: false,
         }
     }
 
     /// Tells the findings about the file `name`.
     pub(super) fn file(&mut self, name: &str, sink: Sink, map: &SourceMap) -> Result<(), Failure> {
         let text = self.printer.file(name, sink, map);
+        self.has_told |= !text.is_empty();
         write(self.to_stdout, &text)
     }
 
     /// Tells what follows the last finding.
     pub(super) fn finish(self) -> Result<(), Failure> {
         write(self.to_stdout, &self.printer.finish())
+    }
+
+    /// True if a person at a terminal was told nothing, and did not ask for that.
+    pub(super) fn left_in_doubt(&self) -> bool {
+        !self.has_told && !self.to_stdout && !self.quiet && io::stderr().is_terminal()
     }
 
     /// True if all is wanted that can be told.
