@@ -39,6 +39,10 @@ pub fn load(
     options: &Options,
     sink: &mut Sink,
 ) -> Option<Lowered> {
+    if let Some(finding) = front::foreign(map.name(file), map.bytes(file)) {
+        sink.push(finding);
+        return None;
+    }
     match codec::recognise(map.bytes(file)) {
         Some(form) => {
             refuse_choices(&options.front, false, sink);

@@ -2,10 +2,13 @@
 //! YAML, glTF, mesh files; and pixel files, decoded within the budget for all of them.
 
 pub mod course;
+mod foreign;
 pub mod gltf;
 pub mod mesh;
 pub mod pixels;
 mod words;
+
+pub use foreign::foreign;
 
 use crate::diag::{Diagnostic, codes};
 use crate::source::Exceeded;

@@ -22,9 +22,10 @@ super::codes! { SC:
     CONFLICTING_KEYS = "SC008", Error, "keys say the same thing more than once",
         "The format has several spellings for some keys, and several ways to give some shapes. Use one of them, so that \
          it is clear which one counts.";
-    NOT_A_SCENE = "SC009", Error, "the document is not a map",
+    NOT_A_SCENE = "SC009", Error, "the file is no scene",
         "A scene is a map of keys and values: `Camera:`, `Lights:`, `Objects:` and so on. The document is a single word \
-         or a list.";
+         or a list; or the file is something else by its first bytes, as a picture, a mesh, a page of HTML or a pointer of \
+         Git LFS, and the message says what.";
     SPELLING = "SC010", Note, "the file uses other spellings than the canonical ones",
         "Scene files of this family differ in spelling. All are read; `rtc compile --emit yaml` writes the canonical \
          ones.";
