@@ -38,6 +38,7 @@ pub use shape::disc::Disc;
 pub use shape::geometry::{Asked, Details, Geometry};
 pub use shape::instance::Instance;
 pub use shape::mesh::{Attributes, PreparedMesh};
+pub use shape::paraboloid::Paraboloid;
 pub use shape::plain::PlainShape;
 pub use shape::plain::real::Real;
 pub use shape::plane::Plane;

@@ -113,6 +113,8 @@ pub(crate) fn truth(shape: &ir::Shape, ray: &Ray) -> Option<Truth> {
         (cylinder(s, ray), s.base, s.radius)
     } else if let ir::Shape::Cone(s) = shape {
         (cone(s, ray), s.base, s.radius)
+    } else if let ir::Shape::Paraboloid(s) = shape {
+        (paraboloid(s, ray), s.base, s.radius)
     } else if let ir::Shape::Torus(s) = shape {
         (torus(s, ray), s.center, 2.0 * (s.major + s.minor))
     } else {
@@ -235,6 +237,33 @@ fn cone(s: &ir::Cone, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
         [0, 1, 2].map(|k| {
             radial[k] / length * h2.sqrt() + up[k] * number(r2.to_f64().sqrt()) / h2.sqrt()
         })
+    };
+    nearest(&line, capped.candidates(up, normal))
+}
+
+/// With u the way from base to vertex and q = p·(u·u) − u·(p·u), the radial part of p times u·u:
+/// q·q ≤ r²·(u·u)·(u·u − p·u) and p·u ≥ 0.
+fn paraboloid(s: &ir::Paraboloid, ray: &Ray) -> Option<(DoubleDouble, Wide)> {
+    let line = Line::new(ray, s.base);
+    let (up, r2) = (wide(s.up), number(s.radius) * number(s.radius));
+    let (h2, zero) = (dot(up, up), number(0.0));
+    let (above, rise) = (dot(line.from, up), dot(line.d, up));
+    let radial = |v: Wide, along: DoubleDouble| [0, 1, 2].map(|k| v[k] * h2 - up[k] * along);
+    let (w, x) = (radial(line.from, above), radial(line.d, rise));
+    let capped = Capped {
+        side: [
+            dot(x, x),
+            dot(w, x) + r2 * h2 * rise * number(0.5),
+            dot(w, w) - r2 * h2 * (h2 - above),
+        ],
+        above,
+        rise,
+        ends: [zero, h2],
+    };
+    // The gradient: twice the radial part, and r²/h along the axis.
+    let normal = |s: DoubleDouble| {
+        let q = along(w, x, s);
+        [0, 1, 2].map(|k| (q[k] + q[k] + up[k] * r2) / h2)
     };
     nearest(&line, capped.candidates(up, normal))
 }

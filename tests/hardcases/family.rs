@@ -2,7 +2,7 @@
 //! index.
 
 use super::random::Random;
-use super::scenes::{cone, cylinder, plane, sphere, torus, triangle};
+use super::scenes::{cone, cylinder, paraboloid, plane, sphere, torus, triangle};
 use rtc::ir;
 use rtc::math::Vec3;
 use rtc::render::Ray;
@@ -12,7 +12,7 @@ type Row = (ir::Shape, Ray);
 /// A shape, what is hard about it, and rows of both.
 pub(crate) type Family = (&'static str, &'static str, fn(&mut Random) -> Row);
 
-pub(crate) const FAMILIES: [Family; 24] = [
+pub(crate) const FAMILIES: [Family; 30] = [
     ("sphere", "generic", |r| {
         round(r, (0.3, 3.0), (3.0, 30.0), 0.95)
     }),
@@ -39,19 +39,31 @@ pub(crate) const FAMILIES: [Family; 24] = [
     ("plane", "near_parallel", |r| level(r, 10.0, (1e-12, 1e-1))),
     ("plane", "offset1e8", |r| level(r, 1e9, (0.1, 1.0))),
     ("cylinder", "generic", |r| {
-        pillar(r, true, (0.3, 2.0), (5.0, 30.0))
+        pillar(r, as_cylinder, (0.3, 2.0), (5.0, 30.0))
     }),
     ("cylinder", "thin_far", |r| {
-        pillar(r, true, (1e-5, 1e-3), (1e2, 1e4))
+        pillar(r, as_cylinder, (1e-5, 1e-3), (1e2, 1e4))
     }),
-    ("cylinder", "near_axis", |r| along_axis(r, true)),
+    ("cylinder", "near_axis", |r| along_axis(r, as_cylinder)),
     ("cone", "generic", |r| {
-        pillar(r, false, (0.3, 2.0), (5.0, 30.0))
+        pillar(r, as_cone, (0.3, 2.0), (5.0, 30.0))
     }),
     ("cone", "thin_far", |r| {
-        pillar(r, false, (1e-5, 1e-3), (1e2, 1e4))
+        pillar(r, as_cone, (1e-5, 1e-3), (1e2, 1e4))
     }),
-    ("cone", "near_axis", |r| along_axis(r, false)),
+    ("cone", "near_axis", |r| along_axis(r, as_cone)),
+    ("paraboloid", "generic", |r| {
+        pillar(r, as_paraboloid, (0.3, 2.0), (5.0, 30.0))
+    }),
+    ("paraboloid", "thin_far", |r| {
+        pillar(r, as_paraboloid, (1e-5, 1e-3), (1e2, 1e4))
+    }),
+    ("paraboloid", "flat_far", |r| {
+        pillar(r, as_paraboloid, (1e3, 1e5), (1e6, 1e8))
+    }),
+    ("paraboloid", "far_small", tiny_paraboloid),
+    ("paraboloid", "near_axis", |r| along_axis(r, as_paraboloid)),
+    ("paraboloid", "grazing", tangent_paraboloid),
     ("torus", "generic", |r| {
         ring(r, false, (0.1, 0.9), (5.0, 30.0))
     }),
@@ -163,29 +175,30 @@ fn level(random: &mut Random, size: f64, slope: (f64, f64)) -> Row {
     )
 }
 
-fn upright(
-    random: &mut Random,
-    round: bool,
-    base: Vec3,
-    axis: Vec3,
-    height: f64,
-    radius: f64,
-) -> ir::Shape {
-    if round {
-        let axis = axis * random.between(0.5, 1.5);
-        return cylinder(base.to_array(), axis.to_array(), height, radius);
-    }
+/// A shape that stands on a disc: base, axis, height and radius.
+type Upright = fn(&mut Random, Vec3, Vec3, f64, f64) -> ir::Shape;
+
+fn as_cylinder(random: &mut Random, base: Vec3, axis: Vec3, height: f64, radius: f64) -> ir::Shape {
+    let axis = axis * random.between(0.5, 1.5);
+    cylinder(base.to_array(), axis.to_array(), height, radius)
+}
+
+fn as_cone(_: &mut Random, base: Vec3, axis: Vec3, height: f64, radius: f64) -> ir::Shape {
     cone(base.to_array(), (axis * height).to_array(), radius)
 }
 
-/// A cylinder or cone, and a ray at its middle.
-fn pillar(random: &mut Random, round: bool, radius: (f64, f64), distance: (f64, f64)) -> Row {
+fn as_paraboloid(_: &mut Random, base: Vec3, axis: Vec3, height: f64, radius: f64) -> ir::Shape {
+    paraboloid(base.to_array(), (axis * height).to_array(), radius)
+}
+
+/// A shape that stands on a disc, and a ray at its middle.
+fn pillar(random: &mut Random, upright: Upright, radius: (f64, f64), distance: (f64, f64)) -> Row {
     let (base, axis) = (random.cube() * 10.0, random.direction());
     let (height, radius) = (
         random.between(0.5, 5.0),
         random.magnitude(radius.0, radius.1),
     );
-    let shape = upright(random, round, base, axis, height, radius);
+    let shape = upright(random, base, axis, height, radius);
     let target = base
         + axis * (height * random.between(0.05, 0.95))
         + random.direction() * (radius * random.uniform());
@@ -193,11 +206,11 @@ fn pillar(random: &mut Random, round: bool, radius: (f64, f64), distance: (f64, 
     (shape, towards(random, target, back, distance))
 }
 
-/// A cylinder or cone, and a ray that is parallel to its axis but for an angle of 10⁻⁹ to 10⁻².
-fn along_axis(random: &mut Random, round: bool) -> Row {
+/// A shape that stands on a disc, and a ray that is parallel to its axis but for an angle of 10⁻⁹ to 10⁻².
+fn along_axis(random: &mut Random, upright: Upright) -> Row {
     let (base, axis) = (random.cube() * 10.0, random.direction());
     let (height, radius) = (random.between(0.5, 5.0), random.between(0.3, 2.0));
-    let shape = upright(random, round, base, axis, height, radius);
+    let shape = upright(random, base, axis, height, radius);
     let target = base
         + axis * (height * random.uniform())
         + random.direction() * (1.2 * radius * random.uniform());
@@ -205,6 +218,43 @@ fn along_axis(random: &mut Random, round: bool) -> Row {
     let back = side + random.direction() * random.magnitude(1e-9, 1e-2);
     let distance = random.magnitude(6.0, 30.0);
     (shape, towards(random, target, back, distance))
+}
+
+/// A paraboloid of 10⁻⁶ to 10⁻¹, up to 10⁸ away.
+fn tiny_paraboloid(random: &mut Random) -> Row {
+    let (base, axis) = (random.cube() * 10.0, random.direction());
+    let (height, radius) = (random.magnitude(1e-6, 0.1), random.magnitude(1e-6, 0.1));
+    let target = base
+        + axis * (height * random.uniform())
+        + random.direction() * (radius * random.uniform());
+    let (back, distance) = (random.direction(), random.magnitude(1e3, 1e8));
+    (
+        paraboloid(base.to_array(), (axis * height).to_array(), radius),
+        towards(random, target, back, distance),
+    )
+}
+
+/// A ray along the side of a paraboloid: its distance from the axis differs from that of the side
+/// by a fraction of 10⁻¹² to 10⁻², on either side.
+fn tangent_paraboloid(random: &mut Random) -> Row {
+    let (base, axis) = (random.cube() * 10.0, random.direction());
+    let (height, radius) = (random.between(0.5, 5.0), random.between(0.3, 2.0));
+    // A point of the side: at the depth m below the vertex, ρ² = m·radius²/height.
+    let depth = height * random.between(0.05, 0.95);
+    let rho = radius * (depth / height).sqrt();
+    let around = axis.cross(random.direction()).normalize();
+    let normal = (around * (2.0 * rho) + axis * (radius * radius / height)).normalize();
+    let sign = if random.uniform() < 0.7 { -1.0 } else { 1.0 };
+    let offset = 1.0 + sign * random.magnitude(1e-12, 1e-2);
+    let target = base + axis * (height - depth) + around * (rho * offset);
+    let (back, distance) = (
+        normal.cross(random.direction()).normalize(),
+        random.magnitude(5.0, 30.0),
+    );
+    (
+        paraboloid(base.to_array(), (axis * height).to_array(), radius),
+        towards(random, target, back, distance),
+    )
 }
 
 /// A torus whose tube has the share given of its radius, and a ray at the tube.

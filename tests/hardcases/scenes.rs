@@ -156,6 +156,10 @@ pub(crate) fn cone(base: [f64; 3], up: [f64; 3], radius: f64) -> ir::Shape {
     ir::Shape::Cone(ir::Cone { base, up, radius })
 }
 
+pub(crate) fn paraboloid(base: [f64; 3], up: [f64; 3], radius: f64) -> ir::Shape {
+    ir::Shape::Paraboloid(ir::Paraboloid { base, up, radius })
+}
+
 pub(crate) fn torus(center: [f64; 3], axis: [f64; 3], major: f64, minor: f64) -> ir::Shape {
     ir::Shape::Torus(ir::Torus {
         center,

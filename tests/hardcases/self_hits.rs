@@ -43,7 +43,7 @@ fn least(form: &Form, at: &Interaction, outward: bool, cosine: f64) -> Option<f6
         Kind::Patch => Some(form.radius * tilted * 0.1),
         Kind::Torus if outward => Some((form.radius - form.minor) * tilted),
         Kind::Torus => Some(form.minor * tilted),
-        Kind::Cylinder | Kind::Cone => middle().map(|size| size * tilted),
+        Kind::Cylinder | Kind::Cone | Kind::Paraboloid => middle().map(|size| size * tilted),
         Kind::Mesh => None,
     }
 }

@@ -5,8 +5,9 @@ use super::mesh::Mesh;
 use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
-    Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Plane, PreparedMesh, Quad,
-    Ray, Shape, Shear, Sphere, TexturedSphere, TexturedTriangle, Torus, Triangle,
+    Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Paraboloid, Plane,
+    PreparedMesh, Quad, Ray, Shape, Shear, Sphere, TexturedSphere, TexturedTriangle, Torus,
+    Triangle,
 };
 use std::sync::Arc;
 
@@ -21,11 +22,12 @@ pub(crate) enum Kind {
     Disc,
     Cylinder,
     Cone,
+    Paraboloid,
     Torus,
     Mesh,
 }
 
-pub(crate) const KINDS: [(Kind, &str); 10] = [
+pub(crate) const KINDS: [(Kind, &str); 11] = [
     (Kind::Sphere, "sphere"),
     (Kind::Plane, "plane"),
     (Kind::Triangle, "triangle"),
@@ -34,6 +36,7 @@ pub(crate) const KINDS: [(Kind, &str); 10] = [
     (Kind::Disc, "disc"),
     (Kind::Cylinder, "cylinder"),
     (Kind::Cone, "cone"),
+    (Kind::Paraboloid, "paraboloid"),
     (Kind::Torus, "torus"),
     (Kind::Mesh, "mesh instance"),
 ];
@@ -48,7 +51,12 @@ impl Kind {
     pub(crate) fn is_solid(self) -> bool {
         matches!(
             self,
-            Self::Sphere | Self::Cylinder | Self::Cone | Self::Torus | Self::Mesh
+            Self::Sphere
+                | Self::Cylinder
+                | Self::Cone
+                | Self::Paraboloid
+                | Self::Torus
+                | Self::Mesh
         )
     }
 }
@@ -134,6 +142,12 @@ impl Form {
                 inner.height -= gap * (1.0 + slant / self.radius);
                 inner.radius *= inner.height / self.height;
             }
+            Kind::Paraboloid => {
+                let scale = 1.0 - 1.5 * gap / self.height.min(self.radius);
+                inner.center += self.axis * gap;
+                inner.height *= scale;
+                inner.radius *= scale;
+            }
             Kind::Torus => inner.minor -= gap,
             Kind::Mesh => {
                 inner.radius *= 1.0 - gap / self.radius;
@@ -169,6 +183,9 @@ impl Form {
             Kind::Disc => Shape::Disc(Disc::new(center, axis, radius)),
             Kind::Cylinder => Shape::Cylinder(Cylinder::new(center, axis, self.height, radius)),
             Kind::Cone => Shape::Cone(Cone::new(center, axis * self.height, radius)),
+            Kind::Paraboloid => {
+                Shape::Paraboloid(Paraboloid::new(center, axis * self.height, radius))
+            }
             Kind::Torus => Shape::Torus(Torus::new(center, axis, radius, self.minor)),
             Kind::Mesh => {
                 let axes = [side, other, axis * self.height].map(|v| v * (radius / side.length()));
@@ -192,7 +209,7 @@ impl Form {
                 };
                 self.center + side * random.between(0.02, end) + other * random.between(0.02, end)
             }
-            Kind::Cylinder | Kind::Cone => {
+            Kind::Cylinder | Kind::Cone | Kind::Paraboloid => {
                 self.center
                     + self.axis * (self.height * random.uniform())
                     + random.cube() * self.radius
