@@ -113,6 +113,20 @@ mod tests {
             Features::EVERYTHING
         );
         assert_eq!(Features::EVERYTHING.count(), 9);
+        let of_paths = [
+            PathFeatures::ALPHA,
+            PathFeatures::AIM,
+            PathFeatures::SHADOWS,
+            PathFeatures::MICROFACETS,
+            PathFeatures::TRANSMISSION,
+            PathFeatures::LAYERS,
+        ];
+        assert!(of_paths.iter().all(|feature| feature.0.count_ones() == 1));
+        let all_of_paths = of_paths
+            .into_iter()
+            .fold(PathFeatures::NONE, PathFeatures::with);
+        assert_eq!(all_of_paths, PathFeatures::EVERYTHING);
+        assert_eq!(PathFeatures::EVERYTHING.0.count_ones(), 6);
         let two = Features::MAPS.with(Features::LIGHT);
         assert_eq!(two.with(Features::LIGHT), two);
         assert!(two.contains(Features::LIGHT) && two.contains(two) && two.contains(Features::NONE));

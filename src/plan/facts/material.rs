@@ -119,6 +119,49 @@ mod tests {
         let back = standard_of_phong(&wall);
         assert_eq!(back.base_color.map(UnitInterval::get), [1.0; 4]);
         assert_eq!((back.metallic.get(), back.specular.get()), (0.0, 0.0));
+        assert_eq!((WHITE.specular.get(), WHITE.ior.get()), (0.0, 1.0));
+        assert!(!back.is_seen_from_one_side());
+    }
+
+    #[test]
+    fn a_rough_highlight_is_wide_and_the_smoothest_has_an_end() {
+        let exponent = |roughness| {
+            let roughness = UnitInterval::saturating(roughness);
+            let standard = Standard { roughness, ..WHITE };
+            phong_of_standard(&standard).n.get()
+        };
+        assert_eq!([0.5, 1.0, 0.0].map(exponent), [4.0, 1.0, 1e4]);
+    }
+
+    #[test]
+    fn a_highlight_is_the_roughness_of_a_colour_that_is_whole_where_it_outshines_the_diffuse_term()
+    {
+        let seen = |kd: f64, ks: f64| {
+            standard_of_phong(&Phong {
+                kd: number(kd),
+                ks: number(ks),
+                n: number(30.0),
+                eta: Positive::new(1.75).unwrap(),
+                ..matt()
+            })
+        };
+        let weights = [(0.5, 0.5), (0.5, 0.25), (0.5, 0.75)];
+        let colors = weights.map(|(kd, ks)| seen(kd, ks).base_color[0].get());
+        assert_eq!(colors, [0.5, 0.5, 1.0]);
+        // √√(2/(30 + 2))
+        let shiny = seen(0.5, 0.5);
+        assert_eq!((shiny.roughness.get(), shiny.ior.get()), (0.5, 1.75));
+    }
+
+    #[test]
+    fn what_neither_scatters_nor_mirrors_is_black() {
+        let kd = NonNegative::ZERO;
+        let black = standard_of_phong(&Phong { kd, ..matt() });
+        assert_eq!(
+            black.base_color.map(UnitInterval::get),
+            [0.0, 0.0, 0.0, 1.0]
+        );
+        assert_eq!((black.metallic.get(), black.specular.get()), (0.0, 0.0));
     }
 
     #[test]
@@ -133,6 +176,7 @@ mod tests {
         let [r, g, b, alpha] = metal.base_color.map(UnitInterval::get);
         assert_eq!([r, g, b, alpha], [0.75, 0.75, 0.75, 1.0]);
         assert_eq!((metal.metallic.get(), metal.roughness.get()), (1.0, 0.0));
+        assert_eq!(metal.specular.get(), 1.0);
     }
 
     #[test]
@@ -153,6 +197,7 @@ mod tests {
         let seen = standard_of_phong(&glass);
         assert_eq!((seen.transmission.get(), seen.thickness.get()), (1.0, 1.0));
         assert_eq!((seen.ior.get(), seen.roughness.get()), (1.0, 0.0));
+        assert_eq!(seen.specular.get(), 1.0);
         assert_eq!(
             seen.base_color.map(UnitInterval::get),
             [0.5, 0.25, 0.0, 1.0]

@@ -176,8 +176,12 @@ impl Draft<'_> {
             }
             Effect::Textures => self.any_map(false),
             Effect::NormalMapping => self.any_map(true),
-            Effect::NormalInterpolation => self.any_mesh(|mesh| !mesh.normals.is_empty()),
-            Effect::VertexColors => self.used_meshes().any(|mesh| !mesh.colors.is_empty()),
+            Effect::NormalInterpolation => {
+                let is_shaded = |material: &Standard| self.max_depth > 0 && !material.unlit;
+                self.used_meshes()
+                    .any(|(material, mesh)| is_shaded(material) && !mesh.normals.is_empty())
+            }
+            Effect::VertexColors => self.used_meshes().any(|(_, mesh)| !mesh.colors.is_empty()),
             Effect::DepthBuffer
             | Effect::NormalBuffer
             | Effect::SoftLight
@@ -193,18 +197,16 @@ impl Draft<'_> {
         surfaces.filter_map(|(surface, is_left)| is_left.then_some(surface))
     }
 
-    fn used_meshes(&self) -> impl Iterator<Item = &Mesh> {
+    /// The meshes in the world, each with its material.
+    fn used_meshes(&self) -> impl Iterator<Item = (&Standard, &Mesh)> {
         self.used_surfaces().filter_map(|surface| {
             if let Shape::Instance(instance) = &surface.shape {
-                Some(&*self.scene.meshes()[instance.mesh])
+                let mesh = &*self.scene.meshes()[instance.mesh];
+                Some((&self.materials[surface.material], mesh))
             } else {
                 None
             }
         })
-    }
-
-    fn any_mesh(&self, has: impl Fn(&Mesh) -> bool) -> bool {
-        self.any(|_| true) && self.used_meshes().any(has)
     }
 
     /// Whether any normal map, or any other map, is looked up.
@@ -256,7 +258,7 @@ impl Draft<'_> {
 
     /// Whether there is a light to sample, and a surface with a lobe that is not a delta lobe.
     fn aims_at_lights(&self) -> bool {
-        self.aims && self.max_depth > 0 && self.any(|_| true) && self.has_light_to_aim_at()
+        self.aims && self.any(|_| true) && self.has_light_to_aim_at()
     }
 
     /// Whether the light distribution has a light that may reach a surface.

@@ -33,7 +33,6 @@ impl Presence {
     fn and(self, exists: bool, is_first: bool) -> Self {
         match (self, exists) {
             (_, true) if is_first => Self::Everywhere,
-            (_, false) if is_first => Self::Never,
             (Self::Everywhere, true) => Self::Everywhere,
             (Self::Never, false) => Self::Never,
             (Self::Never | Self::Somewhere | Self::Everywhere, _) => Self::Somewhere,
@@ -99,7 +98,8 @@ impl Uses {
         }
     }
 
-    /// Whether a channel has a property wherever these surfaces show a map.
+    /// Whether a channel has a property wherever these surfaces show a map, and 1 has it, which a map
+    /// is without texture coordinates.
     pub(super) fn all(
         &self,
         map: &Map,
@@ -107,10 +107,7 @@ impl Uses {
         textures: &TextureValues<'_>,
         holds: impl Fn(f64) -> bool,
     ) -> bool {
-        let presence = self.presence(map);
-        let is_sound = presence == Presence::Everywhere || holds(1.0);
-        let area = self.areas[map.set.index()];
-        is_sound && (presence == Presence::Never || textures.all(map, area, channel, holds))
+        holds(1.0) && textures.all(map, self.areas[map.set.index()], channel, holds)
     }
 }
 

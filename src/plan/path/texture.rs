@@ -209,7 +209,7 @@ fn texels([low, high]: [f64; 2], count: u32, wrap: Wrap) -> Range<u32> {
     // Outside of the unit square, a clamped image repeats its outermost texels.
     let first = first.clamp(0.0, size - 1.0).floor() as u32;
     let last = last.clamp(1.0, size).ceil() as u32;
-    first..last.max(first + 1)
+    first..last
 }
 
 #[cfg(test)]
@@ -248,6 +248,8 @@ mod tests {
         assert_eq!(texels([0.5, 1.5], 64, Wrap::Repeat), 0..64);
         assert_eq!(texels([1.4, 1.5], 64, Wrap::Mirror), 0..64);
         assert_eq!(texels([1e7, 1e7], 64, Wrap::Clamp), 0..64);
+        assert_eq!(texels([-FAR, 0.0], 64, Wrap::Clamp), 0..64);
+        assert_eq!(texels([0.5, FAR], 64, Wrap::Clamp), 0..64);
         let Area([none, _]) = Area::NONE;
         assert_eq!(texels(none, 64, Wrap::Clamp), 0..64, "no place known");
     }
@@ -283,6 +285,16 @@ mod tests {
         assert_eq!(values(0..2, 0..2), [None, zero, nine, one]);
         assert_eq!(values(0..2, 1..2), [byte(3), zero, nine, one]);
         assert_eq!(values(1..2, 0..1), [byte(2), zero, nine, one]);
+        let is_whole = |columns, rows| {
+            let image = &image;
+            Part {
+                image,
+                columns,
+                rows,
+            }
+            .is_whole()
+        };
+        assert!(is_whole(0..2, 0..2) && !is_whole(0..2, 1..2) && !is_whole(1..2, 0..2));
     }
 
     #[test]

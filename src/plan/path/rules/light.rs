@@ -211,36 +211,40 @@ fn is_out_of_reach(light: &Punctual, body: &Body) -> bool {
     let (Some(space), Punctual::Point(light)) = (body.space(), light) else {
         return false;
     };
+    let margin = 8.0 * MARGIN * (space.size() + light.position.abs().max_element());
     let is_beyond = match light.falloff {
-        Falloff::Ranged(range) => {
-            let margin = 8.0 * MARGIN * (space.size() + light.position.abs().max_element());
-            space.distance(light.position) > range.get() * (1.0 + MARGIN) + margin
-        }
+        Falloff::Ranged(range) => space.distance(light.position) > range.get() + margin,
         Falloff::None | Falloff::Square => false,
     };
     let cone = light.profile.bounding_cone();
-    is_beyond || cone.is_some_and(|(axis, cosine)| is_beside(space, light.position, axis, cosine))
+    is_beyond || cone.is_some_and(|cone| is_beside(space, light.position, cone, margin))
 }
 
-/// Whether the ball around a box lies outside of a cone, given by its apex, its axis and the cosine
-/// of its half angle.
-fn is_beside(space: &Space, apex: Vec3, axis: Vec3, cosine: f64) -> bool {
-    /// Far above the rounding error of a cosine.
-    const SLACK: f64 = 1e-9;
+/// Far above the rounding error of the cosine of an angle.
+const SLACK: f64 = 1e-12;
+
+/// Whether the ball around a box lies outside of a cone by a margin: the cone is given by its apex, its
+/// axis and the cosine of its half angle.
+fn is_beside(space: &Space, apex: Vec3, (axis, cosine): (Vec3, f64), margin: f64) -> bool {
+    // Widen the cone: where it is narrow, a rounding error of the cosine is a large one of the angle.
+    let cosine = cosine - SLACK;
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    // Compute the distance of the centre from the side of the cone, a lower bound on that from it.
     let center = space.min * 0.5 + space.max * 0.5;
-    let radius = (space.max - center).length() * (1.0 + SLACK) + MARGIN * space.size();
-    let (to, sine) = (center - apex, (1.0 - cosine * cosine).max(0.0).sqrt());
+    let to = center - apex;
     let along = to.dot(axis);
     let across = (to.length_squared() - along * along).max(0.0).sqrt();
-    // A lower bound on the distance to the cone: the distance to its side.
     let outside = across * cosine - along * sine;
-    outside > radius + SLACK * to.length()
+    outside > (space.max - center).length() + margin
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{cos, sin};
+    use crate::math::{Positive, cos, sin};
+    use crate::plan::body::Extent;
+    use crate::profile::Profile;
+    use crate::valid::{DirectionalLight, PointLight};
 
     #[test]
     fn a_box_is_beside_a_cone_where_the_ball_around_it_is() {
@@ -251,11 +255,75 @@ mod tests {
             let apex = Vec3::new(1.0, -2.0, 3.0);
             let center = apex + Vec3::new(sin(angle), 0.0, cos(angle)) * 4.0;
             let space = Space::around(center, Vec3::splat(0.1));
-            assert_eq!(
-                is_beside(&space, apex, Vec3::Z, cosine),
-                is_outside,
-                "{degrees}°"
-            );
+            let is_beside = is_beside(&space, apex, (Vec3::Z, cosine), 0.0);
+            assert_eq!(is_beside, is_outside, "{degrees}°");
         }
+    }
+
+    #[test]
+    fn the_narrowest_cone_has_an_angle_that_its_cosine_can_not_tell() {
+        for (angle, is_outside) in [(1e-7, false), (1e-5, true)] {
+            let space = Space::around(Vec3::new(4.0 * angle, 0.0, 4.0), Vec3::splat(1e-12));
+            let is_beside = is_beside(&space, Vec3::ZERO, (Vec3::Z, 1.0), 0.0);
+            assert_eq!(is_beside, is_outside, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_box_beside_a_cone_keeps_a_margin_from_it() {
+        // A half space, half a unit before a box that lies in a ball of an eighth.
+        let space = Space::around(Vec3::new(0.0, 0.0, -0.5), Vec3::X * 0.125);
+        let is_beside = |margin| is_beside(&space, Vec3::ZERO, (Vec3::Z, SLACK), margin);
+        assert!(!is_beside(0.375) && is_beside(0.3749));
+    }
+
+    #[test]
+    fn a_range_ends_before_a_box_by_a_margin_that_grows_with_both_coordinates() {
+        let body = Body {
+            extent: Extent::Within(Space {
+                min: Vec3::new(0.0625, -0.125, -0.125),
+                max: Vec3::splat(0.125),
+            }),
+            form: Hull::Other,
+        };
+        let is_out = |margin: f64, outer: f64| {
+            let cone = Profile::Cone {
+                axis: Vec3::Z,
+                inner: 1.0,
+                outer,
+            };
+            [Profile::Uniform, cone].map(|profile| {
+                let light = PointLight {
+                    position: Vec3::X * -0.125,
+                    intensity: Vec3::ONE,
+                    profile,
+                    falloff: Falloff::Ranged(Positive::new(0.1875 - margin).unwrap()),
+                };
+                is_out_of_reach(&Punctual::Point(light), &body)
+            })
+        };
+        let margin = 8.0 * MARGIN * (0.125 + 0.125);
+        assert_eq!(is_out(margin, 0.0), [false, false]);
+        assert_eq!(is_out(1.01 * margin, 0.0), [true, true]);
+        // The spot shines past the box.
+        assert_eq!(is_out(0.0, 0.99), [false, true]);
+    }
+
+    #[test]
+    fn a_sun_is_off_a_plane_beyond_the_error_of_its_direction() {
+        let flat = Flat {
+            point: Vec3::ZERO,
+            normal: Vec3::Z,
+        };
+        let is_off = |height: f64| {
+            let direction = Vec3::new(1.0, 0.0, height);
+            let irradiance = Vec3::ONE;
+            let sun = DirectionalLight {
+                direction,
+                irradiance,
+            };
+            is_off(&Punctual::Directional(sun), &flat)
+        };
+        assert!(!is_off(4.0 * MARGIN) && is_off(4.1 * MARGIN) && is_off(-1.0));
     }
 }

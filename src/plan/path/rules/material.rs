@@ -24,8 +24,8 @@ fn without_zeros(draft: &Draft<'_>, index: usize, m: &Standard) -> Standard {
         |map: &Option<Map>, channel| draft.is_zero(index, map.as_ref(), channel..channel + 1);
     let are_zero = |map: &Option<Map>| draft.is_zero(index, map.as_ref(), 0..3);
     if weighs(m.transmission) && is_zero(&m.transmission_map, 0) {
-        // Only the factor decides whether the camera sees back faces.
-        new.double_sided = !m.is_seen_from_one_side();
+        // The factor alone decides that the camera sees back faces.
+        new.double_sided = true;
         new.transmission = UnitInterval::ZERO;
     }
     for layer in Layer::ALL.into_iter().filter(|layer| layer.is_in(m)) {

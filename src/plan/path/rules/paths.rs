@@ -83,10 +83,8 @@ pub(super) const CULL_SHADOW: PathRule = PathRule {
            what they send to the whole scene, of which the surface is a part.",
     because: "no ray of the camera meets it, and it is not between a surface in view and a light",
     apply: |draft| {
-        if draft.bounces() || !draft.asks(Effect::Shadows) || draft.has_extended_light() {
-            return Vec::new();
-        }
-        if is_choice_by_size(draft) {
+        // A path goes on to each light with an extent.
+        if draft.bounces() || !draft.asks(Effect::Shadows) || is_choice_by_size(draft) {
             return Vec::new();
         }
         let unmet = unmet_by_shadow_rays(draft).unwrap_or_default();
@@ -170,4 +168,23 @@ fn end_paths(draft: &mut Draft<'_>, is_enough: bool) -> Vec<Place> {
     draft.max_depth = 0;
     draft.last_ray = false;
     vec![depth()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::valid::DirectionalLight;
+
+    #[test]
+    fn a_ray_to_a_sun_is_followed_to_beyond_the_other_box() {
+        let sun = Punctual::Directional(DirectionalLight {
+            direction: Vec3::X,
+            irradiance: Vec3::ONE,
+        });
+        let start = Space::around(Vec3::new(1.0, 0.5, 0.0), Vec3::splat(0.5));
+        let other = Space::around(Vec3::new(3.0, 0.5, 0.0), Vec3::splat(0.25));
+        // Twice the largest coordinates of both, 1.5 and 3.25.
+        let beyond = Space::around(Vec3::new(10.5, 0.5, 0.0), Vec3::splat(0.5));
+        assert_eq!(end(&sun, &start, &other), beyond);
+    }
 }
