@@ -16,8 +16,11 @@ mod extreme;
 mod lamps;
 mod law;
 mod need;
+mod path_effects;
 mod path_materials;
 mod path_rules;
+mod path_scenes;
+mod path_told;
 mod paths;
 mod precision;
 #[path = "../scale/mod.rs"]

@@ -277,3 +277,69 @@ fn veils_dim_a_light_alike_with_a_veiled_solid_that_is_left_out() {
     );
     fires(Rule::PathCullShadow, &scene);
 }
+
+#[test]
+fn a_solid_hides_no_light_unless_the_camera_or_the_light_is_inside() {
+    let from = |eye: f64, light: f64| {
+        let mut scene = traced(&[(ball([0.0; 3], 1.0), white())]);
+        scene.camera.eye[2] = eye;
+        scene.camera.center[2] = eye - 10.0;
+        scene.lights = vec![lamp([0.0, 0.0, light])];
+        fires(Rule::PathShadowAlone, &scene)
+    };
+    assert!(from(10.0, 12.0) && from(1.1, -1.1));
+    assert!(!from(10.0, 0.9) && !from(0.9, 12.0) && !from(10.0, -0.9));
+}
+
+#[test]
+fn a_flat_surface_hides_a_lamp_in_its_plane() {
+    let lit_from = |at: [f64; 3]| {
+        let mut scene = traced(&[(disc([0.0; 3], 2.0), white())]);
+        scene.lights = vec![lamp(at)];
+        fires(Rule::PathShadowAlone, &scene)
+    };
+    assert!(lit_from([3.0, 1.0, 0.1]) && lit_from([3.0, 1.0, -0.1]));
+    assert!(!lit_from([3.0, 1.0, 0.0]));
+}
+
+#[test]
+fn a_lens_sees_what_is_out_of_the_view_of_a_pinhole() {
+    let unlit = Standard {
+        unlit: true,
+        ..white()
+    };
+    let seen_by = |radius: f64| {
+        let beside = ball([2.2, 0.0, 5.0], 0.3);
+        let mut scene = traced(&[
+            (disc([0.0; 3], 4.0), unlit.clone()),
+            (beside, unlit.clone()),
+        ]);
+        scene.camera.lens = ir::Lens { radius, samples: 4 };
+        fires(Rule::PathCull, &scene);
+        Plan::new(&proven(&scene), Rules::ALL).surfaces[1]
+    };
+    assert!(!seen_by(0.0) && seen_by(1.0));
+}
+
+#[test]
+fn half_a_million_pairs_are_tested_and_no_more() {
+    // So many in view, so many out of view, and a light.
+    let leaves_out = |seen: u32, unseen: u32| {
+        let mut scene = traced(&[]);
+        scene.settings.max_depth = 1;
+        scene.lights = vec![lamp([0.0, 0.0, 12.0])];
+        for index in 0..seen + unseen {
+            let at = f64::from(index % 1000) * 1e-3;
+            let (x, z) = if index < seen {
+                (at, 0.0)
+            } else {
+                (at - 9.0, 12.0)
+            };
+            add(&mut scene, &ball([x, 0.0, z], 1e-4), &white());
+        }
+        let plan = Plan::new(&proven(&scene), Rules::ALL);
+        plan.surfaces.iter().filter(|is_left| !**is_left).count()
+    };
+    assert_eq!(leaves_out(1000, 500), 500);
+    assert_eq!(leaves_out(1000, 501), 0);
+}

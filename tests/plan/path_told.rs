@@ -1,0 +1,123 @@
+//! What an explanation of a traced scene says: each effect, what became of it, why, and the values
+//! that decided.
+
+use super::path_effects::lit;
+use super::path_materials::FIRST;
+use super::path_rules::white;
+use super::path_scenes::{cover, path, sky, standard};
+use super::proven;
+use rtc::ir::{self, Alpha, Emitter, ImageId, Punctual, Scene, Standard, Texture};
+use rtc::plan::{Plan, Rule, Rules, State, Verdict};
+
+/// What is told of the effects in some state, a line each: the effect, the rule, the reason, the
+/// values.
+fn told(scene: &Scene, state: State) -> String {
+    let line = |verdict: &Verdict| {
+        let places = verdict.facts.iter();
+        let places = places.map(|place| format!(" {:?} {}", place.noun, place.index));
+        let rule = verdict.rule.map_or("", Rule::name);
+        let (effect, because) = (verdict.effect.name(), &verdict.because);
+        format!("{effect}: {rule} {because};{}", places.collect::<String>())
+    };
+    let plan = Plan::new(&proven(scene), Rules::ALL);
+    let verdicts = plan
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.state == state);
+    verdicts.map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// What [`told`] says of a white ball before a white disc.
+const ABSENT: &str = "\
+environment:  the scene has no environment;
+environment map:  the environment has no image;
+emission:  no material emits light;
+unlit surfaces:  no material is unlit;
+alpha:  all materials are opaque;
+light weights:  no light can be found both by aiming and by scattering;
+microfacets:  no material reflects at its boundary;
+compensation:  no light bounces between microfacets;
+clearcoat:  no material has a clearcoat;
+sheen:  no material has sheen;
+anisotropy:  no material is anisotropic;
+iridescence:  no material is iridescent;
+translucency:  no material is translucent;
+refraction:  no material transmits light;
+absorption:  no medium absorbs light;
+dispersion:  no material disperses light;
+textures:  no material has a texture;
+corner colours:  no mesh has colours at its corners;
+corner normals:  no mesh has normals;
+normal maps:  no material has a normal map;
+lens:  a pinhole: the lens has radius 0;";
+
+/// What it says of [`rich`].
+const NEEDED: &str = "\
+surfaces:  3 of 3 may be met by a ray; Surface 0
+environment:  paths that leave the scene find light; Environment 0
+environment map:  the environment has an image; Environment 0
+emission:  1 material; Material 2
+direct light:  a surface is lit by a light that can be aimed at; Light 0
+shadows:  a surface may hide a light from another, or from itself; Light 0
+light weights:  aiming and scattering find the same light; Light 0
+bounces:  at most 2 bounces; Settings 0
+microfacets:  1 material; Material 0
+compensation:  light bounces between the facets of rough surfaces; Settings 0
+clearcoat:  2 materials; Material 0 Material 1
+textures:  a material has a texture; Material 2
+corner colours:  a mesh has colours at its corners; Surface 0
+corner normals:  a mesh has normals at its corners; Surface 0
+normal maps:  a material has a normal map; Material 2
+lens:  a lens of radius 0.25; Camera 0
+supersampling:  4 paths a pixel; Settings 0";
+
+#[test]
+fn each_effect_is_told_with_its_reason_and_the_values_that_decided() {
+    let plain = lit(&white());
+    assert_eq!(told(&plain, State::Absent), ABSENT);
+    assert_eq!(told(&rich(), State::Needed), NEEDED);
+    // The last ray of a plain scene finds nothing that shines.
+    let needed = told(&plain, State::Needed);
+    assert!(needed.contains("bounces:  at most 1 bounce;"), "{needed}");
+}
+
+#[test]
+fn what_is_pruned_is_told_with_its_own_rule() {
+    // A black light is left out before.
+    let rule = "P-ALPHA alpha is 1, or above the cutoff, wherever a surface lies";
+    let told = told(&rich(), State::Pruned);
+    assert_eq!(told, format!("alpha: {rule}; Material 1"));
+}
+
+/// A scene that calls for nearly everything, and for some of it in vain.
+fn rich() -> Scene {
+    let coated = Standard {
+        clearcoat: 1.0,
+        specular: 1.0,
+        ..white()
+    };
+    let mut scene = lit(&coated);
+    standard(&mut scene.materials[1]).clearcoat = 0.5;
+    standard(&mut scene.materials[1]).alpha = Alpha::Blend;
+    sky(&mut scene, 1.0, Some([9, 10]));
+    scene.textures = vec![Texture::Image(ImageId(0))];
+    let with_normals_and_colors = |mesh: &mut ir::Mesh| {
+        mesh.normals = vec![[0.0, 0.0, 1.0]; 3].into();
+        mesh.colors = vec![[0.5; 4]; 3].into();
+    };
+    cover(&mut scene, with_normals_and_colors, |m| {
+        (m.emissive, m.base_color_map, m.normal_map) = ([1.0; 3], Some(FIRST), Some(FIRST));
+    });
+    path(&mut scene).multiple_scattering = true;
+    scene.camera.lens = ir::Lens {
+        radius: 0.25,
+        samples: 4,
+    };
+    scene.lights.push(ir::Light::Punctual(Punctual {
+        emitter: Emitter::Sun {
+            direction: [0.0, 0.0, 1.0],
+        },
+        intensity: [0.0; 3],
+    }));
+    scene
+}
