@@ -1,8 +1,9 @@
 """How many mutants of `src/plan` its tests kill, as Markdown; `benches/mutants.sh` says how to ask.
 
 All mutants that `cargo mutants` lists are compiled into one copy of the tree: the body of each function becomes a choice
-among its mutants, by the environment variable MUTANT. What a constant or a `const fn` says is fixed when it is compiled:
-those mutants are built one by one, by themselves in a file that names no other. A mutant that does not compile is not counted.
+among its mutants, by the environment variable MUTANT; so does the closure of a rule. What a constant or a `const fn` says is
+fixed when it is compiled: those mutants are built one by one, by themselves in a file that names no other. A mutant that does
+not compile is not counted. A test that fails ends its process: no other has to run.
 """
 
 import json
@@ -13,19 +14,24 @@ import resource
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 CHOICES, ALONE = Path("target/mutants/choices"), Path("target/mutants/alone")
 # Unit tests of a file, or those of the plan, then its suite, what takes longest last: (program, arguments).
-SLOW = ["law::", "validation::", "counters::"]
+SLOW = ["law::", "validation::", "counters::", "paths::"]
 STAGES = [
-    ("file", []), ("rtc", ["plan::"]), ("plan", [f"--skip={name}" for name in SLOW]), ("plan", SLOW), ("shared", ["plan: "]),
+    ("file", []), ("rtc", ["plan::"]), ("plan", ["path_"]), ("plan", [f"--skip={name}" for name in ["path_", *SLOW]]),
+    ("plan", SLOW), ("shared", ["plan: "]),
 ]
 CHOICE = """//! Which mutant runs.
 /// Its number, or 0.
 pub fn chosen() -> u32 {
     static CHOSEN: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
-    *CHOSEN.get_or_init(|| std::env::var("MUTANT").map_or(0, |number| number.parse().expect("a number")))
+    *CHOSEN.get_or_init(|| {
+        std::panic::set_hook(Box::new(|_| std::process::exit(101)));
+        std::env::var("MUTANT").map_or(0, |number| number.parse().expect("a number"))
+    })
 }
 """
 
@@ -36,11 +42,17 @@ def offsets(text, span):
     return [sum(map(len, lines[: end["line"] - 1])) + end["column"] - 1 for end in (span["start"], span["end"])]
 
 
+def closure(text, at):
+    """Where the closure of a rule around a place starts and ends, if there is one."""
+    spans = (found.span(1) for found in re.finditer(r"^    \w+: (\|\w+\| \{.*?^    \})", text, re.M | re.S))
+    return next((span for span in spans if span[0] <= at < span[1]), None)
+
+
 class Mutant:
     def __init__(self, number, told, text):
         self.number, self.name, self.file = number, told["name"], told["file"]
         self.replacement, self.at = told["replacement"], offsets(text, told["span"])
-        self.function = offsets(text, told["function"]["span"]) if told["function"] else None
+        self.function = offsets(text, told["function"]["span"]) if told["function"] else closure(text, self.at[0])
         self.is_fixed = not self.function or "const fn " in text[self.function[0] : self.at[0]]
         self.is_viable = True
 
@@ -66,7 +78,7 @@ def functions(mutants):
 
 def chosen_body(text, start, end, mutants):
     """Where the body of a function starts, and the choice among its mutants."""
-    fn = re.compile(r"fn \w+[<(][^{]*").search(text, start, end)
+    fn = re.compile(r"fn \w+[<(][^{]*|\|\w+\| (?=\{)").search(text, start, end)
     iterator = re.search(r"-> impl Iterator<Item = (.*)> $", fn[0])
     before, after = ("(", ").collect::<Vec<_>>()") if iterator else ("", "")
     arms = [f"{m.number} => {before}{m.apply(text, fn.end(), end)}{after},\n" for m in mutants if m.is_viable]
@@ -93,11 +105,8 @@ def write(path, text):
         path.write_text(text)
 
 
-def copy_tree(tree, texts, level):
-    """Copies the library, but for the texts, and the suites; what else they read is seen through links.
-
-    Without its own optimisation, of `level`, the crate is built in a third of the time.
-    """
+def copy_tree(tree, texts):
+    """Copies the library, but for the texts, and the suites; what else they read is seen through links."""
     tracked = subprocess.check_output(["git", "ls-files"], text=True).splitlines()
     tree.mkdir(parents=True, exist_ok=True)
     for name in {file.split("/")[0] for file in tracked} - {"src", "tests", "Cargo.toml"} | {"../shared"}:
@@ -110,16 +119,20 @@ def copy_tree(tree, texts, level):
             (tree / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, tree / file)
     write(tree / "src/mutant.rs", CHOICE)
-    toml = Path("Cargo.toml").read_text() + f"\n[profile.dev.package.rtc]\nopt-level = {level}\n"
+    toml = Path("Cargo.toml").read_text()
     lints = ["arithmetic_overflow", "unconditional_panic", "unconditional_recursion"]
     toml = toml.replace("[lints.rust]\n", "[lints.rust]\n" + "".join(f'{lint} = "allow"\n' for lint in lints))
     write(tree / "Cargo.toml", toml)
 
 
 def build(tree):
-    """The test programs, by name; or the errors, each as the places it names."""
+    """The test programs, by name; or the errors, each as the places it names.
+
+    A mutant alone runs once: it is not optimised, which builds it in a third of the time.
+    """
     command = ["cargo", "test", "-j1", "--no-run", "--lib", "--test", "plan", "--test", "shared", "--message-format=json"]
     command.append(f"--target-dir={Path('target').resolve()}")
+    command.append(f"--config=profile.dev.package.rtc.opt-level={1 if tree == CHOICES else 0}")
     said = subprocess.run(command, cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     programs, errors = {}, []
     for message in map(json.loads, said.stdout.splitlines()):
@@ -160,7 +173,7 @@ def build_all(mutants, texts):
 
 def build_one(mutant, texts):
     """Builds a mutant alone; the test programs."""
-    if not re.search(r"crate::|super::(?!\*)", texts[mutant.file]):
+    if not re.search(r"crate::|super::(?!\*)", re.sub(r"//.*", "", texts[mutant.file])):
         return build_file(mutant, texts[mutant.file])
     for file, text in texts.items():
         write(ALONE / file, mutant.apply(text, 0, len(text)) if file == mutant.file else text)
@@ -207,6 +220,13 @@ def fate(programs, number, limits):
     return "survived"
 
 
+def judged(mutant, programs, number, limits):
+    """A mutant and its fate, which is told at once."""
+    end = fate(programs, number, limits)
+    print(end, mutant.name, file=sys.stderr, flush=True)
+    return mutant, end
+
+
 def limits_of(programs):
     """Twenty times what each stage takes where nothing is changed, and some seconds."""
     sound = [run(program, arguments, 0, 600) for program, arguments in stages(programs)]
@@ -235,17 +255,18 @@ def main(count, seed, pattern):
     picked = [mutant for mutant in mutants if re.search(pattern, mutant.name)]
     if count < len(picked):
         picked = random.Random(seed).sample(picked, count)
-    copy_tree(CHOICES, texts, 2)
-    copy_tree(ALONE, texts, 0)
-    programs = build_all([mutant for mutant in mutants if not mutant.is_fixed], texts)
-    limits, fates = limits_of(programs), []
-    for mutant in sorted(picked, key=lambda mutant: mutant.is_fixed):
-        if mutant.is_fixed:
-            programs = build_one(mutant, texts)
-        if mutant.is_viable:
-            fates.append((mutant, fate(programs, 0 if mutant.is_fixed else mutant.number, limits)))
-            print(fates[-1][1], mutant.name, file=sys.stderr, flush=True)
-    command = "benches/mutants.sh" + (f" {count} {seed} {pattern}" if len(picked) < len(mutants) else "")
+    copy_tree(CHOICES, texts)
+    copy_tree(ALONE, texts)
+    programs = build_all([mutant for mutant in picked if not mutant.is_fixed], texts)
+    limits = limits_of(programs)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        chosen = [mutant for mutant in picked if mutant.is_viable and not mutant.is_fixed]
+        fates = list(pool.map(lambda mutant: judged(mutant, programs, mutant.number, limits), chosen))
+    for mutant in picked:
+        alone = build_one(mutant, texts) if mutant.is_fixed else {}
+        if mutant.is_fixed and mutant.is_viable:
+            fates.append(judged(mutant, alone, 0, limits))
+    command = "benches/mutants.sh" + (f" {count} {seed} '{pattern}'" if len(picked) < len(mutants) else "")
     report(fates, sum(not mutant.is_viable for mutant in picked), command)
 
 
