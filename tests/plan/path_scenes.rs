@@ -71,7 +71,7 @@ fn mapped(scene: &mut Scene, texels: [u8; 2], change: fn(&mut Standard)) {
     cover(scene, |_| (), change);
 }
 
-const OF_SCENES: [OfScene; 28] = [
+const OF_SCENES: [OfScene; 30] = [
     (
         "no bounce",
         |s| s.settings.max_depth = 0,
@@ -125,6 +125,16 @@ const OF_SCENES: [OfScene; 28] = [
     (
         "no light",
         |s| s.lights.clear(),
+        [&[], &[Effect::DirectLight, Effect::Shadows, Effect::Depth]],
+        PathFeatures::NONE,
+    ),
+    (
+        "a black lamp",
+        |s| {
+            if let ir::Light::Punctual(lamp) = &mut s.lights[0] {
+                lamp.intensity = [0.0; 3];
+            }
+        },
         [&[], &[Effect::DirectLight, Effect::Shadows, Effect::Depth]],
         PathFeatures::NONE,
     ),
@@ -260,6 +270,22 @@ const OF_SCENES: [OfScene; 28] = [
         },
         [&[Effect::Unlit], &[]],
         LIT,
+    ),
+    (
+        "normals where no path goes on",
+        |s| {
+            cover(
+                s,
+                |mesh| mesh.normals = vec![[0.0, 0.0, 1.0]; 3].into(),
+                |m| m.emissive = [1.0; 3],
+            );
+            s.settings.max_depth = 0;
+        },
+        [
+            &[Effect::Emission],
+            &[Effect::DirectLight, Effect::Shadows, Effect::Depth],
+        ],
+        PathFeatures::NONE,
     ),
     (
         "colours",
