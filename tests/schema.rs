@@ -63,7 +63,10 @@ fn every_property_says_what_it_is() {
     }
     let camera = &schema["$defs"]["camera"]["properties"];
     assert_eq!(camera["apertureSamples"]["default"], json!(1));
-    assert_eq!(camera["viewSize"]["items"]["maximum"], json!(65_535));
+    assert_eq!(
+        camera["viewSize"]["anyOf"][0]["items"]["maximum"],
+        json!(65_535)
+    );
 }
 
 /// The scenes of the repository and all fixtures that a YAML reader takes, as JSON.
@@ -185,12 +188,14 @@ fn material() -> (Vec<&'static str>, Vec<Value>) {
                 SuperSampling AntiAlias GoochParameters alpha factor Lights Objects $schema other p3 p4 a d angle axis \
                 rotation side depth min max dimension direction height h ends p1 center1 center2 uv0 uv1 uv2 uv3 typ file \
                 path scale size normalMap specularMap pattern AA Reflections LightSamples CameraEye CameraLookPoint \
-                CameraUpVector Environment irradiance fov";
+                CameraUpVector Environment irradiance fov ImageSize Resolution AspectRatio SoftShadows \
+                AntiAliasing width x y";
     let values = json!([
         null, true, 0, 1, -1, 3, 0.5, -0.5, 2.0, 4.0, 70_000, 5e9, 1e-3, "text", "phong", "Z-Buffer", "gooch", "sphere",
         "plane", "triangle", "torus", "quad", "circle", "disk", "cylinder", "cone", "box", "mesh", "model", "bplane",
         "tetrahedron", "prism", "gltf", "sun", "point", "path", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
-        [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }
+        [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }, "On", "off",
+        { "x": 40, "y": 30 }, [{ "width": 40 }, { "height": 30 }], [{ "w": 40, "h": 30 }]
     ]);
     (
         keys.split_whitespace().collect(),

@@ -31,4 +31,7 @@ super::codes! { SC:
          ones.";
     NO_EFFECT = "SC011", Note, "a key has no effect with the other settings",
         "The key is read and checked, but another setting makes it irrelevant to this picture.";
+    ASSUMED = "SC012", Warning, "the file does not say all, and something is assumed",
+        "The message says what is missing and what is taken in its place. Write it out, so that the picture does not \
+         depend on the assumption.";
 }

@@ -3,8 +3,9 @@
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative, Opening};
+use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
-use super::value::{PictureSize, Point, Vector};
+use super::value::{Point, Vector};
 use crate::diag::{Severity, codes};
 use crate::ir::{self, Field};
 use crate::math::{BasisFault, Vec3, camera_basis, fallback_up, length, shortest, unit};
@@ -34,8 +35,8 @@ record! {
     }
 }
 
-/// The side of the image that an `Eye` looks at, in pixels and in scene units.
-const OLD_SIDE: u32 = 400;
+/// The size of the picture where neither a `Camera` nor an `ImageSize` says it.
+pub(super) const OLD_SIZE: PictureSize = PictureSize([400, 400]);
 
 /// A sound camera for a scene whose own can't be read.
 pub(super) fn placeholder() -> ir::Camera {
@@ -109,6 +110,7 @@ impl Lowering {
     pub(super) fn look(
         &mut self,
         [eye, center, up]: &[Spanned<Point>; 3],
+        size: PictureSize,
         context: &mut Context<'_>,
     ) {
         let camera = Camera {
@@ -116,7 +118,7 @@ impl Lowering {
             center: *center,
             up: up.map(|point| Vector(point.0)),
             right: FieldOutcome::Absent,
-            view_size: Spanned::unwritten(PictureSize([OLD_SIDE, OLD_SIDE])),
+            view_size: Spanned::unwritten(size),
             fov: FieldOutcome::Absent,
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
@@ -130,13 +132,14 @@ impl Lowering {
         );
     }
 
-    /// Lowers an `Eye`: it looks at the square of 400 units in the plane z = 0, one unit a pixel.
-    pub(super) fn eye(&mut self, eye: Spanned<Point>) {
-        let middle = f64::from(OLD_SIDE) / 2.0;
+    /// Lowers an `Eye`: it looks at a rectangle in the plane z = 0 that begins at the origin, one
+    /// unit a pixel.
+    pub(super) fn eye(&mut self, eye: Spanned<Point>, size: PictureSize) {
+        let [x, y] = size.0.map(|side| f64::from(side) / 2.0);
         self.scene.camera = ir::Camera {
             eye: eye.value.0,
-            center: [middle, middle, 0.0],
-            size: [OLD_SIDE, OLD_SIDE],
+            center: [x, y, 0.0],
+            size: size.0,
             ..placeholder()
         };
         self.origin(ir::Noun::Camera, 0, Field::Whole, eye.span);

@@ -141,6 +141,7 @@ impl Lowering {
             return;
         };
         self.view(&scene, context);
+        self.compare_sizes(&scene, context);
         self.settings(&scene, context);
         if let FieldOutcome::Read(environment) = &scene.environment {
             self.environment(environment);
@@ -151,7 +152,7 @@ impl Lowering {
             .decode_each(context, "Lights", |context, light| {
                 self.light(&light, context)
             });
-        self.soften(&scene);
+        self.soften(&scene, context);
         let count = scene.objects.value.len(context);
         scene
             .objects
@@ -169,15 +170,22 @@ impl Lowering {
     /// Chooses between the two cameras.
     fn view(&mut self, scene: &Scene, context: &mut Context<'_>) {
         let Scene {
-            camera, eye, look, ..
+            camera,
+            eye,
+            look,
+            image_size,
+            ..
         } = scene;
+        let size = image_size.ok().map_or(camera::OLD_SIZE, |size| size.value);
         match (camera, look, eye) {
             (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
                 no_camera(context)
             }
             (FieldOutcome::Read(camera), ..) => self.camera(camera, context),
-            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => self.look(look, context),
-            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Read(eye)) => self.eye(*eye),
+            (FieldOutcome::Absent, FieldOutcome::Read(look), _) => self.look(look, size, context),
+            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Read(eye)) => {
+                self.eye(*eye, size)
+            }
             (FieldOutcome::Broken, ..)
             | (_, FieldOutcome::Broken, _)
             | (.., FieldOutcome::Broken) => {}

@@ -264,6 +264,14 @@ number! {
     { "type": "integer", "minimum": 1, "maximum": 4_294_967_295_u32 }
 }
 
+/// The largest side of an image.
+const MAX_SIDE: u32 = 65_535;
+
+number! {
+    /// A side of an image in pixels.
+    Side(u32), |node, context| whole(1, MAX_SIDE, node, context), { "type": "integer", "minimum": 1, "maximum": MAX_SIDE }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,9 +6,11 @@ use super::environment::Environment;
 use super::light::Light;
 use super::material::Material;
 use super::object::{KINDS, ObjectKind};
+use super::picture::Sides;
 use super::record::{Field, Need, Record};
+use super::sampling::Grid;
 use super::schema::Definitions;
-use super::settings::{Gooch, Grid, Scene};
+use super::settings::{Gooch, Scene};
 use serde_json::Value as Json;
 use std::fmt::Write as _;
 
@@ -31,6 +33,7 @@ pub fn page() -> String {
     for (title, record) in [
         ("The file", &Scene::RECORD),
         ("`Camera`", &Camera::RECORD),
+        ("`ImageSize` as a map", &Sides::RECORD),
         ("`SuperSampling`", &Grid::RECORD),
         ("`GoochParameters`", &Gooch::RECORD),
         ("`Environment`", &Environment::RECORD),

@@ -8,12 +8,14 @@ use super::light::Light;
 use super::lower::Lowering;
 use super::number::{Count, Natural, Real, plain_number};
 use super::object::Object;
+use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
+use super::sampling::SuperSampling;
 use super::schema::Definitions;
-use super::value::{Point, Text, word, word_schema};
-use crate::diag::codes;
+use super::value::{Point, Switch, Text, word, word_schema};
+use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, Noun};
-use crate::source::tree::{NodeContent, NodeId};
+use crate::source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
 record! {
@@ -33,13 +35,21 @@ record! {
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
         shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"];
+        /// Whether lights with a radius make the edges of shadows soft: `Off` makes points of them. There are shadows only
+        /// with `Shadows`.
+        soft_shadows: Spanned<Switch>, optional, keys!["SoftShadows"];
         /// How many mirror or refraction bounces follow the first hit.
         depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"];
         /// Whether there are mirror images: `false` is a `MaxRecursionDepth` of 0, `true` one of 2 unless it is written.
         reflections: Spanned<bool>, optional, keys!["Reflections"];
         /// How many rays a pixel takes along each of its sides.
         sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
-            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAlias" "AA"];
+            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing" "AntiAlias" "AA"];
+        /// Width and height of the picture in pixels, beside an `Eye` or the three keys of a camera: the image begins at the
+        /// origin and has one unit a pixel. A `Camera` has its own size.
+        image_size: Spanned<PictureSize>, optional, keys!["ImageSize" "Resolution"];
+        /// Width over height of the picture; has no effect, because pixels are square and the size is given.
+        aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
         /// How many points of each soft light are asked; without it 16 if there is one.
         light_samples: Spanned<Count>, optional, keys!["LightSamples"];
         /// The colours of `RenderMode: gooch`.
@@ -135,88 +145,6 @@ impl Value for Mode {
     }
 }
 
-record! {
-    /// How many rays a pixel takes, and where they lie.
-    struct Grid, "`SuperSampling` map" {
-        /// How many rays a pixel takes along each of its sides.
-        factor: Spanned<Count>, required, keys!["factor"];
-        /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
-        /// pixel.
-        pattern: Spanned<Pattern>, default(Pattern(ir::Pattern::Grid)), keys!["pattern"];
-    }
-}
-
-/// Where in its cell each ray lies.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pattern(ir::Pattern);
-
-/// The words for the patterns.
-const PATTERNS: &[(&str, ir::Pattern)] = &[
-    ("grid", ir::Pattern::Grid),
-    ("jitter", ir::Pattern::Jitter),
-    ("random", ir::Pattern::Random),
-];
-
-impl Value for Pattern {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        word(node, PATTERNS, context).map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        word_schema(PATTERNS)
-    }
-
-    fn json(&self) -> Json {
-        PATTERNS
-            .iter()
-            .find(|(_, pattern)| *pattern == self.0)
-            .map_or(Json::Null, |(word, _)| json!(word))
-    }
-}
-
-/// The number of rays along the side of a pixel, as a map or bare.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SuperSampling {
-    factor: Count,
-    pattern: ir::Pattern,
-}
-
-impl SuperSampling {
-    /// One ray in the middle.
-    const ONE: Self = Self {
-        factor: Count(1),
-        pattern: ir::Pattern::Grid,
-    };
-}
-
-impl Value for SuperSampling {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        match context.tree.shape(node) {
-            NodeContent::Map => {
-                let Grid { factor, pattern } = Grid::decode(node, context)?;
-                Some(Self {
-                    factor: factor.value,
-                    pattern: pattern.value.0,
-                })
-            }
-            NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
-                Count::decode(node, context).map(|factor| Self {
-                    factor,
-                    ..Self::ONE
-                })
-            }
-        }
-    }
-
-    fn schema(definitions: &mut Definitions) -> Json {
-        json!({ "anyOf": [Count::schema(definitions), Grid::schema(definitions)] })
-    }
-
-    fn json(&self) -> Json {
-        self.factor.json()
-    }
-}
-
 /// The bounces of `Reflections: true` where the file does not say how many.
 const SOME_REFLECTIONS: u32 = 2;
 
@@ -254,16 +182,28 @@ impl Lowering {
         self.origin(Noun::Settings, 0, Field::LightSamples, light_samples.span);
     }
 
-    /// Asks enough points of each soft light, unless the file says how many; after the lights.
-    pub(super) fn soften(&mut self, scene: &Scene) {
-        let soft = self
-            .scene
-            .lights
-            .iter()
-            .filter_map(ir::Light::point)
-            .any(|light| light.radius > 0.0);
+    /// Makes points of soft lights if the file says so, and else asks enough points of each, unless
+    /// the file says how many; after the lights.
+    pub(super) fn soften(&mut self, scene: &Scene, context: &mut Context<'_>) {
+        let points = || self.scene.lights.iter().filter_map(ir::Light::point);
+        let soft = points().any(|light| light.radius > 0.0);
+        if let FieldOutcome::Read(switch) = &scene.soft_shadows {
+            need_shadows(switch, &scene.shadows, context);
+            if !switch.value.0 {
+                self.harden();
+                return;
+            }
+        }
         if soft && scene.light_samples.is_absent() {
             self.scene.settings.light_samples = SOFT_LIGHT_SAMPLES;
+        }
+    }
+
+    fn harden(&mut self) {
+        for light in &mut self.scene.lights {
+            if let ir::Light::Point(light) = light {
+                light.radius = 0.0;
+            }
         }
     }
 
@@ -348,6 +288,18 @@ impl Lowering {
             alpha: alpha.value.0,
             beta: beta.value.0,
         }
+    }
+}
+
+/// Says that a switch for soft shadows casts none by itself.
+fn need_shadows(switch: &Spanned<Switch>, shadows: &Spanned<bool>, context: &mut Context<'_>) {
+    if let (Some(span), None) = (switch.span, shadows.span) {
+        let message = || "`SoftShadows` without `Shadows` casts no shadows".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "no effect")
+                .severity(Severity::Warning)
+                .hint("some programs cast shadows always; `Shadows: true` does so here")
+        });
     }
 }
 

@@ -1,7 +1,7 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value};
-use super::number::{is_number, json_number, number, plain_number, whole};
+use super::number::{is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
 use crate::diag::clip;
@@ -11,7 +11,7 @@ use serde_json::{Value as Json, json};
 
 /// Reads a list of exactly `N` items, each with `item`; mistakes in one do not hide those in the
 /// others.
-fn tuple<T, const N: usize>(
+pub(super) fn tuple<T, const N: usize>(
     node: NodeId,
     what: &str,
     context: &mut Context<'_>,
@@ -125,30 +125,6 @@ spread! {
     Scale, { "type": "number", "minimum": -1e60, "maximum": 1e60 }
 }
 
-/// The largest side of an image.
-pub(super) const MAX_SIDE: u32 = 65_535;
-
-/// The width and height of an image in pixels.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PictureSize(pub(super) [u32; 2]);
-
-impl Value for PictureSize {
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        tuple(
-            node,
-            "a list of two whole numbers",
-            context,
-            |node, context| whole(1, MAX_SIDE, node, context),
-        )
-        .map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        let side = json!({ "type": "integer", "minimum": 1, "maximum": MAX_SIDE });
-        json!({ "type": "array", "items": side, "minItems": 2, "maxItems": 2 })
-    }
-}
-
 /// A place in a texture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Uv(pub(super) [f64; 2]);
@@ -230,6 +206,35 @@ impl Value for bool {
 
     fn json(&self) -> Json {
         json!(self)
+    }
+}
+
+/// Whether something is on: `On`, `Off`, or a truth value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Switch(pub(super) bool);
+
+/// The words of a switch.
+const SWITCHES: &[(&str, bool)] = &[("on", true), ("off", false)];
+
+impl Value for Switch {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let written = context.tree.text(node).unwrap_or_default();
+        let known = SWITCHES
+            .iter()
+            .find(|(word, _)| word.eq_ignore_ascii_case(written));
+        match known {
+            Some((_, is_on)) => Some(Self(*is_on)),
+            None => bool::decode(node, context).map(Self),
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let mut schema = word_schema(SWITCHES);
+        let forms = schema["anyOf"].as_array_mut();
+        forms
+            .into_iter()
+            .for_each(|forms| forms.push(bool::schema(definitions)));
+        schema
     }
 }
 

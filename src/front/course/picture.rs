@@ -1,0 +1,142 @@
+//! The size of the picture in pixels, in the ways that files say it.
+
+use super::decode::{Context, Spanned, Value};
+use super::lower::Lowering;
+use super::number::{Side, json_number};
+use super::record::{FieldOutcome, record};
+use super::schema::Definitions;
+use super::settings::Scene;
+use super::value::tuple;
+use crate::diag::{Severity, codes};
+use crate::source::tree::NodeId;
+use serde_json::{Value as Json, json};
+
+record! {
+    /// Width and height of the picture in pixels.
+    struct Sides, "size" {
+        /// The width, the height.
+        sides: [Spanned<Side>; 2], required, &[&["width", "height"], &["x", "y"], &["w", "h"]];
+    }
+}
+
+record! {
+    /// The first of two maps that are the size of the picture.
+    struct Width, "width" {
+        /// The width in pixels.
+        side: Spanned<Side>, required, &[&["width"], &["x"], &["w"]];
+    }
+}
+
+record! {
+    /// The second of two maps that are the size of the picture.
+    struct Height, "height" {
+        /// The height in pixels.
+        side: Spanned<Side>, required, &[&["height"], &["y"], &["h"]];
+    }
+}
+
+/// Width and height of the picture in pixels: a list of two, a map, or a list of maps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PictureSize(pub(super) [u32; 2]);
+
+impl Value for PictureSize {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        let tree = context.tree;
+        if tree.is_map(node) {
+            return Sides::decode(node, context).map(of_sides);
+        }
+        let mut items = tree.items(node).filter(|_| tree.is_list(node));
+        let is_map = |item: &NodeId| tree.is_map(*item);
+        match [items.next(), items.next(), items.next()] {
+            [Some(only), None, None] if is_map(&only) => Sides::decode(only, context).map(of_sides),
+            [Some(first), Some(second), None] if is_map(&first) && is_map(&second) => {
+                let width = Width::decode(first, context);
+                let height = Height::decode(second, context);
+                Some(Self([width?.side.value.0, height?.side.value.0]))
+            }
+            _ => {
+                const WHAT: &str = "a list of two whole numbers";
+                tuple(node, WHAT, context, Side::decode).map(|sides| Self(sides.map(|side| side.0)))
+            }
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let side = Side::schema(definitions);
+        let one = [Sides::schema(definitions)];
+        let two = [Width::schema(definitions), Height::schema(definitions)];
+        json!({ "anyOf": [
+            { "type": "array", "items": side, "minItems": 2, "maxItems": 2 },
+            one[0],
+            { "type": "array", "prefixItems": one, "minItems": 1, "maxItems": 1 },
+            { "type": "array", "prefixItems": two, "minItems": 2, "maxItems": 2 },
+        ] })
+    }
+
+    fn json(&self) -> Json {
+        self.0.map(|side| json_number(side.into())).to_vec().into()
+    }
+}
+
+fn of_sides(
+    Sides {
+        sides: [width, height],
+    }: Sides,
+) -> PictureSize {
+    PictureSize([width.value.0, height.value.0])
+}
+
+impl Lowering {
+    /// Says which of the sizes a file gives does not count; after the camera.
+    pub(super) fn compare_sizes(&self, scene: &Scene, context: &mut Context<'_>) {
+        let Scene {
+            camera,
+            image_size,
+            aspect_ratio,
+            ..
+        } = scene;
+        let [width, height] = self.scene.camera.size;
+        if let (
+            FieldOutcome::Read(_),
+            FieldOutcome::Read(Spanned {
+                value,
+                span: Some(span),
+            }),
+        ) = (camera, image_size)
+        {
+            let is_same = value.0 == [width, height];
+            let message =
+                || format!("the `Camera` has the size of the picture: {width} × {height}");
+            context.report(&codes::NO_EFFECT, *span, message, |d| {
+                d.at(*span, "no effect").severity(severity(is_same))
+            });
+        }
+        if let FieldOutcome::Read(Spanned {
+            value,
+            span: Some(span),
+        }) = aspect_ratio
+        {
+            let ratio = f64::from(width) / f64::from(height);
+            let is_same = (value.0 - ratio).abs() <= ROUNDED * ratio;
+            let message =
+                || format!("the picture has {width} × {height} pixels, all of them square");
+            context.report(&codes::NO_EFFECT, *span, message, |d| {
+                d.at(*span, "no effect").severity(severity(is_same)).hint(
+                    "`viewSize` of the `Camera`, or `ImageSize`, says how wide and high it is",
+                )
+            });
+        }
+    }
+}
+
+/// How far a ratio that was written may be from that of two whole numbers, relatively.
+const ROUNDED: f64 = 0.01;
+
+/// What has no effect and says what is so anyway is only worth a note.
+fn severity(is_same: bool) -> Severity {
+    if is_same {
+        Severity::Note
+    } else {
+        Severity::Warning
+    }
+}

@@ -1,0 +1,127 @@
+//! The rays of a pixel: how many there are along each of its sides, and where they lie.
+
+use super::decode::{Context, Spanned, Value};
+use super::number::{Count, plain_number};
+use super::record::{keys, record};
+use super::schema::Definitions;
+use super::value::{word, word_schema};
+use crate::diag::codes;
+use crate::ir;
+use crate::source::tree::{NodeContent, NodeId};
+use serde_json::{Value as Json, json};
+
+record! {
+    /// How many rays a pixel takes, and where they lie.
+    struct Grid, "`SuperSampling` map" {
+        /// How many rays a pixel takes along each of its sides.
+        factor: Spanned<Count>, required, keys!["factor"];
+        /// Where in its cell of the pixel each ray lies: `grid` in the middle, `jitter` anywhere, `random` anywhere in the
+        /// pixel.
+        pattern: Spanned<Pattern>, default(Pattern(ir::Pattern::Grid)), keys!["pattern"];
+    }
+}
+
+/// Where in its cell each ray lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pattern(ir::Pattern);
+
+/// The words for the patterns.
+const PATTERNS: &[(&str, ir::Pattern)] = &[
+    ("grid", ir::Pattern::Grid),
+    ("jitter", ir::Pattern::Jitter),
+    ("random", ir::Pattern::Random),
+];
+
+impl Value for Pattern {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, PATTERNS, context).map(Self)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(PATTERNS)
+    }
+
+    fn json(&self) -> Json {
+        PATTERNS
+            .iter()
+            .find(|(_, pattern)| *pattern == self.0)
+            .map_or(Json::Null, |(word, _)| json!(word))
+    }
+}
+
+/// The rays along the side of a pixel of `AntiAlias: true`.
+const SOME: u32 = 2;
+
+/// The number of rays along the side of a pixel, as a map or bare; or a truth value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SuperSampling {
+    pub(super) factor: Count,
+    pub(super) pattern: ir::Pattern,
+}
+
+impl SuperSampling {
+    /// One ray in the middle.
+    pub(super) const ONE: Self = Self {
+        factor: Count(1),
+        pattern: ir::Pattern::Grid,
+    };
+}
+
+impl Value for SuperSampling {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        match context.tree.shape(node) {
+            NodeContent::Map => {
+                let Grid { factor, pattern } = Grid::decode(node, context)?;
+                Some(Self {
+                    factor: factor.value,
+                    pattern: pattern.value.0,
+                })
+            }
+            NodeContent::Word(word) if is_truth(word) && plain_number(node, context).is_none() => {
+                bool::decode(node, context).map(|truth| some_or_one(truth, node, context))
+            }
+            NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
+                Count::decode(node, context).map(|factor| Self {
+                    factor,
+                    ..Self::ONE
+                })
+            }
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        let truth = json!({ "type": "boolean", "deprecated": true });
+        json!({ "anyOf": [Count::schema(definitions), Grid::schema(definitions), truth] })
+    }
+
+    fn json(&self) -> Json {
+        self.factor.json()
+    }
+}
+
+/// Whether a word says yes or no, in YAML 1.2 or before.
+fn is_truth(word: &str) -> bool {
+    ["true", "false", "on", "off", "yes", "no"]
+        .iter()
+        .any(|truth| truth.eq_ignore_ascii_case(word))
+}
+
+/// The rays of a file that only turns supersampling on or off.
+fn some_or_one(truth: bool, node: NodeId, context: &mut Context<'_>) -> SuperSampling {
+    if !truth {
+        return SuperSampling::ONE;
+    }
+    let span = context.tree.span(node);
+    let message = || format!("`true` does not say how many rays: taken as {SOME}");
+    context.report(&codes::ASSUMED, span, message, |d| {
+        d.at(span, format!("{SOME} × {SOME} rays a pixel")).replace(
+            "write how many along each side",
+            span,
+            SOME.to_string(),
+        )
+    });
+    SuperSampling {
+        factor: Count(SOME),
+        ..SuperSampling::ONE
+    }
+}
