@@ -189,12 +189,12 @@ fn material() -> (Vec<&'static str>, Vec<Value>) {
                 rotation side depth min max dimension direction height h ends p1 center1 center2 uv0 uv1 uv2 uv3 typ file \
                 path scale size normalMap specularMap pattern AA Reflections LightSamples CameraEye CameraLookPoint \
                 CameraUpVector Environment irradiance fov ImageSize Resolution AspectRatio SoftShadows \
-                AntiAliasing width x y";
+                AntiAliasing width x y nt isTransparent";
     let values = json!([
         null, true, 0, 1, -1, 3, 0.5, -0.5, 2.0, 4.0, 70_000, 5e9, 1e-3, "text", "phong", "Z-Buffer", "gooch", "sphere",
         "plane", "triangle", "torus", "quad", "circle", "disk", "cylinder", "cone", "box", "mesh", "model", "bplane",
         "tetrahedron", "prism", "gltf", "sun", "point", "path", "jitter", "earth.png", [3, [0, 1, 0]], [3, 4], [0.5, 0.5], "", "1", "true", [], {}, [1, 2, 3], [0, 0, 1], [0.5, 1, 2], [1, 2], [1, 2, 3, 4],
-        [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }, "On", "off",
+        [1, "2", 3], [-1, 0, 0], [40, 30], [0, 5], [1.5, 2], { "factor": 2 }, { "factor": 0 }, { "b": 0.4 }, "On", "off", "refraction",
         { "x": 40, "y": 30 }, [{ "width": 40 }, { "height": 30 }], [{ "w": 40, "h": 30 }]
     ]);
     (

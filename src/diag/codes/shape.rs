@@ -34,4 +34,7 @@ super::codes! { SC:
     ASSUMED = "SC012", Warning, "the file does not say all, and something is assumed",
         "The message says what is missing and what is taken in its place. Write it out, so that the picture does not \
          depend on the assumption.";
+    TWO_READINGS = "SC013", Warning, "a key has other meanings in other programs",
+        "Programs for scenes of this family give some keys different meanings. The message says which one counts here, \
+         so that the picture can be compared with that of the other program.";
 }

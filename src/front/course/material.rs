@@ -1,12 +1,16 @@
 //! The materials.
 
-use super::decode::{SharedValue, Spanned};
+use super::decode::{Context, SharedValue, Spanned, Value};
 use super::lower::Lowering;
 use super::number::{Count, NonNegative};
 use super::record::{FieldOutcome, keys, record};
-use super::value::{Color, FileName};
+use super::schema::Definitions;
+use super::value::{Color, FileName, word, word_schema};
+use crate::diag::{Severity, codes};
 use crate::ir::{self, Field, MaterialId, Noun};
 use crate::source::Span;
+use crate::source::tree::NodeId;
+use serde_json::Value as Json;
 
 record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
@@ -32,11 +36,41 @@ record! {
         /// The weight of the light that passes through; 0 is opaque.
         kt: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["kt" "refract"];
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
-        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index"];
+        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt"];
+        /// In some files what becomes of light: `refraction` is glass, a `kt` of 1 without `ka` and `kd`; `reflection`
+        /// and `default` mirror by `ks`, though in those files `default` does not.
+        kind: Spanned<Finish>, optional, keys!["type"];
+        /// In some files whether it is glass: a `kt` of 1 without `ka` and `kd`, or none.
+        is_transparent: Spanned<bool>, optional, keys!["isTransparent"];
         /// How many rays sample a blurred mirror image; 1 is a sharp one.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }
     forms { [color] [texture] [color texture] }
+}
+
+/// What becomes of light on a surface, as some files say it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Finish {
+    Default,
+    Reflection,
+    Refraction,
+}
+
+/// The words for it.
+const FINISHES: &[(&str, Finish)] = &[
+    ("default", Finish::Default),
+    ("reflection", Finish::Reflection),
+    ("refraction", Finish::Refraction),
+];
+
+impl Value for Finish {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, FINISHES, context)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(FINISHES)
+    }
 }
 
 /// The material of a mesh for which none was written.
@@ -52,6 +86,7 @@ impl Lowering {
     pub(super) fn material(
         &mut self,
         material: &Spanned<SharedValue<Material>>,
+        context: &mut Context<'_>,
     ) -> Option<MaterialId> {
         let SharedValue { node, value } = &material.value;
         if let Some(id) = self.shared.get(node) {
@@ -63,7 +98,17 @@ impl Lowering {
             (FieldOutcome::Absent, _) => Spanned::unwritten(Color([1.0; 3])),
             (FieldOutcome::Broken, _) => return None,
         };
-        let phong = self.phong(value, color.value);
+        let mut phong = self.phong(value, color.value);
+        match glass(value) {
+            Some((true, span)) if value.kt.span.is_none() => {
+                (phong.kt, phong.eta) = refraction(1.0, value.eta.value.0);
+                clear(&mut phong, span, context);
+            }
+            Some((false, span)) if value.kt.value.0 > 0.0 => no_glass(&mut phong, span, context),
+            Some(_) => {}
+            None => only_an_index(value, context),
+        }
+        self.note_mirror(value, context);
         let id = self.add_material(phong);
         self.material_origins(id, value, material.span, color.span);
         self.shared.insert(*node, id);
@@ -83,6 +128,8 @@ impl Lowering {
             n,
             kt,
             eta,
+            kind: _,
+            is_transparent: _,
             glossy_samples,
         } = material;
         let (kt, eta) = refraction(kt.value.0, eta.value.0);
@@ -102,6 +149,27 @@ impl Lowering {
                 texture,
                 height: 1.0,
             }),
+        }
+    }
+
+    /// Says that `type: default` mirrors here, where the picture shows that.
+    fn note_mirror(&self, material: &Material, context: &mut Context<'_>) {
+        let FieldOutcome::Read(Spanned {
+            value: Finish::Default,
+            span: Some(span),
+        }) = material.kind
+        else {
+            return;
+        };
+        let shows =
+            self.scene.settings.max_depth > 0 && self.scene.settings.mode == ir::Mode::Phong;
+        if shows && material.ks.value.0 > 0.0 {
+            let message = || "`type: default` mirrors by `ks` here".to_owned();
+            context.report(&codes::TWO_READINGS, span, message, |d| {
+                d.at(span, "no mirror in some programs")
+                    .also(material.ks.span, "the weight of the mirror image")
+                    .hint("a `ks` of 0 mirrors nothing, and has no highlight")
+            });
         }
     }
 
@@ -132,6 +200,8 @@ impl Lowering {
             n,
             kt,
             eta,
+            kind: _,
+            is_transparent: _,
             glossy_samples,
         } = material;
         for (field, span) in [
@@ -183,4 +253,58 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
         eta
     };
     (weight, ratio)
+}
+
+/// Whether a material is said to be glass or not, and where; by words, not by a weight.
+fn glass(material: &Material) -> Option<(bool, Span)> {
+    let Material {
+        kind,
+        is_transparent,
+        ..
+    } = material;
+    match (is_transparent, kind) {
+        (FieldOutcome::Read(is_transparent), _) => {
+            Some((is_transparent.value, is_transparent.span?))
+        }
+        (_, FieldOutcome::Read(kind)) => Some((kind.value == Finish::Refraction, kind.span?)),
+        _ => None,
+    }
+}
+
+/// Takes its own colour from glass, which shows what is behind it alone.
+fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+    let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
+    (phong.ka, phong.kd) = (0.0, 0.0);
+    if is_colored {
+        let message = || "glass has no colour of its own here".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "its `color`, `ka` and `kd` have no effect")
+                .severity(Severity::Warning)
+                .hint("in place of this word `kt: 1` adds what is behind it to its own colour")
+        });
+    }
+}
+
+/// Leaves a surface opaque.
+fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
+    (phong.kt, phong.eta) = (0.0, 1.0);
+    let message = || "the surface has a weight of refraction, but is said to be opaque".to_owned();
+    context.report(&codes::NO_EFFECT, span, message, |d| {
+        d.at(span, "so its `kt` has no effect")
+            .severity(Severity::Warning)
+    });
+}
+
+/// Says that an index of refraction refracts nothing without a weight.
+fn only_an_index(material: &Material, context: &mut Context<'_>) {
+    let Material { kt, eta, .. } = material;
+    let bends = eta.value.0 > 0.0 && (eta.value.0 - 1.0).abs() > 1e-9;
+    if let (true, None, Some(span)) = (bends, kt.span, eta.span) {
+        let message = || "an index of refraction alone refracts nothing".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "without a weight")
+                .severity(Severity::Warning)
+                .hint("add the weight of the light that passes through, `kt: 1` for clear glass")
+        });
+    }
 }

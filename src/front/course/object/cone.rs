@@ -26,7 +26,7 @@ record! {
 }
 
 impl Lower for Cone {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Cone {
             kind,
             position,
@@ -44,7 +44,7 @@ impl Lower for Cone {
             ("up", up.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, ir::Shape::Cone(shape), &places);
         }
     }

@@ -32,14 +32,14 @@ record! {
 }
 
 impl Lower for Cylinder {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Cylinder {
             kind,
             radius,
             material,
             ..
         } = self;
-        let clothes = lowering.clothe(kind, material);
+        let clothes = lowering.clothe(kind, material, context);
         if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(self)) {
             let shape = ir::Cylinder {
                 base: base.value,

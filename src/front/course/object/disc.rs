@@ -26,7 +26,7 @@ record! {
 }
 
 impl Lower for Disc {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Disc {
             kind,
             center,
@@ -44,7 +44,7 @@ impl Lower for Disc {
             ("normal", normal.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, ir::Shape::Disc(shape), &places);
         }
     }

@@ -42,7 +42,7 @@ impl Lower for Mesh {
             material,
         } = self;
         let clothes = match material {
-            FieldOutcome::Read(material) => lowering.clothe(kind, material),
+            FieldOutcome::Read(material) => lowering.clothe(kind, material, context),
             FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind)),
             FieldOutcome::Broken => None,
         };

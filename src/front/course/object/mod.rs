@@ -172,8 +172,9 @@ impl Lowering {
         &mut self,
         kind: &Spanned<Text>,
         material: &Spanned<SharedValue<Material>>,
+        context: &mut Context<'_>,
     ) -> Option<Clothes> {
-        let id = self.material(material)?;
+        let id = self.material(material, context)?;
         Some(Clothes {
             whole: kind.span,
             material: id,

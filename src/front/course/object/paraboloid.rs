@@ -26,7 +26,7 @@ record! {
 }
 
 impl Lower for Paraboloid {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Paraboloid {
             kind,
             position,
@@ -44,7 +44,7 @@ impl Lower for Paraboloid {
             ("up", up.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, ir::Shape::Paraboloid(shape), &places);
         }
     }

@@ -77,8 +77,8 @@ impl Value for Outline {
 }
 
 impl Lower for Plane {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material);
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        let clothes = lowering.clothe(&self.kind, &self.material, context);
         if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(self)) {
             let places = [("center", center.span), ("normal", normal.span)];
             let shape = ir::Plane {
@@ -100,7 +100,7 @@ impl Lower for BoundedPlane {
             radius,
             material,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material) else {
+        let Some(clothes) = lowering.clothe(kind, material, context) else {
             return;
         };
         match outline.value {

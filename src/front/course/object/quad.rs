@@ -43,8 +43,8 @@ record! {
 }
 
 impl Lower for Quad {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material);
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        let clothes = lowering.clothe(&self.kind, &self.material, context);
         if let (Some(clothes), Some(corners)) = (clothes, corners(self)) {
             let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
             let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));

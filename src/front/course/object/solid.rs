@@ -87,7 +87,7 @@ const PRISM: &[Face] = &[
 
 impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material);
+        let clothes = lowering.clothe(&self.kind, &self.material, context);
         if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self)) {
             let edges = [
                 corners[1] - corners[0],
@@ -112,7 +112,7 @@ impl Lower for Tetrahedron {
             corners,
             material,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material) else {
+        let Some(clothes) = lowering.clothe(kind, material, context) else {
             return;
         };
         let span = corners[0].span;
@@ -144,7 +144,7 @@ impl Lower for Prism {
             up,
             material,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material) else {
+        let Some(clothes) = lowering.clothe(kind, material, context) else {
             return;
         };
         let span = corners[0].span;

@@ -89,7 +89,7 @@ impl Lower for Sphere {
             texture_from_world: turned_to_z(axis, angle.value.0),
         });
         let places = [("center", position.span), ("radius", radius.span)];
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, shape, &places);
         }
     }

@@ -28,7 +28,7 @@ record! {
 }
 
 impl Lower for Torus {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Torus {
             kind,
             position,
@@ -50,7 +50,7 @@ impl Lower for Torus {
             ("major", radius.span),
             ("minor", alpha.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, ir::Shape::Torus(shape), &places);
         }
     }

@@ -38,7 +38,7 @@ record! {
 pub(in crate::front::course) const VERTICES: [&str; 3] = ["vertices/0", "vertices/1", "vertices/2"];
 
 impl Lower for Triangle {
-    fn lower(&self, lowering: &mut Lowering, _: &mut Context<'_>) {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let Triangle {
             kind,
             corners,
@@ -56,7 +56,7 @@ impl Lower for Triangle {
         });
         let spans = corners.map(|corner| corner.span);
         let places = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
-        if let Some(clothes) = lowering.clothe(kind, material) {
+        if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, shape, &places);
         }
     }
