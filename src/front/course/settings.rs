@@ -168,6 +168,7 @@ impl Lowering {
         } else {
             Spanned::unwritten(Count(1))
         };
+        note_unused(scene, context);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
@@ -287,6 +288,45 @@ impl Lowering {
             y: y.value.0,
             alpha: alpha.value.0,
             beta: beta.value.0,
+        }
+    }
+}
+
+/// Says which settings do nothing in modes that show the first surface alone.
+fn note_unused(scene: &Scene, context: &mut Context<'_>) {
+    let Scene {
+        mode,
+        shadows,
+        depth,
+        reflections,
+        sampling,
+        ..
+    } = scene;
+    match mode.value {
+        Mode::Phong | Mode::Path => return,
+        Mode::Zbuffer | Mode::Normal | Mode::Gooch => {}
+    }
+    let reflections = reflections.ok();
+    let rays = sampling.value.factor.0;
+    for (is_asked, span, what) in [
+        (shadows.value, shadows.span, "shadows"),
+        (depth.value.0 > 0, depth.span, "mirror images"),
+        (
+            reflections.is_some_and(|asked| asked.value),
+            reflections.and_then(|asked| asked.span),
+            "mirror images",
+        ),
+        (
+            rays > 1 && mode.value == Mode::Zbuffer,
+            sampling.span,
+            "supersampling",
+        ),
+    ] {
+        if let (true, Some(span)) = (is_asked, span) {
+            let message = || format!("this `RenderMode` has no {what}");
+            context.report(&codes::NO_EFFECT, span, message, |d| {
+                d.at(span, "no effect").also(mode.span, "the mode")
+            });
         }
     }
 }
