@@ -84,4 +84,8 @@ super::codes! { VA:
     FLAT_SOLID = "VA107", Error, "a box, prism or tetrahedron has no volume",
         "One of its sides has no length, or all of its corners lie in one plane. A flat shape is written as a `quad` or \
          a `triangle`.";
+    CROSSED_QUAD = "VA108", Warning, "the edges of a quad cross",
+        "The four corners of a quad stand in their order around it. In another order, as in the letter Z, two of its \
+         edges cross, and the quad is two triangles that meet in a point. Some programs take the corners in any order. The \
+         labels show the two corners to exchange; `--lenient` does so.";
 }

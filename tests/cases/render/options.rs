@@ -85,6 +85,7 @@ impl Options {
             "animation" => self.front.animation = Some(value.to_owned()),
             "variant" => self.front.variant = Some(value.to_owned()),
             "camera" => self.front.camera = Some(value.to_owned()),
+            "lenient" => self.front.lenient = value.parse().ok()?,
             "finds" => self.finds = value.split(',').map(str::to_owned).collect(),
             _ => return None,
         }

@@ -1,13 +1,14 @@
 //! The quadrilateral.
 
 use super::Lower;
+use crate::diag::codes;
 use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::record::{FieldOutcome, Rows, keys, record};
 use crate::front::course::value::{Point, Text, Vector};
 use crate::ir;
-use crate::math::Vec3;
+use crate::math::{Vec3, unit};
 
 /// How people name four corners.
 pub(in crate::front::course) const FOUR_CORNERS: Rows = &[
@@ -26,7 +27,7 @@ pub(in crate::front::course) const EDGES: Rows = &[&["up", "side"], &["edge1", "
 
 record! {
     /// A quadrilateral, seen from both sides: four corners in order around it, or one corner and the two edges from it.
-    /// Four corners out of a plane span a curved patch.
+    /// Four corners out of a plane span a curved patch; where edges cross there is a warning, and `--lenient` mends it.
     struct Quad, "quad" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
@@ -45,7 +46,10 @@ record! {
 impl Lower for Quad {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let clothes = lowering.clothe(&self.kind, &self.material, context);
-        if let (Some(clothes), Some(corners)) = (clothes, corners(self)) {
+        if let (Some(clothes), Some(mut corners)) = (clothes, corners(self)) {
+            if let Some(swap) = crossing(&corners.map(|corner| Vec3::from_array(corner.value))) {
+                crossed(&mut corners, swap, context);
+            }
             let fields = ["vertices/0", "vertices/1", "vertices/2", "vertices/3"];
             let places = [0, 1, 2, 3].map(|k| (fields[k], corners[k].span));
             let vertices = corners.map(|corner| corner.value);
@@ -79,5 +83,107 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
             ])
         }
         _ => None,
+    }
+}
+
+/// The two corners, by their indices, that have to change places so that the edges of a flat quad
+/// do not cross; `None` if they do not cross or the quad is not flat.
+///
+/// Where two opposite edges cross, the quad turns left at the two ends of one of the others, and
+/// right at the two ends of the other one.
+fn crossing(corners: &[Vec3; 4]) -> Option<[usize; 2]> {
+    /// The least sine between two edges that makes a turn, and the greatest one of a flat quad.
+    const LEAST: f64 = 1e-6;
+    let edge = |from: usize, to: usize| unit(corners[to % 4] - corners[from % 4]);
+    let mut turns = [Vec3::ZERO; 4];
+    for (at, turn) in turns.iter_mut().enumerate() {
+        *turn = edge(at + 3, at)?.cross(edge(at, at + 1)?);
+    }
+    let normal = unit(turns[0])?;
+    let is_flat = edge(2, 3)?.dot(normal).abs() < LEAST && edge(1, 2)?.dot(normal).abs() < LEAST;
+    let turns_left = turns.map(|turn| turn.dot(normal) > 0.0);
+    let is_bent = turns.iter().all(|turn| turn.length() > LEAST);
+    match turns_left {
+        [true, true, false, false] if is_flat && is_bent => Some([2, 3]),
+        [true, false, false, true] if is_flat && is_bent => Some([1, 2]),
+        _ => None,
+    }
+}
+
+/// Reports edges that cross; lenient, the corners change places.
+fn crossed(corners: &mut [Numbers; 4], [a, b]: [usize; 2], context: &mut Context<'_>) {
+    const WHICH: [&str; 4] = ["first", "second", "third", "fourth"];
+    let (first, second) = (corners[a].span, corners[b].span);
+    let lenient = context.options.lenient;
+    if lenient {
+        corners.swap(a, b);
+    }
+    let Some(span) = first else { return };
+    let message = || "the edges of this quad cross".to_owned();
+    context.report(&codes::CROSSED_QUAD, span, message, |d| {
+        let d = d.at(span, format!("the {} corner", WHICH[a]));
+        let d = d.also(second, format!("the {} corner", WHICH[b]));
+        let order = "the corners stand in their order around the quad";
+        match lenient {
+            true => d.hint(format!("these two were exchanged, because {order}")),
+            false => d.hint(format!(
+                "exchange these two, because {order}; `--lenient` does so"
+            )),
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is found in the unit square with its corners in this order, far off and turned.
+    fn found(order: [usize; 4]) -> Option<[usize; 2]> {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        crossing(&order.map(|k| {
+            let [x, y] = square[k];
+            Vec3::new(1e4 + 3.0 * x, 4.0 * y - x, 7.0 + x + 3.0 * y)
+        }))
+    }
+
+    #[test]
+    fn a_square_in_z_order_crosses_and_one_around_it_does_not() {
+        assert_eq!(found([0, 1, 3, 2]), Some([2, 3]));
+        assert_eq!(found([0, 2, 1, 3]), Some([1, 2]));
+        for around in [[0, 1, 2, 3], [2, 1, 0, 3]] {
+            assert_eq!(found(around), None, "{around:?}");
+        }
+    }
+
+    #[test]
+    fn darts_slits_and_curved_patches_do_not_cross() {
+        let quad = |corners: [[f64; 3]; 4]| crossing(&corners.map(Vec3::from_array));
+        let dart = [
+            [0.0, 0.0, 0.0],
+            [4.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 4.0, 0.0],
+        ];
+        let slit = [
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [3.0, 0.0, 0.0],
+        ];
+        let saddle = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 1.0],
+            [0.0, 1.0, 1.0],
+            [1.0, 1.0, 0.0],
+        ];
+        let point = [
+            [0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 4.0, 0.0],
+        ];
+        for corners in [dart, slit, saddle, point] {
+            assert_eq!(quad(corners), None, "{corners:?}");
+        }
     }
 }
