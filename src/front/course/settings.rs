@@ -200,10 +200,11 @@ impl Lowering {
         }
     }
 
+    /// Makes points of soft lights; a negative radius is left for the proof to refuse.
     fn harden(&mut self) {
         for light in &mut self.scene.lights {
             if let ir::Light::Point(light) = light {
-                light.radius = 0.0;
+                light.radius = light.radius.min(0.0);
             }
         }
     }
