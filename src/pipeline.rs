@@ -63,7 +63,7 @@ pub fn load(
                 .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
             refuse_choices(&options.front, has_assets, sink);
             assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
-            Some(draft.finish())
+            Some(draft.finish(sink))
         }
     }
 }

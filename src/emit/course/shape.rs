@@ -136,17 +136,21 @@ impl Emit for Instance {
             .get(mesh.0 as usize)
             .ok_or("a surface refers to a mesh that does not exist")?;
         let [axes @ .., origin] = world_from_object;
-        let scale = axes[0][0];
-        if *axes != Vec3::AXES.map(|axis| (axis * scale).to_array()) {
+        let scale = [axes[0][0], axes[1][1], axes[2][2]];
+        let [x, y, z] = Vec3::AXES;
+        let straight = [x * scale[0], y * scale[1], z * scale[2]];
+        if *axes != straight.map(|axis| axis.to_array()) {
             return Err(
-                "a mesh is turned or stretched, and this format only moves and scales meshes"
-                    .to_owned(),
+                "a mesh is turned, and this format only moves and scales meshes".to_owned(),
             );
         }
         text.kind("mesh");
         text.line(4, &format!("file: {}", file_name(&mesh.name)?));
         text.point("position", origin);
-        text.number("scale", scale, 4);
+        match scale {
+            [x, y, z] if x == y && y == z => text.number("scale", x, 4),
+            _ => text.numbers("scale", &scale, 4),
+        }
         Ok(())
     }
 }

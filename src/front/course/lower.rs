@@ -4,7 +4,7 @@
 use super::assets::Wanted;
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
-use super::object::mesh;
+use super::object::mesh::{self, Sizing};
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
@@ -65,17 +65,22 @@ pub struct UnfinishedScene {
     pub lowered: Lowered,
     /// The files, each once.
     pub wanted: Vec<Wanted>,
-    fitted: Vec<usize>,
+    sizings: Vec<Sizing>,
 }
 
 impl UnfinishedScene {
     /// The scene, with each mesh in its size; after its files were brought.
     #[must_use]
-    pub fn finish(mut self) -> Lowered {
-        self.fitted
-            .iter()
-            .for_each(|surface| mesh::fit(&mut self.lowered.scene, *surface));
-        self.lowered
+    pub fn finish(self, sink: &mut Sink) -> Lowered {
+        let Self {
+            mut lowered,
+            wanted: _,
+            sizings,
+        } = self;
+        sizings
+            .into_iter()
+            .for_each(|sizing| mesh::settle(sizing, &mut lowered, sink));
+        lowered
     }
 }
 
@@ -88,8 +93,8 @@ pub(super) struct Lowering {
     pub(super) grey: Option<MaterialId>,
     /// The textures and meshes named so far.
     pub(super) files: Files,
-    /// The surfaces whose mesh is to have a given size.
-    pub(super) fitted: Vec<usize>,
+    /// What is to be done about the sizes of meshes.
+    pub(super) sizings: Vec<Sizing>,
     origins: Origins,
 }
 
@@ -115,13 +120,13 @@ impl Lowering {
             names: Vec::new(),
             environment: None,
         };
-        let (shared, files, fitted) = (BTreeMap::new(), Files::default(), Vec::new());
+        let (shared, files, sizings) = (BTreeMap::new(), Files::default(), Vec::new());
         Self {
             scene,
             shared,
             grey: None,
             files,
-            fitted,
+            sizings,
             origins: Origins::default(),
         }
     }
@@ -210,7 +215,7 @@ impl Lowering {
             shared: _,
             grey: _,
             files: Files { wanted, .. },
-            fitted,
+            sizings,
             mut origins,
         } = self;
         for Wanted {
@@ -227,7 +232,7 @@ impl Lowering {
         UnfinishedScene {
             lowered: Lowered { scene, origins },
             wanted,
-            fitted,
+            sizings,
         }
     }
 }

@@ -2,15 +2,16 @@
 
 use super::Lower;
 use super::sphere::Radius;
-use crate::diag::{Severity, codes};
+use crate::diag::{Diagnostic, Severity, Sink, codes};
 use crate::front::course::decode::{Context, SharedValue, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::number::Real;
 use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::value::{FileName, Point, Text};
-use crate::ir;
-use crate::math::Vec3;
+use crate::front::course::value::{FileName, Point, Scale, Text};
+use crate::ir::{self, Field, Lowered, Noun, Place};
+use crate::math::{Vec3, shortest};
+use crate::source::Span;
 
 record! {
     /// A mesh from an OBJ or OFF file.
@@ -18,17 +19,29 @@ record! {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// The file, beside the scene file or in a folder below it.
-        file: Spanned<FileName>, required, keys!["file" "filename" "fileName" "path" "modelPath" "name"];
-        /// Where the origin of the file's coordinates comes to; beside `radius`, where the middle of the mesh does.
+        file: Spanned<FileName>, required, keys!["file" "filename" "fileName" "path" "modelPath" "name" "object"];
+        /// Where the origin of the file's coordinates comes to; beside `fit`, where the middle of the mesh does.
         position: Spanned<Point>, default(Point([0.0; 3])), keys!["position" "center"];
-        /// How many times larger it is than in its file.
-        scale: Spanned<Real>, optional, keys!["scale" "scalefactor" "scaleFactor" "size"];
+        /// How many times larger it is than in its file, in all directions or along x, y and z.
+        scale: Spanned<Scale>, optional, keys!["scale" "scalefactor" "scaleFactor"];
+        /// A factor as `scale`, unless the mesh would hide the view or hold the eye in its box: then 1.5 times what `fit`
+        /// says, with a warning. Better written `scale` or `fit`.
+        size: Spanned<Real>, optional, keys!["size"];
         /// Half the longest side of the mesh in the scene, however large it is in its file; above 0.
-        radius: Spanned<Radius>, optional, keys!["radius"];
+        fit: Spanned<Radius>, optional, keys!["fit" "radius"];
         /// What it is made of; grey if nothing is said.
         material: Spanned<SharedValue<Material>>, optional, keys!["material"];
     }
-    forms { [file] [file scale] [file radius] }
+    forms { [file] [file scale] [file size] [file fit] }
+}
+
+/// What is done about the size of a mesh once its file is there.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::front::course) enum Sizing {
+    /// The mesh gets the size that the transform of the surface says.
+    Fit(usize),
+    /// The surface stays as it is, unless it hides the view.
+    Check(usize),
 }
 
 impl Lower for Mesh {
@@ -38,7 +51,8 @@ impl Lower for Mesh {
             file,
             position,
             scale,
-            radius,
+            size,
+            fit,
             material,
         } = self;
         let clothes = match material {
@@ -46,34 +60,48 @@ impl Lower for Mesh {
             FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind)),
             FieldOutcome::Broken => None,
         };
-        let (size, to_fit) = match (scale, radius) {
-            (FieldOutcome::Read(scale), _) => (scale.map(|scale| scale.0), false),
-            (_, FieldOutcome::Read(radius)) => {
-                useless_axis(radius, context);
-                (radius.map(|radius| radius.length), true)
+        let index = lowering.scene.surfaces.len();
+        let (scale, sizing) = match (scale, size, fit) {
+            (FieldOutcome::Read(scale), ..) => (scale.map(|scale| scale.0), None),
+            (_, FieldOutcome::Read(size), _) => {
+                (size.map(|size| [size.0; 3]), Some(Sizing::Check(index)))
             }
-            (FieldOutcome::Absent, FieldOutcome::Absent) => (
-                Spanned {
-                    value: 1.0,
-                    span: position.span,
-                },
-                false,
-            ),
+            (.., FieldOutcome::Read(fit)) => {
+                useless_axis(fit, context);
+                (fit.map(|fit| [fit.length; 3]), Some(Sizing::Fit(index)))
+            }
+            (FieldOutcome::Absent, FieldOutcome::Absent, FieldOutcome::Absent) => {
+                let span = position.span;
+                (
+                    Spanned {
+                        value: [1.0; 3],
+                        span,
+                    },
+                    None,
+                )
+            }
             _ => return,
         };
         let Some(clothes) = clothes else { return };
         let mesh = lowering.files.mesh(&mut lowering.scene, file);
-        if to_fit {
-            lowering.fitted.push(lowering.scene.surfaces.len());
-        }
-        let [x, y, z] = Vec3::AXES.map(|axis| (axis * size.value).to_array());
+        lowering.sizings.extend(sizing);
         let shape = ir::Instance {
             mesh,
-            world_from_object: [x, y, z, position.value.0],
+            world_from_object: placed(scale.value, position.value.0),
         };
-        let places = [("mesh", file.span), ("worldFromObject", size.span)];
+        let places = [("mesh", file.span), (TRANSFORM, scale.span)];
         lowering.put(&clothes, ir::Shape::Instance(shape), &places);
     }
+}
+
+/// The way to the transform of an instance in the IR.
+const TRANSFORM: &str = "worldFromObject";
+
+/// The transform that scales along the axes and moves the origin.
+fn placed(scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
+    let [x, y, z] = Vec3::AXES;
+    let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
+    [x, y, z, position]
 }
 
 fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
@@ -85,9 +113,13 @@ fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {
     }
 }
 
-/// Makes a mesh fill the size it is to have: the transform of the instance has that size and where
-/// its middle is to be.
-pub(in crate::front::course) fn fit(scene: &mut ir::Scene, surface: usize) {
+/// Sees to the size of a mesh, now that its file is there.
+pub(in crate::front::course) fn settle(sizing: Sizing, lowered: &mut Lowered, sink: &mut Sink) {
+    let (surface, is_factor) = match sizing {
+        Sizing::Fit(surface) => (surface, false),
+        Sizing::Check(surface) => (surface, true),
+    };
+    let Lowered { scene, origins } = lowered;
     let Some(ir::Surface {
         shape: ir::Shape::Instance(instance),
         ..
@@ -98,13 +130,81 @@ pub(in crate::front::course) fn fit(scene: &mut ir::Scene, surface: usize) {
     let Some(mesh) = scene.meshes.get(instance.mesh.0 as usize) else {
         return;
     };
-    let corners = || mesh.positions.iter().map(Vec3::from_array);
-    let Some((low, high)) = corners()
-        .map(|p| (p, p))
-        .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-    else {
+    let corners = mesh.positions.iter().map(Vec3::from_array);
+    let bounds = corners.map(|p| (p, p));
+    let Some((low, high)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
         return;
     };
+    if is_factor {
+        let place = Field::of_shape(ir::ShapeKind::Instance, TRANSFORM);
+        let span = origins.span(Place::new(Noun::Surface, surface, place));
+        let [[size, ..], .., position] = instance.world_from_object;
+        if !hides_view(
+            [low, high].map(|p| p * size + Vec3::from_array(position)),
+            &scene.camera,
+        ) {
+            sink.push(factor(size, span));
+            return;
+        }
+        let half = size / UNITS;
+        sink.push(unitised(size, half, span));
+        instance.world_from_object = placed([half; 3], position);
+    }
+    fit(instance, [low, high]);
+}
+
+/// A `size` of so many is a `fit` of 1, where it is no factor.
+const UNITS: f64 = 1.5;
+
+/// Whether the eye is in a box, or the box is all that it sees. A box is convex, so that it fills
+/// the picture if it does so at its corners.
+fn hides_view([a, b]: [Vec3; 2], camera: &ir::Camera) -> bool {
+    let ir::Camera {
+        eye,
+        center,
+        right,
+        up,
+        size,
+        ..
+    } = camera;
+    let [eye, center, right, up] = [eye, center, right, up].map(|v| Vec3::from_array(*v));
+    let (low, high) = (a.min(b), a.max(b));
+    let [x, y] = size.map(|side| f64::from(side) / 2.0);
+    let corners = [[-x, -y], [x, -y], [-x, y], [x, y]];
+    let is_inside = eye.clamp(low, high) == eye;
+    is_inside
+        || corners.iter().all(|[x, y]| {
+            let direction = center + right * *x + up * *y - eye;
+            let (to_low, to_high) = ((low - eye) / direction, (high - eye) / direction);
+            let (enter, leave) = (to_low.min(to_high), to_low.max(to_high));
+            leave.min_element() >= enter.max_element().max(0.0)
+        })
+}
+
+fn factor(size: f64, span: Option<Span>) -> Diagnostic {
+    let message = format!(
+        "the `size` of a mesh is a factor, as in `scale: {}`",
+        shortest(size)
+    );
+    Diagnostic::new(&codes::TWO_READINGS, message)
+        .severity(Severity::Note)
+        .at(span, "times as large as in its file")
+        .hint("in some programs it is the size of the mesh; that is written `fit`")
+}
+
+fn unitised(size: f64, half: f64, span: Option<Span>) -> Diagnostic {
+    let (size, half) = (shortest(size), shortest(half));
+    let message = format!("`size: {size}` is taken as the size of the mesh, not as a factor");
+    Diagnostic::new(&codes::TWO_READINGS, message)
+        .at(span, "as a factor it would hide the view")
+        .hint(format!(
+            "`fit: {half}` is the size that is shown, `scale: {size}` the factor"
+        ))
+}
+
+/// Makes a mesh of these bounds fill the size it is to have: the transform of the instance has that
+/// size and where its middle is to be.
+fn fit(instance: &mut ir::Instance, [low, high]: [Vec3; 2]) {
     let half = ((high - low) / 2.0).max_element();
     if half > 0.0 {
         let [x, y, z, middle] = instance.world_from_object.map(Vec3::from_array);
