@@ -11,16 +11,17 @@ use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::course::assets::{self, Asset};
 use crate::front::{course, gltf};
 use crate::image::Layers;
-use crate::ir::{Lowered, Origins, Scene};
+use crate::ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use crate::math::BasisFault;
 use crate::passes::{Framing, Stage, Staged};
-use crate::plan::Plan;
+use crate::plan::{self, Plan};
 use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
-use crate::valid::{self, Proof};
+use crate::valid::{self, Proof, Surface};
 use crate::{codec, front};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How strict the check is.
 #[derive(Clone, Debug, Default)]
@@ -133,11 +134,50 @@ pub fn stage(
     None
 }
 
-/// Proves a scene. `None` if it or what was read before has errors; the sink says which.
+/// Proves a scene, and warns of what no ray meets. `None` if it or what was read before has errors;
+/// the sink says which.
 pub fn prove(lowered: &Lowered, options: &Options, sink: &mut Sink) -> Option<Proof> {
     let proof = valid::validate(&lowered.scene, &lowered.origins, &options.valid, sink);
-    proof.filter(|_| !sink.has_errors())
+    let proof = proof.filter(|_| !sink.has_errors())?;
+    unseen(&proof, lowered, sink);
+    Some(proof)
 }
+
+/// Warns of the objects that no ray meets. An object is all surfaces written at one place.
+fn unseen(scene: &Proof, lowered: &Lowered, sink: &mut Sink) {
+    let unseen = plan::unseen(scene);
+    if unseen.is_empty() {
+        return;
+    }
+    let place = |index: usize| Place::new(Noun::Surface, index, Field::Whole);
+    let object = |index: usize| match lowered.origins.span(place(index)) {
+        Some(span) => Ok(span),
+        None => Err(index),
+    };
+    let is_unseen: BTreeSet<_> = unseen.into_iter().collect();
+    let mut objects = BTreeMap::new();
+    for Surface { index, .. } in scene.surfaces() {
+        let hidden = objects.entry(object(*index)).or_insert((*index, true));
+        hidden.1 &= is_unseen.contains(index);
+    }
+    let objects: Vec<_> = objects
+        .into_values()
+        .filter(|(_, hidden)| *hidden)
+        .collect();
+    let more = objects.len().saturating_sub(MAX_UNSEEN);
+    for (at, (index, _)) in objects.iter().take(MAX_UNSEEN).enumerate() {
+        let message = "no ray of any pixel meets this object";
+        let mut finding = Diagnostic::new(&codes::NEVER_SEEN, message);
+        if more > 0 && at + 1 == MAX_UNSEEN {
+            finding = finding.hint(format!("and {more} more like it"));
+        }
+        let finding = finding.at(lowered.origins.span(place(*index)), "not in the picture");
+        sink.push(finding.pointer(place(*index).to_string()));
+    }
+}
+
+/// No more objects than this that no ray meets have a warning of their own.
+const MAX_UNSEEN: usize = 10;
 
 /// A scene prepared as planned, and the threads that render it.
 pub struct Renderer {

@@ -76,11 +76,16 @@ impl<'scene> Facts<'scene> {
 
     /// Whether all camera rays start at the eye.
     pub(super) fn is_pinhole(&self) -> bool {
-        let lens = &self.scene.camera().lens;
-        lens.radius.get() == 0.0
-            || lens.samples.get() == 1
-            || matches!(self.scene.settings().mode, Mode::Zbuffer)
+        is_pinhole(self.scene)
     }
+}
+
+/// Whether all camera rays of a scene start at the eye.
+pub(super) fn is_pinhole(scene: &Proof) -> bool {
+    let lens = &scene.camera().lens;
+    lens.radius.get() == 0.0
+        || lens.samples.get() == 1
+        || matches!(scene.settings().mode, Mode::Zbuffer)
 }
 
 /// The findings of the rules.

@@ -21,6 +21,7 @@ mod rules;
 mod shape;
 mod space;
 mod summary;
+mod unseen;
 mod verdicts;
 mod visibility;
 mod window;
@@ -32,6 +33,7 @@ pub use path::{EnvironmentLeft, LightLeft, PathPlan};
 pub use precision::{Loss, NEAREST, Symptom, loss};
 pub use region::{PixelClass, Region};
 pub use rules::{Rule, Rules};
+pub use unseen::unseen;
 
 use crate::math::Vec3;
 use crate::valid::{Mode, PathSettings, Projection, Proof, Shape};

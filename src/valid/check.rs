@@ -41,6 +41,11 @@ impl<'run> Check<'run> {
         !self.errors
     }
 
+    /// Whether this check or what came before it found an error.
+    pub(super) fn has_errors(&self) -> bool {
+        self.sink.has_errors()
+    }
+
     /// Reports a finding at a place.
     pub(super) fn report(&mut self, place: Place, label: &str, finding: Diagnostic) {
         self.errors |= finding.severity == Severity::Error;
@@ -54,6 +59,19 @@ impl<'run> Check<'run> {
     /// Where the value was written, for secondary labels and replacements.
     pub(super) fn span(&self, place: Place) -> Option<crate::source::Span> {
         self.origins.span(place)
+    }
+
+    /// Reports a finding about all entities of a noun, of which there are none: its place is that
+    /// which the first one would have.
+    pub(super) fn report_all(
+        &mut self,
+        noun: Noun,
+        pointer: &str,
+        label: &str,
+        finding: Diagnostic,
+    ) {
+        let span = self.origins.span(place(noun, 0, Field::Whole));
+        self.sink.push(finding.at(span, label).pointer(pointer));
     }
 
     /// Proves all entities; `None` if any failed. All failures are reported.

@@ -15,6 +15,7 @@ mod phong;
 mod settings;
 mod shape;
 mod standard;
+mod suspicion;
 mod texture;
 
 pub use camera::{Camera, Lens, Projection};
@@ -186,5 +187,6 @@ pub fn validate(
         surfaces: valid_surfaces?.into_iter().flatten().collect(),
     };
     light::lights_inside_spheres(scene, &mut check);
+    suspicion::suspicions(scene, &mut check);
     check.is_clean().then_some(valid)
 }

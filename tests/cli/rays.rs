@@ -146,7 +146,8 @@ fn each_render_of_a_verification_has_the_limit() {
 /// How many rays a picture took.
 fn rays_of(output: &Output) -> u32 {
     let words = stderr(output);
-    let digits = words.split(", ").nth(1).unwrap().chars();
+    let told = words.lines().find(|line| line.contains(" rays")).unwrap();
+    let digits = told.split(", ").nth(1).unwrap().chars();
     let digits: String = digits.filter(char::is_ascii_digit).collect();
     digits.parse().unwrap()
 }

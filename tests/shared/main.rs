@@ -24,6 +24,7 @@ mod plan;
 #[path = "../scale/mod.rs"]
 mod scale;
 mod scenes;
+mod seen;
 #[path = "../small/mod.rs"]
 mod small;
 #[path = "../suite/mod.rs"]
@@ -45,6 +46,7 @@ fn main() -> ExitCode {
         pictures::trials(),
         plain::trials(),
         plan::trials(),
+        seen::trials(),
         wild::trials(),
     ];
     suite::run(suites.into_iter().flatten().collect())

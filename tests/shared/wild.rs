@@ -71,7 +71,6 @@ const REFUSED: &[(&str, &str, &str)] = &[
         "SC003",
         "its `RenderMode` is a list",
     ),
-    ("Scenes/mesh_scene.json", "SC003", "its `scale` is a list"),
     (
         "Scenes/plane_scene.json",
         "SC002",

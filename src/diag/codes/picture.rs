@@ -36,4 +36,10 @@ super::codes! { RD:
          stop, so that what is lit is a middle grey in the mean and hardly anything of it is clipped. The exposure is found \
          from 64 × 64 pixels of the whole view; it does not depend on the size, the part or the samples of the picture, and \
          is one for all pictures of a turntable. `--exposure` sets it. An EXR holds the values as they are.";
+    NEVER_SEEN = "RD008", Warning, "no ray of any pixel meets an object",
+        "The object lies outside the picture, shows in no mirror and casts no shadow, so the picture would be the same \
+         without it. That is proven from its bounds, without a ray: an object without this warning may be hidden as well. \
+         Check `eye`, `center` and the position. A plane written as a normal and a distance d holds the points whose \
+         distance from the origin along the normal is d; in other programs the sign of d differs, or the normal's length \
+         counts.";
 }

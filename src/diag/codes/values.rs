@@ -65,6 +65,12 @@ super::codes! { VA:
     BAD_LIGHT = "VA021", Error, "a light in physical units is not sound",
         "Intensities are not negative, directions are not zero, ranges are above 0, and the angles of a spot light are \
          0 ≤ inner < outer ≤ π/2.";
+    NO_LIGHT = "VA022", Warning, "a scene of lit surfaces has no light",
+        "Ambient light belongs to the lights too, so without one every surface is black. Add a light, or ask for another \
+         `RenderMode`: `normal` and `zbuffer` need none.";
+    COLOR_OF_BYTES = "VA023", Warning, "a colour looks like bytes from 0 to 255",
+        "Colours are from 0 to 1, and more is brighter than white. A surface of whole numbers above 1, or a light of whole \
+         numbers from 100 to 255, was most likely written in bytes. Divide each channel by 255.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";
@@ -88,4 +94,8 @@ super::codes! { VA:
         "The four corners of a quad stand in their order around it. In another order, as in the letter Z, two of its \
          edges cross, and the quad is two triangles that meet in a point. Some programs take the corners in any order. The \
          labels show the two corners to exchange; `--lenient` does so.";
+    OTHER_UNIT = "VA109", Warning, "an angle looks as if it were in another unit",
+        "`fov` and the `angle` of a sphere's texture are in degrees, `rotation` of a box or an asset is in radians. An angle \
+         is looked at as written: a `fov` of less than 3.15, a fraction of a degree within a turn of 2π, or radians that \
+         are more than a turn and a multiple of 5 are more likely meant in the other unit.";
 }

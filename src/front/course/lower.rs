@@ -157,6 +157,10 @@ impl Lowering {
             .decode_each(context, "Lights", |context, light| {
                 self.light(&light, context)
             });
+        if self.scene.lights.is_empty() {
+            let place = scene.lights.span.unwrap_or_else(|| context.head(root));
+            self.origin(Noun::Light, 0, Field::Whole, Some(place));
+        }
         self.soften(&scene, context);
         let count = scene.objects.value.len(context);
         scene

@@ -188,6 +188,42 @@ fn out_of_range(range: &str, node: NodeId, context: &mut Context<'_>) {
     });
 }
 
+/// Warns of an angle in degrees that is more likely in radians.
+fn looks_like_radians(angle: f64, node: NodeId, context: &mut Context<'_>) {
+    let degrees = (angle.to_degrees() * 100.0).round() / 100.0;
+    let message = |key: &str| format!("`{}` is in degrees, and looks like radians", clip(key));
+    other_unit(message, format!("{degrees}"), node, context);
+}
+
+/// Warns of an angle in radians that is more likely in degrees: more than a turn, and a multiple of
+/// 5.
+pub(super) fn in_radians(angle: f64, node: NodeId, context: &mut Context<'_>) -> f64 {
+    if angle.abs() > std::f64::consts::TAU && angle % 5.0 == 0.0 {
+        let radians = (angle.to_radians() * 10_000.0).round() / 10_000.0;
+        let message = |key: &str| format!("`{}` is in radians, and looks like degrees", clip(key));
+        other_unit(message, format!("{radians}"), node, context);
+    }
+    angle
+}
+
+fn other_unit(
+    message: impl FnOnce(&str) -> String,
+    better: String,
+    node: NodeId,
+    context: &mut Context<'_>,
+) {
+    let (key, span) = (context.key, context.tree.span(node));
+    context.report(
+        &codes::OTHER_UNIT,
+        span,
+        || message(key.text),
+        |d| {
+            d.at(span, "taken as it is")
+                .replace("in the other unit", span, better)
+        },
+    );
+}
+
 /// The shortest JSON of a number: whole ones without a point.
 pub(super) fn json_number(value: f64) -> Json {
     #[expect(
@@ -238,8 +274,22 @@ number! {
             out_of_range("above 0 and below 180", node, context);
             return Some(90.0);
         }
+        if degrees < std::f64::consts::PI {
+            looks_like_radians(degrees, node, context);
+        }
         Some(degrees)
     }, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 }
+}
+
+number! {
+    /// An angle in degrees.
+    Degrees(f64), |node, context| {
+        let degrees = number(node, "a number", context)?;
+        if degrees.fract() != 0.0 && degrees.abs() <= std::f64::consts::TAU {
+            looks_like_radians(degrees, node, context);
+        }
+        Some(degrees)
+    }, { "type": "number" }
 }
 
 number! {

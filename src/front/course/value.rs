@@ -1,7 +1,7 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value};
-use super::number::{is_number, json_number, number, plain_number};
+use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
 use crate::diag::clip;
@@ -77,6 +77,14 @@ triple! {
 triple! {
     /// A direction, with or without a length that matters.
     Vector, |node, context| number(node, "a list of three numbers", context),
+    { "type": "number", "minimum": -1e60, "maximum": 1e60 }
+}
+
+triple! {
+    /// Three angles in radians.
+    Angles, |node, context| {
+        number(node, "a list of three numbers", context).map(|angle| in_radians(angle, node, context))
+    },
     { "type": "number", "minimum": -1e60, "maximum": 1e60 }
 }
 

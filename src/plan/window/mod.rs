@@ -2,7 +2,7 @@
 
 use crate::math::{U, Vec3, cross, dot};
 use crate::plan::body::{Body, Extent};
-use crate::plan::space::{MARGIN, Space};
+use crate::plan::space::{Flat, MARGIN, Space};
 use crate::valid::Camera;
 
 /// The largest rounding error of a projected point, in pixels, that is accepted.
@@ -100,6 +100,28 @@ impl Window {
             Extent::Within(space) if !self.blurred => self.project(space),
             Extent::Within(_) | Extent::Plane(_) | Extent::Anywhere => Shown::Anywhere,
         }
+    }
+
+    /// Whether no camera ray meets a plane: from all of the lens, the rays through all of the picture
+    /// lead away from it. Both are convex, and the distance from the plane is linear in each.
+    pub(in crate::plan) fn is_behind(&self, plane: &Flat) -> bool {
+        let Camera {
+            center, right, up, ..
+        } = &self.camera;
+        let [x, y] = self.size.map(|side| side / 2.0 + 1.0);
+        let corner = |[x, y]: [f64; 2]| *center + *right * x + *up * y;
+        let corners = [[-x, -y], [x, -y], [-x, y], [x, y]].map(corner);
+        let away = |from: &Vec3, corner: &Vec3| {
+            let distance = (*from - plane.point).dot(plane.normal);
+            let approach = (*corner - *from).dot(plane.normal);
+            let size = from.abs().max_element() + plane.point.abs().max_element();
+            let reach = size + corner.abs().max_element();
+            distance * approach > 0.0
+                && distance.abs() > MARGIN * size
+                && approach.abs() > MARGIN * reach
+        };
+        let leads_away = |from: &Vec3| corners.iter().all(|corner| away(from, corner));
+        !self.blurred && self.lens.iter().all(leads_away)
     }
 
     /// The projection of a point through the centre of the lens, in pixels; `None` if it is uncertain.

@@ -5,7 +5,7 @@ use super::solid::turned;
 use crate::front::course::decode::{Context, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::record::{keys, record};
-use crate::front::course::value::{FileName, Point, Scale, Text, Vector};
+use crate::front::course::value::{Angles, FileName, Point, Scale, Text};
 
 record! {
     /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.
@@ -19,7 +19,7 @@ record! {
         /// How many times larger it is than in its file, in all directions or along its x, y and z.
         scale: Spanned<Scale>, default(Scale([1.0; 3])), keys!["scale"];
         /// The angles in radians by which it is turned about its origin: first about x, then y, then z.
-        rotation: Spanned<Vector>, default(Vector([0.0; 3])), keys!["rotation"];
+        rotation: Spanned<Angles>, default(Angles([0.0; 3])), keys!["rotation"];
     }
 }
 

@@ -57,7 +57,10 @@ impl Lower for Mesh {
         } = self;
         let clothes = match material {
             FieldOutcome::Read(material) => lowering.clothe(kind, material, context),
-            FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind)),
+            FieldOutcome::Absent => {
+                bare(kind, context);
+                Some(lowering.clothe_in_grey(kind))
+            }
             FieldOutcome::Broken => None,
         };
         let index = lowering.scene.surfaces.len();
@@ -102,6 +105,17 @@ fn placed(scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
     let [x, y, z] = Vec3::AXES;
     let [x, y, z] = [x * scale[0], y * scale[1], z * scale[2]].map(|axis| axis.to_array());
     [x, y, z, position]
+}
+
+fn bare(kind: &Spanned<Text>, context: &mut Context<'_>) {
+    if let Some(span) = kind.span {
+        let message = || "the mesh has no `material`, so it is grey".to_owned();
+        context.report(&codes::ASSUMED, span, message, |d| {
+            d.at(span, "this mesh").hint(
+                "write `material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.8, ks: 0, n: 1}`, or its own",
+            )
+        });
+    }
 }
 
 fn useless_axis(radius: &Spanned<Radius>, context: &mut Context<'_>) {

@@ -10,7 +10,7 @@ use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::object::Clothes;
 use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::value::{Point, Text, Vector};
+use crate::front::course::value::{Angles, Point, Text, Vector};
 use crate::ir;
 use crate::math::{Vec3, cos, sin, unit_scale};
 use crate::source::Span;
@@ -28,7 +28,7 @@ record! {
         /// The lengths along x, y and z, before it is turned.
         dimension: Spanned<Vector>, optional, keys!["dimension" "dimensions"];
         /// The angles in radians by which it is turned about its centre: first about x, then y, then z.
-        rotation: Spanned<Vector>, optional, keys!["rotation"];
+        rotation: Spanned<Angles>, optional, keys!["rotation"];
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 3], optional, &[&["up", "side", "depth"]];
         /// What it is made of.

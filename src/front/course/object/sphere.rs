@@ -5,7 +5,7 @@ use crate::diag::codes;
 use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
-use crate::front::course::number::{Positive, Real, json_number};
+use crate::front::course::number::{Degrees, Positive, json_number};
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::schema::Definitions;
 use crate::front::course::value::{Point, Text, Vector};
@@ -24,7 +24,7 @@ record! {
         /// The radius, above 0; or a list of the radius and the axis that its texture is turned about.
         radius: Spanned<Radius>, required, keys!["radius" "r"];
         /// By how many degrees the texture is turned about its axis.
-        angle: Spanned<Real>, default(Real(0.0)), keys!["angle"];
+        angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"];
         /// The axis that the texture is turned about: its poles lie on it.
         axis: Spanned<Vector>, optional, keys!["axis" "rotation"];
         /// What it is made of.

@@ -1,0 +1,68 @@
+//! Values that are allowed and yet hardly what was meant: no light in a scene that shows lit
+//! surfaces, and colours that look like bytes.
+
+use super::check::{Check, place};
+use crate::diag::{Diagnostic, codes};
+use crate::ir::{self, Field, Noun};
+
+/// Warns of what is hardly meant, in a scene without errors: what could not be read is missing here.
+pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
+    if check.has_errors() {
+        return;
+    }
+    no_light(scene, check);
+    for (index, material) in scene.materials.iter().enumerate() {
+        let Some(phong) = material.phong() else {
+            continue;
+        };
+        if phong.color_map.is_none() && looks_like_bytes(phong.color, 2.0) {
+            bytes(phong.color, Noun::Material, index, check);
+        }
+    }
+    for (index, light) in scene.lights.iter().enumerate() {
+        let Some(light) = light.point() else { continue };
+        if looks_like_bytes(light.color, BRIGHT) {
+            bytes(light.color, Noun::Light, index, check);
+        }
+    }
+}
+
+/// A light may well have a colour of 10; one of this is more likely a byte.
+const BRIGHT: f64 = 100.0;
+
+/// Whether the channels of a colour are whole numbers up to 255, the largest of them at least
+/// `least`.
+fn looks_like_bytes(color: [f64; 3], least: f64) -> bool {
+    let is_byte = |channel: &f64| channel.fract() == 0.0 && (0.0..=255.0).contains(channel);
+    color.iter().all(is_byte) && color.iter().any(|channel| *channel >= least)
+}
+
+fn bytes(color: [f64; 3], noun: Noun, index: usize, check: &mut Check<'_>) {
+    let [r, g, b] = color.map(|channel| (channel / 255.0 * 1000.0).round() / 1000.0);
+    let finding = Diagnostic::new(
+        &codes::COLOR_OF_BYTES,
+        "a colour looks like bytes from 0 to 255",
+    );
+    let finding = finding.hint(format!("1 is full strength: `[{r}, {g}, {b}]`"));
+    check.report(
+        place(noun, index, Field::Color),
+        "far brighter than white",
+        finding,
+    );
+}
+
+/// Warns of a scene that shows lit surfaces and has no light: all of it is black.
+fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
+    let ir::Scene {
+        settings,
+        lights,
+        surfaces,
+        ..
+    } = scene;
+    let is_lit = matches!(settings.mode, ir::Mode::Phong | ir::Mode::Gooch(_));
+    if is_lit && lights.is_empty() && !surfaces.is_empty() {
+        let finding = Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
+            .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
+        check.report_all(Noun::Light, "/lights", "no light here", finding);
+    }
+}
