@@ -12,6 +12,9 @@ use std::marker::PhantomData;
 
 /// A type of the format: read from the tree, described in the schema.
 pub(super) trait Value: Sized {
+    /// Whether the value is a list, or may be one; a list of one item is that item for the others.
+    const IS_LIST: bool = false;
+
     /// Reads the value; `None` if it can't be read, and then the sink has an error.
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self>;
 
@@ -57,6 +60,8 @@ pub(super) struct SharedValue<T> {
 }
 
 impl<T: Value> Value for SharedValue<T> {
+    const IS_LIST: bool = T::IS_LIST;
+
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let target = context.tree.target(node);
         if context.decoded.contains(&target) {
@@ -122,6 +127,8 @@ impl<T: Value> Each<T> {
 }
 
 impl<T: Value> Value for Each<T> {
+    const IS_LIST: bool = true;
+
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         match context.tree.shape(node) {
             NodeContent::List => Some(Self {
@@ -171,7 +178,9 @@ pub(super) struct Context<'a> {
     /// The entries of the maps being read, innermost last.
     pub(super) entries: Vec<MapEntry<'a>>,
     /// Other spellings met, once each, with the first place.
-    pub(super) spellings: Vec<(&'static str, &'static str, Span)>,
+    pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
+    /// The first key in another case of letters.
+    pub(super) other_case: Option<(&'a str, &'static str, Span)>,
     sink: &'a mut Sink,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
@@ -199,6 +208,7 @@ impl<'a> Context<'a> {
             },
             entries: Vec::new(),
             spellings: Vec::new(),
+            other_case: None,
             sink,
             decoded: BTreeSet::new(),
             said: BTreeSet::new(),
@@ -253,10 +263,17 @@ impl<'a> Context<'a> {
     }
 
     /// Remembers that something was written otherwise than it should be, unless that is known.
-    pub(super) fn note_spelling(&mut self, written: &'static str, meant: &'static str, span: Span) {
+    pub(super) fn note_spelling(&mut self, written: &'a str, meant: &'static str, span: Span) {
         let known = |(w, m, _): &(&str, &str, Span)| (*w, *m) == (written, meant);
         if written != meant && !self.spellings.iter().any(known) {
             self.spellings.push((written, meant, span));
+        }
+    }
+
+    /// Remembers that a key was written in another case of letters, the first time.
+    pub(super) fn note_case(&mut self, written: &'a str, meant: &'static str, key: NodeId) {
+        if self.other_case.is_none() {
+            self.other_case = Some((written, meant, self.tree.span(key)));
         }
     }
 

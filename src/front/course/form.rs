@@ -27,7 +27,7 @@ pub(super) fn check(
     // A required field that is missing was reported as such; one with a default is part of no form.
     let given = |at: usize, field: &Field| match field.need {
         Need::Required => true,
-        Need::Optional => is_there(at),
+        Need::Optional | Need::Unless(_) => is_there(at),
         Need::Default(_) => false,
     };
     let in_forms = |field: &Field| forms.iter().any(|form| form.contains(&field.name));

@@ -9,7 +9,7 @@ use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
 use super::texture::Files;
-use crate::diag::{Diagnostic, Sink, codes};
+use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::FrontOptions;
 use crate::ir::{self, Field, Lowered, MaterialId, Noun, Origins, Place};
 use crate::source::tree::yaml::{self, Mistake};
@@ -53,6 +53,7 @@ pub fn lower(
     let mut lowering = Lowering::new();
     lowering.scene(&mut context);
     note_spellings(&mut context);
+    note_case(&mut context);
     // The places are sorted after the tree is gone: together they would be the peak of memory.
     drop(tree);
     Some(lowering.finish())
@@ -281,4 +282,21 @@ fn note_spellings(context: &mut Context<'_>) {
                 .hint("`rtc compile --emit yaml` writes the canonical ones")
         },
     );
+}
+
+/// Says once that keys of the file are written in another case of letters.
+fn note_case(context: &mut Context<'_>) {
+    let Some((written, meant, span)) = context.other_case else {
+        return;
+    };
+    let message = || {
+        format!(
+            "the case of letters in keys: `{}` for `{meant}`",
+            clip(written)
+        )
+    };
+    context.report(&codes::SPELLING, span, message, |d| {
+        d.at(span, "the first of them")
+            .hint("`--strict` takes keys only as the format writes them")
+    });
 }

@@ -29,8 +29,8 @@ record! {
         ka: Spanned<NonNegative>, required, keys!["ka"];
         /// The weight of the diffuse light.
         kd: Spanned<NonNegative>, required, keys!["kd"];
-        /// The weight of the highlight and of the mirror image.
-        ks: Spanned<NonNegative>, required, keys!["ks"];
+        /// The weight of the highlight and of the mirror image; 1 beside a `specularMap` that replaces it.
+        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks"];
         /// The exponent of the highlight: the larger, the smaller and sharper.
         n: Spanned<NonNegative>, required, keys!["n"];
         /// The weight of the light that passes through; 0 is opaque.
@@ -137,7 +137,7 @@ impl Lowering {
             color: color.0,
             ka: ka.value.0,
             kd: kd.value.0,
-            ks: ks.value.0,
+            ks: specular(ks).value.0,
             n: n.value.0,
             kt,
             eta,
@@ -163,11 +163,12 @@ impl Lowering {
         };
         let shows =
             self.scene.settings.max_depth > 0 && self.scene.settings.mode == ir::Mode::Phong;
-        if shows && material.ks.value.0 > 0.0 {
+        let ks = specular(&material.ks);
+        if shows && ks.value.0 > 0.0 {
             let message = || "`type: default` mirrors by `ks` here".to_owned();
             context.report(&codes::TWO_READINGS, span, message, |d| {
                 d.at(span, "no mirror in some programs")
-                    .also(material.ks.span, "the weight of the mirror image")
+                    .also(ks.span, "the weight of the mirror image")
                     .hint("a `ks` of 0 mirrors nothing, and has no highlight")
             });
         }
@@ -209,7 +210,7 @@ impl Lowering {
             (Field::Color, color),
             (Field::Ka, ka.span),
             (Field::Kd, kd.span),
-            (Field::Ks, ks.span),
+            (Field::Ks, specular(ks).span),
             (Field::N, n.span),
             (Field::Kt, kt.span),
             (Field::Eta, eta.span),
@@ -253,6 +254,11 @@ fn refraction(kt: f64, eta: f64) -> (f64, f64) {
         eta
     };
     (weight, ratio)
+}
+
+/// The weight of the highlight, which a texture may replace.
+fn specular(ks: &FieldOutcome<Spanned<NonNegative>>) -> Spanned<NonNegative> {
+    ks.ok().unwrap_or(Spanned::unwritten(NonNegative(1.0)))
 }
 
 /// Whether a material is said to be glass or not, and where; by words, not by a weight.

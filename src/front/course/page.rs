@@ -71,6 +71,11 @@ fn section(title: &str, record: &Record, page: &mut String) {
         let in_form = record.forms.iter().any(|form| form.contains(name));
         let default = match need {
             Need::Required => "required".to_owned(),
+            Need::Unless(other) => {
+                let other = record.fields.iter().find(|field| field.name == *other);
+                let other = other.map_or_else(String::new, |field| code(field.rows[0]));
+                format!("required without {other}")
+            }
             Need::Optional if in_form => "see below".to_owned(),
             Need::Optional => "none".to_owned(),
             Need::Default(default) => format!("`{}`", default()),

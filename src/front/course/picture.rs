@@ -40,6 +40,8 @@ record! {
 pub(super) struct PictureSize(pub(super) [u32; 2]);
 
 impl Value for PictureSize {
+    const IS_LIST: bool = true;
+
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
         if tree.is_map(node) {

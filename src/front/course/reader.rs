@@ -41,6 +41,9 @@ impl Reader {
         let head = context.key.span.unwrap_or_else(|| context.head(node));
         let from = context.entries.len();
         gather(node, context);
+        if !context.options.strict {
+            fold_case(record, from, context);
+        }
         Some(Self {
             record,
             rows: Vec::with_capacity(record.fields.len()),
@@ -105,7 +108,19 @@ impl Reader {
             }
         }
         context.entries.truncate(self.from);
-        let required = |field: &Field| matches!(field.need, Need::Required);
+        let has = |name: &str| {
+            let at = self
+                .record
+                .fields
+                .iter()
+                .position(|field| field.name == name);
+            at.is_some_and(|at| self.rows[at].is_some())
+        };
+        let required = |field: &Field| match field.need {
+            Need::Required => true,
+            Need::Unless(other) => !has(other),
+            Need::Optional | Need::Default(_) => false,
+        };
         let absent = |at: &usize| self.rows[*at].is_none() && partial & (1 << at) == 0;
         let fields = self.record.fields.iter().enumerate();
         let missing = fields.filter(|(at, field)| absent(at) && required(field));
@@ -218,6 +233,33 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &m
     );
 }
 
+/// Takes keys of no meaning for those that differ from them in the case of letters alone, unless
+/// the map has these as well.
+fn fold_case(record: &'static Record, from: usize, context: &mut Context<'_>) {
+    let keys = || {
+        record
+            .fields
+            .iter()
+            .flat_map(|field| field.rows.iter().copied().flatten().copied())
+    };
+    for at in from..context.entries.len() {
+        let MapEntry { key, key_node, .. } = context.entries[at];
+        if keys().any(|known| known == key) {
+            continue;
+        }
+        let is_other = |known: &&str| {
+            context.entries[from..]
+                .iter()
+                .all(|entry| entry.key != *known)
+        };
+        let meant = keys().find(|known| known.eq_ignore_ascii_case(key) && is_other(known));
+        if let Some(meant) = meant {
+            context.entries[at].key = meant;
+            context.note_case(key, meant, key_node);
+        }
+    }
+}
+
 /// Adds the entries of a map to those of the context, its own first, then those it merges.
 fn gather(map: NodeId, context: &mut Context<'_>) {
     let tree = context.tree;
@@ -272,9 +314,10 @@ pub(super) fn look_up(key: &str, map: NodeId, context: &mut Context<'_>) -> Opti
     }
     let from = context.entries.len();
     gather(map, context);
+    let is_strict = context.options.strict;
     let found = context.entries[from..]
         .iter()
-        .find(|entry| entry.key == key)
+        .find(|entry| entry.key == key || (!is_strict && entry.key.eq_ignore_ascii_case(key)))
         .map(|entry| entry.value);
     context.entries.truncate(from);
     found

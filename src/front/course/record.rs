@@ -6,7 +6,8 @@
 
 use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
 use super::schema::Definitions;
-use serde_json::Value as Json;
+use crate::source::tree::NodeId;
+use serde_json::{Value as Json, json};
 
 /// Rows of keys, the canonical one first; all rows of a field have the same length.
 pub(super) type Rows = &'static [&'static [&'static str]];
@@ -15,6 +16,8 @@ pub(super) type Rows = &'static [&'static [&'static str]];
 pub(super) enum Need {
     Required,
     Optional,
+    /// Required, unless the field of this name is there.
+    Unless(&'static str),
     /// The value that stands in, as the schema shows it.
     Default(fn() -> Json),
 }
@@ -97,14 +100,17 @@ macro_rules! record {
         }
     };
     (@type optional $type:ty) => { $crate::front::course::record::FieldOutcome<$type> };
+    (@type unless $type:ty) => { $crate::front::course::record::FieldOutcome<$type> };
     (@type $need:ident $type:ty) => { $type };
     (@need required $type:ty) => { $crate::front::course::record::Need::Required };
     (@need optional $type:ty) => { $crate::front::course::record::Need::Optional };
+    (@need unless $type:ty, $other:expr) => { $crate::front::course::record::Need::Unless($other) };
     (@need default $type:ty, $default:expr) => {
         $crate::front::course::record::Need::Default(|| $crate::front::course::decode::Value::json(&$default))
     };
     (@value required $found:ident) => { $found.ok()? };
     (@value optional $found:ident) => { $found };
+    (@value unless $found:ident, $other:expr) => { $found };
     (@value default $found:ident, $default:expr) => {
         $found.ok().unwrap_or_else(|| $crate::front::course::decode::Spanned::unwritten($default))
     };
@@ -160,6 +166,11 @@ impl<T: Value> Slot for Spanned<T> {
             text,
             span: Some(key),
         };
+        let node = if T::IS_LIST {
+            node
+        } else {
+            only_item(node, context)
+        };
         let value = T::decode(node, context)?;
         let span = if tree.is_map(node) {
             key
@@ -173,7 +184,7 @@ impl<T: Value> Slot for Spanned<T> {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        T::schema(definitions)
+        one_or_only(T::schema(definitions), T::IS_LIST)
     }
 }
 
@@ -189,6 +200,31 @@ impl<T: Value, const N: usize> Slot for [Spanned<T>; N] {
     }
 
     fn schema(definitions: &mut Definitions) -> Json {
-        T::schema(definitions)
+        one_or_only(T::schema(definitions), T::IS_LIST)
     }
+}
+
+/// The item of a list of one, as some files wrap their values; any other node itself.
+fn only_item(node: NodeId, context: &mut Context<'_>) -> NodeId {
+    let tree = context.tree;
+    if !tree.is_list(node) {
+        return node;
+    }
+    let mut items = tree.items(node);
+    match (items.next(), items.next()) {
+        (Some(item), None) if !tree.is_list(item) => {
+            context.note_spelling("[x]", "x", tree.span(node));
+            item
+        }
+        _ => node,
+    }
+}
+
+/// The schema of a value, or of a list of it alone.
+fn one_or_only(schema: Json, is_list: bool) -> Json {
+    if is_list {
+        return schema;
+    }
+    let only = json!({ "type": "array", "items": schema, "minItems": 1, "maxItems": 1, "deprecated": true });
+    json!({ "anyOf": [schema, only] })
 }

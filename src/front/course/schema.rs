@@ -62,6 +62,11 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
         match (&field.need, field.rows) {
             (Need::Required, [[key]]) => required.push(*key),
             (Need::Required, _) => rules.push(one_row(field)),
+            (Need::Unless(other), _) => {
+                let other = record.fields.iter().find(|field| field.name == *other);
+                let either = [Some(field), other].into_iter().flatten().map(one_row);
+                rules.push(json!({ "anyOf": either.collect::<Vec<_>>() }));
+            }
             (Need::Optional | Need::Default(_), [[_]]) => {}
             (Need::Optional | Need::Default(_), _) => {
                 rules.push(json!({ "anyOf": [one_row(field), absent(field)] }))
@@ -121,7 +126,7 @@ fn field_properties(
                 Need::Default(default) if is_canonical => {
                     drop(property.insert("default".to_owned(), default()))
                 }
-                Need::Required | Need::Optional | Need::Default(_) => {}
+                Need::Required | Need::Optional | Need::Unless(_) | Need::Default(_) => {}
             }
             if !is_canonical {
                 property.insert("deprecated".to_owned(), json!(true));

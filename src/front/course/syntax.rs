@@ -1,6 +1,6 @@
 //! Mistakes in a YAML text as findings.
 
-use crate::diag::{Code, Diagnostic, clip, codes};
+use crate::diag::{Code, Diagnostic, Severity, clip, codes};
 use crate::source::Span;
 use crate::source::tree::yaml::{MAX_DEPTH, Mistake};
 
@@ -44,7 +44,12 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
                 .hint("a scene needs a depth of 6")
         }
         Mistake::Unclosed { bracket, runs_into } => unclosed(bracket, runs_into),
-        Mistake::DuplicateKey { key, first, second } => duplicate_key(key, first, second),
+        Mistake::DuplicateKey {
+            key,
+            first,
+            second,
+            is_same,
+        } => duplicate_key(key, first, second, is_same),
         Mistake::Syntax {
             message,
             label,
@@ -88,11 +93,19 @@ fn not_utf8(byte: u8, span: Span) -> Diagnostic {
     say(&codes::NOT_UTF8, message, span, "not UTF-8").hint(hint)
 }
 
-fn duplicate_key(key: &str, first: Span, second: Span) -> Diagnostic {
-    let message = format!("the key `{}` stands here twice", clip(key));
-    say(&codes::DUPLICATE_KEY, message, second, "again")
+fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnostic {
+    let key = clip(key);
+    let message = match is_same {
+        true => format!("the key `{key}` stands here twice, with the same value"),
+        false => format!("the key `{key}` stands here twice"),
+    };
+    let finding = say(&codes::DUPLICATE_KEY, message, second, "again")
         .also(first, "first")
-        .hint("remove one of them")
+        .hint("remove one of them");
+    match is_same {
+        true => finding.severity(Severity::Warning),
+        false => finding,
+    }
 }
 
 fn unclosed(bracket: Span, runs_into: Option<Span>) -> Diagnostic {

@@ -53,6 +53,8 @@ macro_rules! triple {
         pub(super) struct $name(pub(super) [f64; 3]);
 
         impl Value for $name {
+            const IS_LIST: bool = true;
+
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 tuple(node, "a list of three numbers", context, $decode).map(Self)
             }
@@ -101,6 +103,8 @@ macro_rules! spread {
         pub(super) struct $name(pub(super) [f64; 3]);
 
         impl Value for $name {
+            const IS_LIST: bool = true;
+
             fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
                 const WHAT: &str = "a number or a list of three numbers";
                 match context.tree.shape(node) {
@@ -138,6 +142,8 @@ spread! {
 pub(super) struct Uv(pub(super) [f64; 2]);
 
 impl Value for Uv {
+    const IS_LIST: bool = true;
+
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         const WHAT: &str = "a list of two numbers";
         tuple(node, WHAT, context, |node, context| {

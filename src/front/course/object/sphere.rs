@@ -40,6 +40,8 @@ pub(in crate::front::course) struct Radius {
 }
 
 impl Value for Radius {
+    const IS_LIST: bool = true;
+
     fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
         let tree = context.tree;
         if tree.shape(node) != NodeContent::List {

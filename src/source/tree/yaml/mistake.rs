@@ -71,6 +71,8 @@ pub enum Mistake<'t> {
         first: Span,
         /// Where it stands again.
         second: Span,
+        /// Whether both have the same value.
+        is_same: bool,
     },
     /// Anything else that is not YAML.
     Syntax {

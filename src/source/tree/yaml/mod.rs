@@ -249,6 +249,7 @@ impl<'s> Build<'s, '_> {
                 key: self.tree.text(*second).unwrap_or_default(),
                 first: self.tree.span(*first),
                 second: self.tree.span(*second),
+                is_same: self.tree.is_same(NodeId(first.0 + 1), NodeId(second.0 + 1)),
             });
         }
     }
