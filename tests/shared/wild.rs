@@ -37,79 +37,19 @@ const REFUSED: &[(&str, &str, &str)] = &[
         "it names a PNG as its mesh",
     ),
     (
-        "RayTracing101/scenePrisme.yaml",
-        "SC006",
-        "`prisme` is no type of the format",
-    ),
-    (
-        "RayCaster/scene01.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "RayCaster/scene02.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "RayCaster/scene03.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "RayCaster/sceneProf01.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "RayCaster/sceneProf02.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "RayCaster/sceneProf03.yaml",
-        "SC003",
-        "its `RenderMode` is a list",
-    ),
-    (
-        "Scenes/plane_scene.json",
-        "SC002",
-        "its plane is said in words of its own",
-    ),
-    (
-        "Scenes/quad_scene.json",
-        "SC002",
-        "its quad is said in words of its own",
-    ),
-    (
         "Scenes/scene01-texture-ss-reflect-lights-shadows.json",
         "RE001",
         "its texture was never published with it",
     ),
     (
-        "Scenes/triangle_scene.json",
-        "SC002",
-        "its triangle is said in words of its own",
-    ),
-    (
-        "scenes/scene01-textureCoordinate.yaml",
-        "SC005",
-        "`textureCoordinate` is no render mode of the format",
-    ),
-    (
         "ganyuss_advanced_graphics/scene01-camera-ss-reflect-lights-shadows.yaml",
-        "SC002",
-        "a material has no `ks`",
+        "RE002",
+        "its textures lie above its folder",
     ),
     (
         "ganyuss_advanced_graphics/scene05.yaml",
         "RE002",
         "its texture lies above its folder",
-    ),
-    (
-        "ganyuss_advanced_graphics/scene07.yaml",
-        "SC003",
-        "its `depth` is a number",
     ),
 ];
 

@@ -2,7 +2,7 @@
 
 use super::decode::{Context, Spanned};
 use super::lower::Lowering;
-use super::number::{Count, NonNegative, Opening};
+use super::number::{Count, NonNegative, Opening, Positive, Side};
 use super::picture::PictureSize;
 use super::record::{FieldOutcome, keys, record};
 use super::value::{Point, Vector};
@@ -24,7 +24,11 @@ record! {
         /// it stands, and the image need not face the eye. Without it pixels are square.
         right: Spanned<Vector>, optional, keys!["right"];
         /// Width and height of the image in pixels.
-        view_size: Spanned<PictureSize>, required, keys!["viewSize"];
+        view_size: Spanned<PictureSize>, unless("sides"), keys!["viewSize"];
+        /// Width and height of the image as two keys.
+        sides: [Spanned<Side>; 2], optional, &[&["width", "height"]];
+        /// The distance from the eye to an image whose pixels have the size 1; then `center` and `up` are directions alone.
+        focal_distance: Spanned<Positive>, optional, keys!["focalDistance"];
         /// The angle in degrees that the image spans from bottom to top, above 0 and below 180; then the length of `up` does
         /// not count.
         fov: Spanned<Opening>, optional, keys!["fov"];
@@ -33,6 +37,7 @@ record! {
         /// How many points of the lens each sub-sample looks through.
         aperture_samples: Spanned<Count>, default(Count(1)), keys!["apertureSamples"];
     }
+    forms { [view_size] [sides] }
 }
 
 /// The size of the picture where neither a `Camera` nor an `ImageSize` says it.
@@ -57,18 +62,28 @@ pub(super) fn placeholder() -> ir::Camera {
 impl Lowering {
     /// Lowers a `Camera`.
     pub(super) fn camera(&mut self, camera: &Spanned<Camera>, context: &mut Context<'_>) {
+        let (center, up) = focused(&camera.value);
         let Camera {
             eye,
-            center,
-            up,
+            center: _,
+            up: _,
             right: step,
             view_size,
+            sides,
+            focal_distance: _,
             fov,
             aperture_radius,
             aperture_samples,
         } = &camera.value;
-        let opening = opening(fov, up, context);
-        let basis = basis(&camera.value, context);
+        let view_size = match (view_size, sides) {
+            (FieldOutcome::Read(size), _) => *size,
+            (_, FieldOutcome::Read([width, height])) => {
+                height.map(|_| PictureSize([width.value.0, height.value.0]))
+            }
+            _ => return,
+        };
+        let opening = opening(fov, &up, context);
+        let basis = basis(&camera.value, &center, &up, context);
         for (field, span) in [
             (Field::Whole, camera.span),
             (Field::Eye, eye.span),
@@ -118,7 +133,9 @@ impl Lowering {
             center: *center,
             up: up.map(|point| Vector(point.0)),
             right: FieldOutcome::Absent,
-            view_size: Spanned::unwritten(size),
+            view_size: FieldOutcome::Read(Spanned::unwritten(size)),
+            sides: FieldOutcome::Absent,
+            focal_distance: FieldOutcome::Absent,
             fov: FieldOutcome::Absent,
             aperture_radius: Spanned::unwritten(NonNegative(0.0)),
             aperture_samples: Spanned::unwritten(Count(1)),
@@ -147,6 +164,21 @@ impl Lowering {
     }
 }
 
+/// The middle of the image and the upward step: with a focal distance the image lies at that
+/// distance, with pixels of the size 1.
+fn focused(camera: &Camera) -> (Spanned<Point>, Spanned<Vector>) {
+    let (mut center, mut up) = (camera.center, camera.up);
+    if let FieldOutcome::Read(distance) = camera.focal_distance {
+        let [eye, at, upward] =
+            [camera.eye.value.0, center.value.0, up.value.0].map(Vec3::from_array);
+        if let (Some(gaze), Some(upward)) = (unit(at - eye), unit(upward)) {
+            center.value = Point((eye + gaze * distance.value.0).to_array());
+            up.value = Vector(upward.to_array());
+        }
+    }
+    (center, up)
+}
+
 /// The angle that the image spans, in radians, if that is given.
 fn opening(
     fov: &FieldOutcome<Spanned<Opening>>,
@@ -173,14 +205,14 @@ fn opening(
 }
 
 /// The steps from pixel to pixel; `None` if there are none, and then the sink has an error.
-fn basis(camera: &Camera, context: &mut Context<'_>) -> Option<(Vec3, Vec3)> {
+fn basis(
+    camera: &Camera,
+    center: &Spanned<Point>,
+    up: &Spanned<Vector>,
+    context: &mut Context<'_>,
+) -> Option<(Vec3, Vec3)> {
     let Camera {
-        eye,
-        center,
-        up,
-        right,
-        fov,
-        ..
+        eye, right, fov, ..
     } = camera;
     match right {
         FieldOutcome::Read(right) => {

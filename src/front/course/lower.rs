@@ -175,6 +175,7 @@ impl Lowering {
                 self.object(&object.value, context);
             });
         self.follow_paths(&scene);
+        self.show_uv(&scene);
     }
 
     /// Chooses between the two cameras.

@@ -21,7 +21,8 @@ A scene is a YAML file. This page is made from the declarations that the decoder
 
 Every key has one canonical spelling, and often others that are met in files; all are read. A key of more than one word
 stands for several keys that are given together. Keys that are not on this page are ignored with a warning, and are
-errors with `--strict`. Lengths are in scene units; points, directions and colours are lists of three numbers.
+errors with `--strict`; only `comment` may stand in every map and means nothing. A list of one item is read as that item,
+and keys in any case of letters unless `--strict` is on. A scene may be JSON, which is YAML too. Lengths are in scene units; points, directions and colours are lists of three numbers.
 ";
 
 const WRITES: &str = "a string takes all that is written to it";

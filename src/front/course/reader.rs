@@ -15,7 +15,10 @@ use std::collections::BTreeSet;
 const ADVISED: usize = 100;
 
 /// The longest row of any field.
-const MAX_ROW: usize = 4;
+const MAX_ROW: usize = 6;
+
+/// A key that every map may have, for people to read; it has no meaning.
+pub(super) const COMMENT: &str = "comment";
 
 /// Reads one map, field by field in the order of the declaration.
 pub(super) struct Reader {
@@ -103,7 +106,7 @@ impl Reader {
         let mut partial = 0_u32;
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
-            if !entry.claimed {
+            if !entry.claimed && entry.key != COMMENT {
                 partial |= self.unread(entry, context);
             }
         }

@@ -4,6 +4,7 @@
 //! `Camera`, are refused.
 
 use super::decode::Value;
+use super::reader::COMMENT;
 use super::record::{Field, Need, Record};
 use super::settings::Scene;
 use serde_json::{Map, Value as Json, json};
@@ -55,6 +56,8 @@ fn body(record: &Record, definitions: &mut Definitions) -> Json {
     for field in record.fields {
         field_properties(field, definitions, &mut properties);
     }
+    let comment = json!({ "description": "Anything, for people to read." });
+    properties.insert(COMMENT.to_owned(), comment);
     let in_form = |field: &Field| record.forms.iter().any(|form| form.contains(&field.name));
     let mut required = Vec::new();
     let mut rules = Vec::new();

@@ -31,7 +31,8 @@ record! {
         /// a pixel; the image has 400 × 400 pixels. Better written as a `Camera`.
         look: [Spanned<Point>; 3], optional, &[&["CameraEye", "CameraLookPoint", "CameraUpVector"]];
         /// What a pixel shows: `phong` the lit surface, `path` the light along all paths (the default with a sun, an
-        /// `Environment` or a glTF asset), `zbuffer` its distance, `normal` its direction, `gooch` a drawing.
+        /// `Environment` or a glTF asset), `zbuffer` its distance, `normal` its direction, `gooch` a drawing, `texture` its
+        /// texture coordinates as the colours (u, 0, v).
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
         shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"];
@@ -93,6 +94,7 @@ pub(super) enum Mode {
     Normal,
     Gooch,
     Path,
+    Uv,
 }
 
 /// The words for the modes.
@@ -103,6 +105,8 @@ const MODES: &[(&str, Mode)] = &[
     ("normal", Mode::Normal),
     ("gooch", Mode::Gooch),
     ("path", Mode::Path),
+    ("texture", Mode::Uv),
+    ("textureCoordinate", Mode::Uv),
 ];
 
 /// The modes as some files number them.
@@ -252,6 +256,30 @@ impl Lowering {
         }
     }
 
+    /// Shows the texture coordinates of all surfaces if the file says so: their colour by one light
+    /// of ambient light alone; after the lights and the objects.
+    pub(super) fn show_uv(&mut self, scene: &Scene) {
+        if scene.mode.value != Mode::Uv {
+            return;
+        }
+        let color_map = Some(self.files.uv(&mut self.scene));
+        for material in &mut self.scene.materials {
+            *material = ir::Material::Phong(ir::Phong {
+                ka: 1.0,
+                kd: 0.0,
+                color_map,
+                ..ir::Phong::MATT
+            });
+        }
+        let position = self.scene.camera.eye;
+        self.scene.lights = vec![ir::Light::Point(ir::PointLight {
+            position,
+            color: [1.0; 3],
+            radius: 0.0,
+        })];
+        (self.scene.settings.shadows, self.scene.settings.max_depth) = (false, 0);
+    }
+
     fn mode(
         &mut self,
         mode: Mode,
@@ -270,7 +298,7 @@ impl Lowering {
             });
         }
         match mode {
-            Mode::Phong => ir::Mode::Phong,
+            Mode::Phong | Mode::Uv => ir::Mode::Phong,
             Mode::Zbuffer => ir::Mode::Zbuffer,
             Mode::Normal => ir::Mode::Normal,
             Mode::Path => ir::Mode::Path(ir::PathSettings::default()),
@@ -305,7 +333,7 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
     } = scene;
     match mode.value {
         Mode::Phong | Mode::Path => return,
-        Mode::Zbuffer | Mode::Normal | Mode::Gooch => {}
+        Mode::Zbuffer | Mode::Normal | Mode::Gooch | Mode::Uv => {}
     }
     let reflections = reflections.ok();
     let rays = sampling.value.factor.0;

@@ -29,9 +29,7 @@ impl Files {
     /// The texture of that name, whose image has one pixel until its file is there.
     pub(super) fn texture(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> TextureId {
         if file.value.0.eq_ignore_ascii_case(UV) {
-            return *self
-                .uv
-                .get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId));
+            return self.uv(scene);
         }
         let name = file.value.0.replace('\\', "/");
         if let Some(id) = self.textures.get(&name) {
@@ -50,6 +48,13 @@ impl Files {
         let id = add(&mut scene.textures, Texture::Image(image), TextureId);
         self.textures.insert(name, id);
         id
+    }
+
+    /// The texture of the uv of surfaces.
+    pub(super) fn uv(&mut self, scene: &mut Scene) -> TextureId {
+        *self
+            .uv
+            .get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId))
     }
 
     /// The mesh of that name, empty until its file is there.

@@ -1,26 +1,32 @@
 //! The cylinder.
 
 use super::Lower;
+use super::cube::turned_about;
 use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
-use crate::front::course::number::Positive;
+use crate::front::course::number::{Positive, Real};
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::value::{Point, Text, Vector};
 use crate::ir;
 use crate::math::Vec3;
 
 record! {
-    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps.
+    /// A cylinder with two caps: the centre of its base, a direction and a height; or the centres of both caps; or, as
+    /// some files say it, its middle, a height, and how the x axis is turned to its own.
     struct Cylinder, "cylinder" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
-        /// The centre of the base.
-        position: Spanned<Point>, optional, keys!["position" "center"];
+        /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
+        position: Spanned<Point>, optional, keys!["position" "center" "origin"];
         /// The direction from the base to the top, of any length but 0.
         direction: Spanned<Vector>, optional, keys!["direction" "axis"];
         /// From base to top, above 0.
-        height: Spanned<Positive>, optional, keys!["height" "h"];
+        height: Spanned<Positive>, optional, keys!["height" "h" "length"];
+        /// What the x axis is turned about to be the axis of the cylinder.
+        turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        /// By how much, in radians.
+        turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// The centre of a cap.
         ends: [Spanned<Point>; 2], optional, &[&["p1", "p2"], &["center1", "center2"], &["end1", "end2"]];
         /// The radius, above 0.
@@ -28,7 +34,7 @@ record! {
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
-    forms { [position direction height] [ends] }
+    forms { [position direction height] [ends] [position height turn_axis turn_angle] }
 }
 
 impl Lower for Cylinder {
@@ -65,10 +71,27 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         position,
         direction,
         height,
+        turn_axis,
+        turn_angle,
         ends,
         radius: _,
         material: _,
     } = cylinder;
+    if let (
+        FieldOutcome::Read(middle),
+        FieldOutcome::Read(height),
+        FieldOutcome::Read(axis),
+        FieldOutcome::Read(angle),
+    ) = (position, height, turn_axis, turn_angle)
+    {
+        let [along, ..] = turned_about(Vec3::from_array(axis.value.0), angle.value.0);
+        let base = Vec3::from_array(middle.value.0) - along * (height.value.0 / 2.0);
+        return Some((
+            middle.map(|_| base.to_array()),
+            axis.map(|_| along.to_array()),
+            height.map(|height| height.0),
+        ));
+    }
     match (position, direction, height, ends) {
         (
             FieldOutcome::Read(position),

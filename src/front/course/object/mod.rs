@@ -1,6 +1,7 @@
 //! The objects, told apart by their `type`: the table of types, and what all of them share.
 
 mod cone;
+mod cube;
 mod cylinder;
 mod disc;
 mod gltf;
@@ -83,7 +84,8 @@ kinds! {
     torus Torus "torus";
     solid Cuboid "box";
     solid Tetrahedron "tetrahedron";
-    solid Prism "prism";
+    cube Cube "cube";
+    solid Prism "prism" "prisme";
     mesh Mesh "mesh" "model" "OBJModel" "triangleMesh" "triangleAggregate";
     plane BoundedPlane "bplane";
     gltf Gltf "gltf";

@@ -2,6 +2,7 @@
 //! are bounded by.
 
 use super::Lower;
+use super::cube::ThirdEdge;
 use super::quad::FOUR_CORNERS;
 use super::triangle::{CORNERS, VERTICES};
 use crate::diag::codes;
@@ -12,7 +13,7 @@ use crate::front::course::object::Clothes;
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::value::{Angles, Point, Text, Vector};
 use crate::ir;
-use crate::math::{Vec3, cos, sin, unit_scale};
+use crate::math::{Vec3, cos, shortest, sin, unit_scale};
 use crate::source::Span;
 
 record! {
@@ -30,11 +31,13 @@ record! {
         /// The angles in radians by which it is turned about its centre: first about x, then y, then z.
         rotation: Spanned<Angles>, optional, keys!["rotation"];
         /// An edge from the corner `position`.
-        edges: [Spanned<Vector>; 3], optional, &[&["up", "side", "depth"]];
+        edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
+        /// The third edge; or its length alone, at right angles to the others, along `up` × `side`.
+        depth: Spanned<ThirdEdge>, optional, keys!["depth"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
-    forms { [extremes] [position dimension] [position dimension rotation] [position edges] }
+    forms { [extremes] [position dimension] [position dimension rotation] [position edges depth] }
 }
 
 record! {
@@ -50,17 +53,21 @@ record! {
 }
 
 record! {
-    /// A prism over a triangle.
+    /// A prism over a triangle: its base and the way to its top, or the corners of both.
     struct Prism, "prism" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
         /// A corner of the base.
-        corners: [Spanned<Point>; 3], required, CORNERS;
+        corners: [Spanned<Point>; 3], optional, CORNERS;
         /// From the base to the top.
-        up: Spanned<Vector>, required, keys!["up" "direction"];
+        up: Spanned<Vector>, optional, keys!["up" "direction"];
+        /// A corner of the base, and those of the top in the same order.
+        ends: [Spanned<Point>; 6], optional,
+            &[&["t1point1", "t1point2", "t1point3", "t2point1", "t2point2", "t2point3"]];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
+    forms { [corners up] [ends] }
 }
 
 /// A face by the indices of its corners, with the outside on the left of its edges; one of four
@@ -89,18 +96,8 @@ impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let clothes = lowering.clothe(&self.kind, &self.material, context);
         if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self)) {
-            let edges = [
-                corners[1] - corners[0],
-                corners[2] - corners[0],
-                corners[4] - corners[0],
-            ];
-            let solid = Solid {
-                word: "box",
-                corners: &corners,
-                faces: BOX,
-                edges,
-            };
-            lowering.solid(&clothes, &solid, span, context);
+            assumed_depth(&self.depth, corners[4] - corners[0], context);
+            lowering.cuboid(&clothes, &corners, span, context);
         }
     }
 }
@@ -142,17 +139,26 @@ impl Lower for Prism {
             kind,
             corners,
             up,
+            ends,
             material,
         } = self;
         let Some(clothes) = lowering.clothe(kind, material, context) else {
             return;
         };
-        let span = corners[0].span;
-        let ([a, b, c], up) = (
-            corners.map(|corner| Vec3::from_array(corner.value.0)),
-            Vec3::from_array(up.value.0),
-        );
-        let corners = [a, b, c, a + up, b + up, c + up];
+        let (span, corners) = match (corners, up, ends) {
+            (FieldOutcome::Read(corners), FieldOutcome::Read(up), _) => {
+                let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
+                let up = Vec3::from_array(up.value.0);
+                (corners[0].span, [a, b, c, a + up, b + up, c + up])
+            }
+            (.., FieldOutcome::Read(ends)) => (
+                ends[0].span,
+                ends.map(|corner| Vec3::from_array(corner.value.0)),
+            ),
+            _ => return,
+        };
+        let [a, b, c, d, e, f] = corners;
+        let up = (d - a) + (e - b) + (f - c);
         lowering.solid(
             &clothes,
             &Solid {
@@ -168,6 +174,23 @@ impl Lower for Prism {
 }
 
 impl Lowering {
+    /// Lowers a box by its corners.
+    pub(super) fn cuboid(
+        &mut self,
+        clothes: &Clothes,
+        corners: &[Vec3; 8],
+        span: Option<Span>,
+        context: &mut Context<'_>,
+    ) {
+        let solid = Solid {
+            word: "box",
+            corners,
+            faces: BOX,
+            edges: [1, 2, 4].map(|far| corners[far] - corners[0]),
+        };
+        self.solid(clothes, &solid, span, context);
+    }
+
     /// Lowers the faces of a solid, each with the outside where its corners run counter-clockwise.
     fn solid(
         &mut self,
@@ -229,6 +252,24 @@ fn flat(word: &str, span: Span, context: &mut Context<'_>) {
     );
 }
 
+/// Says which way a box goes whose depth is a length alone.
+fn assumed_depth(depth: &FieldOutcome<Spanned<ThirdEdge>>, edge: Vec3, context: &mut Context<'_>) {
+    if let FieldOutcome::Read(Spanned {
+        value: ThirdEdge::Length(_),
+        span: Some(span),
+    }) = *depth
+    {
+        let [x, y, z] = edge
+            .to_array()
+            .map(|part| shortest((part * 1e3).round() / 1e3));
+        let message = || "the `depth` of a box is a length: taken along `up` × `side`".to_owned();
+        context.report(&codes::ASSUMED, span, message, |d| {
+            d.at(span, "no direction")
+                .hint(format!("as an edge it is about `depth: [{x}, {y}, {z}]`"))
+        });
+    }
+}
+
 /// The corners of a box, and where its size was written.
 fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
     let Cuboid {
@@ -238,53 +279,53 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
         dimension,
         rotation,
         edges,
+        depth,
         material: _,
     } = cuboid;
     let end = |index: usize, axis: usize| (index >> axis) & 1;
-    match (extremes, position, dimension, rotation, edges) {
+    if let (FieldOutcome::Read(corner), FieldOutcome::Read([up, side]), FieldOutcome::Read(depth)) =
+        (position, edges, depth)
+    {
+        let corner = Vec3::from_array(corner.value.0);
+        let [side_edge, up_edge] = [side, up].map(|edge| Vec3::from_array(edge.value.0));
+        let depth = depth.value.edge(up_edge, side_edge);
+        return Some((of_edges(corner, [side_edge, up_edge, depth]), up.span));
+    }
+    match (extremes, position, dimension, rotation) {
         (FieldOutcome::Read(ends), ..) => {
             let corner = |index| {
                 Vec3::from_array([0, 1, 2].map(|axis| ends[end(index, axis)].value.0[axis]))
             };
             Some((std::array::from_fn(corner), ends[0].span))
         }
-        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension), rotation, _) => {
+        (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension), rotation) => {
             let turn = match rotation {
                 FieldOutcome::Read(rotation) => turned(rotation.value.0),
                 FieldOutcome::Absent => Vec3::AXES,
                 FieldOutcome::Broken => return None,
             };
-            let (center, size) = (Vec3::from_array(center.value.0), dimension.value.0);
-            let half = |index, axis: usize| {
-                if end(index, axis) == 1 {
-                    size[axis] / 2.0
-                } else {
-                    -size[axis] / 2.0
-                }
-            };
-            let corner = |index| {
-                center
-                    + turn[0] * half(index, 0)
-                    + turn[1] * half(index, 1)
-                    + turn[2] * half(index, 2)
-            };
-            Some((std::array::from_fn(corner), dimension.span))
-        }
-        (_, FieldOutcome::Read(corner), .., FieldOutcome::Read([up, side, depth])) => {
-            let edges = [side, up, depth].map(|edge| Vec3::from_array(edge.value.0));
-            let from = Vec3::from_array(corner.value.0);
-            let along = |index| {
-                (0..3)
-                    .filter(move |axis| end(index, *axis) == 1)
-                    .map(|axis| edges[axis])
-            };
-            Some((
-                std::array::from_fn(|index| from + along(index).sum::<Vec3>()),
-                up.span,
-            ))
+            let center = Vec3::from_array(center.value.0);
+            Some((around(center, dimension.value.0, turn), dimension.span))
         }
         _ => None,
     }
+}
+
+/// The corners of a box around its centre, with these lengths along axes that are turned.
+pub(super) fn around(center: Vec3, size: [f64; 3], turn: [Vec3; 3]) -> [Vec3; 8] {
+    let half = |index: usize, axis: usize| match (index >> axis) & 1 {
+        1 => size[axis] / 2.0,
+        _ => -size[axis] / 2.0,
+    };
+    std::array::from_fn(|index| {
+        center + turn[0] * half(index, 0) + turn[1] * half(index, 1) + turn[2] * half(index, 2)
+    })
+}
+
+/// The corners of a box with three edges from one of them.
+fn of_edges(from: Vec3, edges: [Vec3; 3]) -> [Vec3; 8] {
+    let along = |index: usize| (0..3).filter(move |axis| (index >> axis) & 1 == 1);
+    std::array::from_fn(|index| from + along(index).map(|axis| edges[axis]).sum::<Vec3>())
 }
 
 /// Where the axes come to, turned by angles in radians about x, then y, then z.

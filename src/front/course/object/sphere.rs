@@ -26,7 +26,7 @@ record! {
         /// By how many degrees the texture is turned about its axis.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"];
         /// The axis that the texture is turned about: its poles lie on it.
-        axis: Spanned<Vector>, optional, keys!["axis" "rotation"];
+        axis: Spanned<Vector>, optional, keys!["axis" "rotation" "rotationVector"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }

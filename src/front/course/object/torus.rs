@@ -1,11 +1,12 @@
 //! The torus.
 
 use super::Lower;
+use crate::diag::codes;
 use crate::front::course::decode::{Context, SharedValue, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::number::Positive;
-use crate::front::course::record::{keys, record};
+use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::value::{Point, Text, Vector};
 use crate::ir;
 
@@ -17,14 +18,18 @@ record! {
         /// The centre.
         position: Spanned<Point>, required, keys!["position" "center"];
         /// From the centre to the middle of the tube, above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        radius: Spanned<Positive>, optional, keys!["radius" "r"];
         /// The radius of the tube, above 0.
-        alpha: Spanned<Positive>, required, keys!["alpha"];
+        alpha: Spanned<Positive>, optional, keys!["alpha"];
+        /// The radii of the hole and of the whole torus. In some programs they are those of the tube and of the ring that
+        /// it goes along, which are `alpha` and `radius`.
+        rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]];
         /// The direction of the axis, of any length but 0.
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), keys!["direction" "axis" "normal" "N"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }
+    forms { [radius alpha] [rims] }
 }
 
 impl Lower for Torus {
@@ -34,15 +39,30 @@ impl Lower for Torus {
             position,
             radius,
             alpha,
+            rims,
             direction,
             material,
         } = self;
+        let (radius, alpha) = match (radius, alpha, rims) {
+            (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), _) => {
+                (radius.map(|radius| radius.0), alpha.map(|alpha| alpha.0))
+            }
+            (.., FieldOutcome::Read([inner, outer])) => {
+                two_radii(inner, outer, context);
+                let (hole, whole) = (inner.value.0, outer.value.0);
+                (
+                    outer.map(|_| f64::midpoint(hole, whole)),
+                    inner.map(|_| (whole - hole) / 2.0),
+                )
+            }
+            _ => return,
+        };
         let (center, axis) = (position.value.0, direction.value.0);
         let shape = ir::Torus {
             center,
             axis,
-            major: radius.value.0,
-            minor: alpha.value.0,
+            major: radius.value,
+            minor: alpha.value,
         };
         let places = [
             ("center", position.span),
@@ -53,5 +73,18 @@ impl Lower for Torus {
         if let Some(clothes) = lowering.clothe(kind, material, context) {
             lowering.put(&clothes, ir::Shape::Torus(shape), &places);
         }
+    }
+}
+
+/// Says how two radii are read that programs read in two ways.
+fn two_radii(inner: &Spanned<Positive>, outer: &Spanned<Positive>, context: &mut Context<'_>) {
+    if let Some(span) = inner.span {
+        let message =
+            || "`innerRadius` and `outerRadius` are those of the hole and of the whole".to_owned();
+        context.report(&codes::TWO_READINGS, span, message, |d| {
+            d.at(span, "the hole").also(outer.span, "the whole").hint(
+                "in some programs they are those of the tube and of the ring: here `alpha` and `radius`",
+            )
+        });
     }
 }

@@ -13,6 +13,9 @@ pub(in crate::front::course) const CORNERS: Rows = &[
     &["v0", "v1", "v2"],
     &["v1", "v2", "v3"],
     &["a", "b", "c"],
+    &["A", "B", "C"],
+    &["vertex0", "vertex1", "vertex2"],
+    &["vertex1", "vertex2", "vertex3"],
     &["p0", "p1", "p2"],
     &["p1", "p2", "p3"],
     &["point1", "point2", "point3"],
@@ -28,7 +31,7 @@ record! {
         /// A corner.
         corners: [Spanned<Point>; 3], required, CORNERS;
         /// The place of a corner in the texture: (0, 0) is its lower left, (1, 1) its upper right.
-        uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"]];
+        uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
     }

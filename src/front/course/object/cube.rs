@@ -1,0 +1,135 @@
+//! The cube of some files, and what it shares with other solids that are turned or have a depth.
+
+use super::Lower;
+use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
+use crate::front::course::lower::Lowering;
+use crate::front::course::material::Material;
+use crate::front::course::number::{Positive, Real, json_number};
+use crate::front::course::object::solid::around;
+use crate::front::course::record::{FieldOutcome, keys, record};
+use crate::front::course::schema::Definitions;
+use crate::front::course::value::{Point, Text, Vector};
+use crate::math::{Vec3, cos, sin, unit, unit_scale};
+use crate::source::tree::NodeId;
+use serde_json::{Value as Json, json};
+
+record! {
+    /// A cube, turned or not. Better written as a `box`.
+    struct Cube, "cube" {
+        /// What kind of object this is.
+        kind: Spanned<Text>, required, keys!["type"];
+        /// The centre.
+        position: Spanned<Point>, required, keys!["position" "center"];
+        /// The length of a side, above 0.
+        length: Spanned<Positive>, required, keys!["length" "side" "size"];
+        /// What it is turned about.
+        turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
+        /// By how much, in radians.
+        turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
+        /// What it is made of.
+        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+    }
+    forms { [position] [position turn_axis turn_angle] }
+}
+
+impl Lower for Cube {
+    fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
+        let Cube {
+            kind,
+            position,
+            length,
+            turn_axis,
+            turn_angle,
+            material,
+        } = self;
+        let Some(clothes) = lowering.clothe(kind, material, context) else {
+            return;
+        };
+        let turn = match (turn_axis, turn_angle) {
+            (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => {
+                turned_about(Vec3::from_array(axis.value.0), angle.value.0)
+            }
+            _ => Vec3::AXES,
+        };
+        let center = Vec3::from_array(position.value.0);
+        let corners = around(center, [length.value.0; 3], turn);
+        lowering.cuboid(&clothes, &corners, length.span, context);
+    }
+}
+
+/// The third edge of a box: an edge as it is, or a length.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::front::course) enum ThirdEdge {
+    Edge([f64; 3]),
+    Length(f64),
+}
+
+impl ThirdEdge {
+    /// The edge, beside the two others.
+    pub(super) fn edge(self, up: Vec3, side: Vec3) -> Vec3 {
+        // Powers of two are taken out of both, so that no product leaves the range of f64.
+        let [up, side] =
+            [up, side].map(|edge| unit_scale(edge).map_or(Vec3::ZERO, |(scaled, _)| scaled));
+        match self {
+            Self::Edge(edge) => Vec3::from_array(edge),
+            Self::Length(length) => unit(up.cross(side)).map_or(Vec3::ZERO, |n| n * length),
+        }
+    }
+}
+
+impl Value for ThirdEdge {
+    const IS_LIST: bool = true;
+
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        if context.tree.is_list(node) {
+            Vector::decode(node, context).map(|edge| Self::Edge(edge.0))
+        } else {
+            Real::decode(node, context).map(|length| Self::Length(length.0))
+        }
+    }
+
+    fn schema(definitions: &mut Definitions) -> Json {
+        json!({ "anyOf": [Vector::schema(definitions), Real::schema(definitions)] })
+    }
+
+    fn json(&self) -> Json {
+        match self {
+            Self::Edge(edge) => edge.map(json_number).to_vec().into(),
+            Self::Length(length) => json_number(*length),
+        }
+    }
+}
+
+/// Where the axes come to, turned by an angle in radians about an axis (Rodrigues' formula); as they
+/// are if it has no direction.
+pub(super) fn turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
+    let Some(axis) = unit(axis) else {
+        return Vec3::AXES;
+    };
+    let (c, s) = (cos(angle), sin(angle));
+    Vec3::AXES.map(|v| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_turn_about_z_takes_x_to_y() {
+        let [x, y, z] = turned_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
+        let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-15;
+        assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
+        assert_eq!(turned_about(Vec3::ZERO, 1.0), Vec3::AXES);
+    }
+
+    #[test]
+    fn a_depth_is_an_edge_or_at_right_angles_to_the_others() {
+        let (up, side) = (Vec3::Y * 2.0, Vec3::X * 5.0);
+        assert_eq!(ThirdEdge::Length(3.0).edge(up, side), Vec3::Z * -3.0);
+        assert_eq!(
+            ThirdEdge::Edge([1.0, 2.0, 3.0]).edge(up, side),
+            Vec3::new(1.0, 2.0, 3.0)
+        );
+        assert_eq!(ThirdEdge::Length(3.0).edge(up, up), Vec3::ZERO);
+    }
+}
