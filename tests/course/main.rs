@@ -353,3 +353,18 @@ proptest! {
         comes_back(&object(&format!("type: sphere, position: [1, 2, 3], radius: 2, axis: {axis:?}, angle: {angle}")));
     }
 }
+
+#[test]
+fn words_proposed_in_json_keep_their_quotes() {
+    let text = r#"{"Eye": [200, 200, 1000], "RenderMode": "phnog", "Lights": [],
+        "Objects": [{"type": "spere"}, {"type": "sphere", "postion": [0, 0, 0], "radius": 1}]}"#;
+    let mut map = SourceMap::default();
+    let file = map.add("scene.json", text.as_bytes().to_vec());
+    let mut sink = Sink::default();
+    let _ = course::lower(file, &map, &FrontOptions::default(), &mut sink);
+    let hints = sink.kept().iter().flat_map(|finding| &finding.hints);
+    let proposed: Vec<_> = hints
+        .filter_map(|hint| Some(hint.replacement.as_ref()?.text.clone()))
+        .collect();
+    assert_eq!(proposed, [r#""phong""#, r#""sphere""#, r#""position""#]);
+}

@@ -270,6 +270,14 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// A word in place of one that was written, in the same quotes: JSON needs them.
+    pub(super) fn in_its_quotes(&self, node: NodeId, word: &str) -> String {
+        match self.tree.written(node).chars().next() {
+            Some(quote @ ('"' | '\'')) => format!("{quote}{word}{quote}"),
+            _ => word.to_owned(),
+        }
+    }
+
     /// Remembers that a key was written in another case of letters, the first time.
     pub(super) fn note_case(&mut self, written: &'a str, meant: &'static str, key: NodeId) {
         if self.other_case.is_none() {

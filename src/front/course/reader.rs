@@ -222,14 +222,17 @@ pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &m
 fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &mut Context<'_>) {
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
+    let better = meant.map(|meant| context.in_its_quotes(entry.key_node, meant));
     context.report(
         &codes::UNKNOWN_KEY,
         span,
         || format!("the {word} has no key `{}`", clip(entry.key)),
         |d| {
             let d = d.at(span, "ignored").severity(severity);
-            match meant {
-                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+            match meant.zip(better) {
+                Some((meant, better)) => {
+                    d.replace(format!("did you mean `{meant}`?"), span, better)
+                }
                 None => d,
             }
         },

@@ -323,13 +323,16 @@ pub(super) fn word<T: Copy>(
         .find(|(word, _)| word.eq_ignore_ascii_case(text));
     if meaning.is_none() {
         let (key, span) = (context.key, tree.span(node));
+        let meant = nearest(text, words()).map(|meant| (meant, context.in_its_quotes(node, meant)));
         let message = || format!("`{}` can't be `{}`", clip(key.text), clip(text));
         context.report(&codes::UNKNOWN_WORD, span, message, |d| {
             let d = d
                 .at(span, "unknown")
                 .hint(format!("it is one of {}", list(words())));
-            match nearest(text, words()) {
-                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+            match meant {
+                Some((meant, better)) => {
+                    d.replace(format!("did you mean `{meant}`?"), span, better)
+                }
                 None => d,
             }
         });

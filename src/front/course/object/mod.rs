@@ -115,7 +115,7 @@ impl Value for Object {
                 .map(|word| (kind, *word))
         });
         let Some((kind, word)) = known else {
-            left_out(word, span, context);
+            left_out(word, kind, context);
             return None;
         };
         context.note_spelling(word, kind.words[0], span);
@@ -133,8 +133,10 @@ impl Value for Object {
 }
 
 /// Reports an object of unknown type.
-fn left_out(word: &str, span: Span, context: &mut Context<'_>) {
-    let lenient = context.options.lenient;
+fn left_out(word: &str, node: NodeId, context: &mut Context<'_>) {
+    let (lenient, span) = (context.options.lenient, context.tree.span(node));
+    let known = KINDS.iter().flat_map(|kind| kind.words).copied();
+    let meant = nearest(word, known).map(|meant| (meant, context.in_its_quotes(node, meant)));
     context.report(
         &codes::UNKNOWN_TYPE,
         span,
@@ -146,9 +148,10 @@ fn left_out(word: &str, span: Span, context: &mut Context<'_>) {
                     .severity(Severity::Warning),
                 false => d.at(span, "this object would be missing"),
             };
-            let known = KINDS.iter().flat_map(|kind| kind.words).copied();
-            match nearest(word, known) {
-                Some(meant) => d.replace(format!("did you mean `{meant}`?"), span, meant),
+            match meant {
+                Some((meant, better)) => {
+                    d.replace(format!("did you mean `{meant}`?"), span, better)
+                }
                 None if lenient => d,
                 None => {
                     let kinds = list(KINDS.iter().map(|kind| kind.words[0]));
