@@ -1,6 +1,7 @@
 //! For people: the source with its marks, in the style of rustc. The one file that names
 //! `annotate-snippets`.
 
+use super::fold::Fold;
 use super::place::{FilePlace, is_text};
 use super::text::{clean, clean_except};
 use super::window::{self, SourceWindow};
@@ -15,8 +16,8 @@ use annotate_snippets::{
 /// A label and whether it is the culprit.
 type Mark<'a> = (&'a Label, AnnotationKind);
 
-/// One finding, with an empty line after it.
-pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &PrintOptions) -> String {
+/// One finding and how often there is the same, with an empty line after it.
+pub(super) fn finding(fold: &Fold<'_>, map: &SourceMap, options: &PrintOptions) -> String {
     let renderer = if options.color {
         Renderer::styled()
     } else {
@@ -25,7 +26,7 @@ pub(super) fn finding(diagnostic: &Diagnostic, map: &SourceMap, options: &PrintO
     let renderer = renderer
         .term_width(options.width)
         .decor_style(DecorStyle::Ascii);
-    let report = report(diagnostic, map);
+    let report = report(fold, map);
     let rendered = renderer.render(&report);
     format!("{}\n\n", rendered.trim_end_matches('\n'))
 }
@@ -45,7 +46,8 @@ pub(super) fn summary(name: &str, found: &[&Diagnostic], hidden: usize) -> Strin
     format!("{more}{}: {}{explain}\n", clean(name), counts(found))
 }
 
-fn report<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Group<'a>> {
+fn report<'a>(fold: &Fold<'a>, map: &'a SourceMap) -> Vec<Group<'a>> {
+    let diagnostic = fold.first;
     let Diagnostic {
         code,
         severity,
@@ -60,6 +62,9 @@ fn report<'a>(diagnostic: &'a Diagnostic, map: &'a SourceMap) -> Vec<Group<'a>> 
     let mut first = Group::with_title(title).elements(marks(diagnostic, map));
     if let Some(pointer) = pointer.as_ref().filter(|_| diagnostic.primary.is_none()) {
         first = first.element(Level::NOTE.message(format!("at `{}`", clean(pointer))));
+    }
+    if let Some(words) = fold.words(map) {
+        first = first.element(Level::NOTE.message(words));
     }
     let mut patches = Vec::new();
     for hint in hints {

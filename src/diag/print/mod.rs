@@ -1,8 +1,9 @@
 //! From findings to text: for people, editors, programs, code scanning and GitHub.
 //!
-//! Findings come out sorted by place and capped; nothing of the input can command a terminal;
+//! Findings come out sorted by place, folded and capped; nothing of the input can command a terminal;
 //! nothing is written here.
 
+mod fold;
 mod github;
 mod human;
 mod json;
@@ -17,6 +18,7 @@ mod tests;
 
 use super::{Diagnostic, Severity, Sink};
 use crate::source::SourceMap;
+use fold::Fold;
 
 /// The form of the text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,14 +85,22 @@ impl Printer {
             self.format.is_for_programs() || diagnostic.severity <= self.options.least
         };
         let found: Vec<&Diagnostic> = sink.kept().iter().filter(visible).collect();
-        let shown = cap(&found, self.options.max);
-        let hidden = found.len() - shown.len() + sink.dropped();
+        let folds = match self.format {
+            Format::Human => fold::equal(&found),
+            Format::Short | Format::Json | Format::Sarif | Format::Github => fold::none(&found),
+        };
+        let shown = cap(folds, self.options.max);
+        let told: usize = shown.iter().map(|fold| 1 + fold.others.len()).sum();
+        let hidden = found.len() - told + sink.dropped();
         self.omitted += hidden;
         let each = |one: &dyn Fn(&Diagnostic) -> String| {
-            shown.iter().map(|diagnostic| one(diagnostic)).collect()
+            shown.iter().map(|fold| one(fold.first)).collect()
         };
         let text: String = match self.format {
-            Format::Human => each(&|diagnostic| human::finding(diagnostic, map, &self.options)),
+            Format::Human => shown
+                .iter()
+                .map(|fold| human::finding(fold, map, &self.options))
+                .collect(),
             Format::Short => each(&|diagnostic| short::finding(name, diagnostic, map)),
             Format::Json => each(&|diagnostic| json::finding(name, diagnostic, map)),
             Format::Github => each(&|diagnostic| github::finding(name, diagnostic, map)),
@@ -98,7 +108,7 @@ impl Printer {
                 self.results.extend(
                     shown
                         .iter()
-                        .map(|diagnostic| sarif::result(name, diagnostic, map)),
+                        .map(|fold| sarif::result(name, fold.first, map)),
                 );
                 String::new()
             }
@@ -131,12 +141,15 @@ impl Printer {
 
 /// At most `max` findings: errors before warnings before notes, and each kind from the top, in
 /// order of place.
-fn cap<'a>(found: &[&'a Diagnostic], max: usize) -> Vec<&'a Diagnostic> {
+fn cap(found: Vec<Fold<'_>>, max: usize) -> Vec<Fold<'_>> {
     let mut order: Vec<usize> = (0..found.len()).collect();
-    order.sort_by_key(|&index| found[index].severity);
+    order.sort_by_key(|&index| found[index].first.severity);
     order.truncate(max);
     order.sort_unstable();
-    order.into_iter().map(|index| found[index]).collect()
+    let mut wanted = order.into_iter().peekable();
+    let is_wanted = |(index, _): &(usize, Fold<'_>)| wanted.next_if_eq(index).is_some();
+    let kept = found.into_iter().enumerate().filter(is_wanted);
+    kept.map(|(_, fold)| fold).collect()
 }
 
 fn severity(severity: Severity) -> &'static str {

@@ -276,6 +276,42 @@ fn errors_come_before_warnings_when_not_all_fit() {
     assert!(print(Format::Json, options, b"0123456789", flood).ends_with("\n{\"omitted\":4}\n"));
 }
 
+/// Nine lines, one finding in each: all equal but that of the second line.
+#[test]
+fn equal_findings_are_folded_for_people_alone() {
+    let lines = "a\n".repeat(9);
+    let flood = |at: Span| {
+        let place = |line: u32| Span {
+            start: 2 * line,
+            end: 2 * line + 1,
+            ..at
+        };
+        let message = |line: u32| {
+            if line == 1 {
+                "another"
+            } else {
+                "the same word"
+            }
+        };
+        let finding = |line| Diagnostic::new(&codes::NOT_FINITE, message(line)).at(place(line), "");
+        (0..9).map(finding).collect()
+    };
+    let text = print(Format::Human, PLAIN, lines.as_bytes(), flood);
+    assert_eq!(text.matches("the same word").count(), 1);
+    assert!(
+        text.contains("= note: the same 7 times more, at lines 3, 4, 5, 6, 7, 8, …")
+            && text.contains("another")
+            && text.ends_with("a b.yaml: 9 errors; `rtc explain VA001` tells more\n"),
+        "{text}"
+    );
+    let short = print(Format::Short, PLAIN, lines.as_bytes(), flood);
+    assert_eq!(short.lines().count(), 9);
+    // Three are few enough to be read.
+    let few = |at: Span| flood(at).into_iter().take(4).collect();
+    let text = print(Format::Human, PLAIN, lines.as_bytes(), few);
+    assert_eq!(text.matches("the same word").count(), 3);
+}
+
 #[test]
 fn notes_are_for_those_who_ask_and_for_programs() {
     let note = |at: Span| vec![two(at).remove(0).severity(Severity::Note)];
