@@ -120,7 +120,8 @@ fn nested_maps(depth: usize) -> String {
 
 fn unknown_keys(different: bool) -> String {
     let mut text = EYE.to_owned();
-    (0..100_000).for_each(|key| writeln!(text, "k{}: 1", if different { key } else { 0 }).unwrap());
+    (0..100_000)
+        .for_each(|key| writeln!(text, "k{}: {key}", if different { key } else { 0 }).unwrap());
     text
 }
 
@@ -177,6 +178,11 @@ fn cases() -> Vec<Case> {
             "100 000 times the same key",
             case(|| unknown_keys(false)),
             &["SY007"],
+        ),
+        (
+            "100 000 times the same key and value",
+            case(|| format!("{EYE}{}", "k: 1\n".repeat(100_000))),
+            &[],
         ),
         ("UTF-16", Box::new(|| utf16(EYE)), &["SY001"]),
         (

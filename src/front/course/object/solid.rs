@@ -145,20 +145,21 @@ impl Lower for Prism {
         let Some(clothes) = lowering.clothe(kind, material, context) else {
             return;
         };
-        let (span, corners) = match (corners, up, ends) {
+        let (span, corners, up) = match (corners, up, ends) {
             (FieldOutcome::Read(corners), FieldOutcome::Read(up), _) => {
                 let [a, b, c] = corners.map(|corner| Vec3::from_array(corner.value.0));
                 let up = Vec3::from_array(up.value.0);
-                (corners[0].span, [a, b, c, a + up, b + up, c + up])
+                let top = [a + up, b + up, c + up];
+                (corners[0].span, [a, b, c, top[0], top[1], top[2]], up)
             }
-            (.., FieldOutcome::Read(ends)) => (
-                ends[0].span,
-                ends.map(|corner| Vec3::from_array(corner.value.0)),
-            ),
+            (.., FieldOutcome::Read(ends)) => {
+                let corners = ends.map(|corner| Vec3::from_array(corner.value.0));
+                let [a, b, c, d, e, f] = corners;
+                (ends[0].span, corners, (d - a) + (e - b) + (f - c))
+            }
             _ => return,
         };
-        let [a, b, c, d, e, f] = corners;
-        let up = (d - a) + (e - b) + (f - c);
+        let [a, b, c, ..] = corners;
         lowering.solid(
             &clothes,
             &Solid {
