@@ -7,6 +7,8 @@
 //! The parent is not the scene's own: what it lends is shown by its name and its first bytes to be
 //! what the scene asks for, and a home, a folder of the system or a hidden file lends nothing.
 
+mod neighbours;
+
 use super::loader::{Identity, Opened};
 use std::fs;
 use std::path::{Component, Path, PathBuf};

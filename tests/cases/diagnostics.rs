@@ -7,8 +7,8 @@
 
 use super::suite::{files, name, root, trial, updates};
 use libtest_mimic::{Failed, Trial};
-use rtc::diag::{Severity, Sink, codes};
-use rtc::source::{Loader, SourceMap};
+use rtc::diag::{Diagnostic, Severity, Sink, codes};
+use rtc::source::{FileId, Loader, SourceMap};
 use rtc::{front, pipeline};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -36,6 +36,11 @@ pub(crate) fn trials() -> Vec<Trial> {
             Trial::test(format!("diagnostics/{name}"), move || check(&case))
         })
         .collect();
+    let texts = files(&folder, &["yaml"]);
+    trials.push(trial("diagnostics: what is proposed helps", move || {
+        let faults: Vec<String> = texts.iter().flat_map(|case| unhelpful(case)).collect();
+        assert!(faults.is_empty(), "{}", faults.join("\n"));
+    }));
     trials.push(trial("diagnostics: every code has a case", move || {
         every_code_has_a_case(&covered);
     }));
@@ -113,6 +118,56 @@ fn findings(case: &Path) -> String {
         .unwrap();
     }
     text
+}
+
+/// What is found in a text that stands in the place of a case.
+fn found_in(case: &Path, text: &[u8]) -> (SourceMap, FileId, Sink) {
+    let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+    let file = map.add_from(case, text.to_vec());
+    let options = options(&String::from_utf8_lossy(text));
+    if let Some(lowered) = pipeline::load(file, &mut map, &options, &mut sink) {
+        pipeline::prove(&lowered, &options, &mut sink);
+    }
+    (map, file, sink)
+}
+
+/// Proposals of a case that, obeyed, leave the finding there, or bring more errors. What comes after
+/// a mistake in the syntax is seen only when it is gone.
+fn unhelpful(case: &Path) -> Vec<String> {
+    let text = fs::read(case).unwrap();
+    let (_, file, before) = found_in(case, &text);
+    let errors = |sink: &Sink| {
+        let errors = sink.kept().iter();
+        errors
+            .filter(|finding| finding.severity == Severity::Error)
+            .count()
+    };
+    let mut faults = Vec::new();
+    for finding in before.kept() {
+        for replacement in finding
+            .hints
+            .iter()
+            .filter_map(|hint| hint.replacement.as_ref())
+        {
+            if replacement.span.file != file {
+                continue;
+            }
+            let [start, end] = [replacement.span.start, replacement.span.end].map(|at| at as usize);
+            let obeyed = [&text[..start], replacement.text.as_bytes(), &text[end..]].concat();
+            let (_, _, after) = found_in(case, &obeyed);
+            let same = |sink: &Sink| {
+                let is_same = |other: &&Diagnostic| {
+                    (other.code.id, &other.message) == (finding.code.id, &finding.message)
+                };
+                sink.kept().iter().filter(is_same).count()
+            };
+            let is_syntax = finding.code.id.starts_with("SY");
+            if same(&after) >= same(&before) || (!is_syntax && errors(&after) > errors(&before)) {
+                faults.push(format!("{}: {}", case.display(), finding.message));
+            }
+        }
+    }
+    faults
 }
 
 /// Where the expectations of a case are: in the file, unless there is one beside it.

@@ -1,5 +1,6 @@
 //! What decoding stands on: values with their spans, and the context that collects every finding.
 
+use super::meant;
 use super::schema::Definitions;
 use crate::diag::clip;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
@@ -256,8 +257,14 @@ impl<'a> Context<'a> {
             self.first_line(node)
         };
         let message = || format!("{name} must be {what}, not {found}");
+        let meant = meant::of(tree, key.span, node, what);
         self.report(&codes::WRONG_TYPE, place, message, |d| {
-            d.at(place, found.clone())
+            let finding = d.at(place, found.clone());
+            match meant {
+                Some((hint, Some(text))) => finding.replace(hint, place, text),
+                Some((hint, None)) => finding.hint(hint),
+                None => finding,
+            }
         });
         None
     }

@@ -280,7 +280,8 @@ fn glass(material: &Material) -> Option<(bool, Span)> {
 /// Takes its own colour from glass, which shows what is behind it alone.
 fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
     let is_colored = phong.color_map.is_some() || phong.color != [1.0; 3];
-    (phong.ka, phong.kd) = (0.0, 0.0);
+    // A negative weight is left to the proof to refuse.
+    (phong.ka, phong.kd) = (phong.ka.min(0.0), phong.kd.min(0.0));
     if is_colored {
         let message = || "glass has no colour of its own here".to_owned();
         context.report(&codes::NO_EFFECT, span, message, |d| {

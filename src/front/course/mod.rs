@@ -11,6 +11,7 @@ mod form;
 mod light;
 mod lower;
 mod material;
+mod meant;
 mod number;
 mod object;
 mod page;

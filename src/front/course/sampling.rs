@@ -1,7 +1,7 @@
 //! The rays of a pixel: how many there are along each of its sides, and where they lie.
 
 use super::decode::{Context, Spanned, Value};
-use super::number::{Count, plain_number};
+use super::number::{Count, is_number, plain_number};
 use super::record::{keys, record};
 use super::schema::Definitions;
 use super::value::{word, word_schema};
@@ -79,6 +79,9 @@ impl Value for SuperSampling {
             }
             NodeContent::Word(word) if is_truth(word) && plain_number(node, context).is_none() => {
                 bool::decode(node, context).map(|truth| some_or_one(truth, node, context))
+            }
+            NodeContent::Word(word) if !is_number(word) => {
+                context.expected(node, "a whole number, or a map of `factor` and `pattern`")
             }
             NodeContent::Word(_) | NodeContent::Text(_) | NodeContent::List => {
                 Count::decode(node, context).map(|factor| Self {

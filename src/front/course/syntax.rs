@@ -54,11 +54,17 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
             message,
             label,
             hint,
+            replacement,
             span,
             bracket,
-        } => say(&codes::SYNTAX, message, span, label)
-            .hint(hint)
-            .also(bracket, "inside what this bracket opens"),
+        } => {
+            let finding = say(&codes::SYNTAX, message, span, &label)
+                .also(bracket, "inside what this bracket opens");
+            match replacement {
+                Some(replacement) => finding.replace(hint, replacement.0, replacement.1),
+                None => finding.hint(hint),
+            }
+        }
     }
 }
 

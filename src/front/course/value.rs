@@ -1,6 +1,6 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
-use super::decode::{Context, Value};
+use super::decode::{Context, Value, describe};
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
@@ -188,19 +188,22 @@ impl Value for bool {
             _ => return context.expected(node, "`true` or `false`"),
         };
         let (key, span) = (context.key, context.tree.span(node));
+        let found = describe(context.tree.shape(node));
         let message = || {
             format!(
-                "`{}` must be `true` or `false`, not `{}`",
-                clip(key.text),
-                clip(text)
+                "`{}` must be `true` or `false`, not {found}",
+                clip(key.text)
             )
         };
+        let label = match context.tree.shape(node) {
+            NodeContent::Text(_) => "text, because of the quotes",
+            NodeContent::Word(_) | NodeContent::List | NodeContent::Map => {
+                "no truth value in YAML 1.2"
+            }
+        };
         context.report(&codes::WRONG_TYPE, span, message, |d| {
-            d.at(span, "no truth value in YAML 1.2").replace(
-                format!("write `{meant}`"),
-                span,
-                meant,
-            )
+            d.at(span, label)
+                .replace(format!("write `{meant}`"), span, meant)
         });
         None
     }

@@ -10,6 +10,7 @@ mod keys;
 mod pointer;
 #[cfg(test)]
 mod tests;
+mod written;
 pub mod yaml;
 
 use super::{FileId, Span};
@@ -366,20 +367,6 @@ impl<'s> Tree<'s> {
     pub fn list(&self, map: NodeId, key: &str) -> impl Iterator<Item = NodeId> + '_ {
         let list = self.get(map, key).filter(|list| self.is_list(*list));
         list.into_iter().flat_map(|list| self.items(list))
-    }
-
-    /// Whether two values are the same: words and texts, lists and maps of the same in one order.
-    #[must_use]
-    pub fn is_same(&self, a: NodeId, b: NodeId) -> bool {
-        let (a, b) = (self.target(a), self.target(b));
-        let inside = |id: NodeId| (id.0..self.end(id)).map(NodeId);
-        let is_same = |(a, b): (NodeId, NodeId)| {
-            self.node(a).form == self.node(b).form
-                && self.target(a) == a
-                && self.target(b) == b
-                && self.shape(a) == self.shape(b)
-        };
-        inside(a).len() == inside(b).len() && inside(a).zip(inside(b)).all(is_same)
     }
 
     /// The keys that stand again in their map: the first of each, and another.

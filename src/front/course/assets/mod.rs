@@ -10,6 +10,7 @@ mod mesh;
 mod photometry;
 mod text;
 
+use super::spelling::nearest;
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::front::FrontOptions;
 use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Place};
@@ -182,9 +183,25 @@ impl Porter<'_> {
             }
         }
         if let Some(fault) = first_fault {
-            self.refuse(missing(wish, &fault), without);
+            let similar = self.similar(wish);
+            self.refuse(missing(wish, &fault, similar.as_deref()), without);
         }
         None
+    }
+
+    /// A file in the place of the one that is wanted, with a similar name or another extension.
+    fn similar(&self, wish: &Wanted) -> Option<String> {
+        let path = wish.path.replace('\\', "/");
+        let (folder, name) = path.rsplit_once('/').unwrap_or(("", &path));
+        let names = self.search.neighbours(&path, kind_of(&wish.asset));
+        let stem = |name: &str| name.rsplit_once('.').map(|(stem, _)| stem.to_lowercase());
+        let same = names.iter().find(|other| stem(other) == stem(name));
+        let found = same.map(String::as_str);
+        let found = found.or_else(|| nearest(name, names.iter().map(String::as_str)))?;
+        Some(match folder {
+            "" => found.to_owned(),
+            _ => format!("{folder}/{found}"),
+        })
     }
 
     fn tell_where(&mut self, wish: &Wanted, found: &Found, elsewhere: bool) {
@@ -237,7 +254,7 @@ fn has_extension(path: &str) -> bool {
     name.trim_start_matches('.').contains('.')
 }
 
-fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
+fn missing(wish: &Wanted, fault: &Missing, similar: Option<&str>) -> Diagnostic {
     let name = clip_path(&wish.path);
     match fault {
         Missing::NoFolder => {
@@ -250,7 +267,10 @@ fn missing(wish: &Wanted, fault: &Missing) -> Diagnostic {
         Missing::Absent(looked) => {
             Diagnostic::new(&codes::FILE_NOT_FOUND, format!("there is no file `{name}`"))
                 .at(wish.span, "not found")
-                .hint(places(looked))
+                .hint(match similar {
+                    Some(name) => format!("did you mean `{}`?", clip_path(name)),
+                    None => places(looked),
+                })
         }
         Missing::Outside(looked) => {
             let message = format!("`{name}` leads out of the folder of the scene");

@@ -1,7 +1,7 @@
 //! What the YAML parser refuses, in words a person who wrote the text understands.
 
 use super::super::{NodeId, Tree, to_u32};
-use super::Mistake;
+use super::{Mistake, slip};
 use crate::source::Span;
 use granit_parser::{ErrorKind, ScanError};
 
@@ -31,11 +31,15 @@ pub(super) fn syntax(
         Some(bracket) if ends_early(kind) => unclosed(bracket, None),
         Some(bracket) if runs_on(kind) && ran_on(&bracket) => unclosed(bracket, Some(here)),
         bracket => {
+            if let Some(slip) = slip::find(tree, at, kind) {
+                return slip;
+            }
             let (message, label, hint) = words(kind);
             Mistake::Syntax {
                 message,
-                label,
+                label: label.to_owned(),
                 hint,
+                replacement: None,
                 span: here,
                 bracket,
             }
@@ -77,13 +81,7 @@ fn runs_on(kind: &ErrorKind) -> bool {
 /// Message, label and hint.
 fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
     let say = |message: &str, label, hint| (message.to_owned(), label, hint);
-    if is_tab(kind) {
-        say(
-            "a tab can't indent",
-            "a tab near here",
-            "indent with spaces",
-        )
-    } else if matches!(kind, ErrorKind::UnknownAnchor) {
+    if matches!(kind, ErrorKind::UnknownAnchor) {
         say(
             "an alias without an anchor",
             "no `&` with this name before",
@@ -136,13 +134,6 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
             "compare with the lines before: indentation, colons, brackets, quotes",
         )
     }
-}
-
-fn is_tab(kind: &ErrorKind) -> bool {
-    matches!(
-        kind,
-        ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
-    )
 }
 
 fn error_text(kind: &ErrorKind) -> String {

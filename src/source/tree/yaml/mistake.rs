@@ -79,9 +79,11 @@ pub enum Mistake<'t> {
         /// What is wrong.
         message: String,
         /// What is at the place.
-        label: &'static str,
+        label: String,
         /// What to do.
         hint: &'static str,
+        /// The text to put in place of another one, if that is known.
+        replacement: Option<Box<(Span, String)>>,
         /// The place.
         span: Span,
         /// The innermost bracket that is still open there.

@@ -3,6 +3,7 @@
 
 mod fault;
 mod mistake;
+mod slip;
 mod text;
 
 pub use mistake::Mistake;

@@ -1,0 +1,40 @@
+//! Files beside one that is not there, so that a slip in its name can be told.
+
+use super::{FileKind, Search};
+use std::fs;
+use std::path::{Component, Path};
+
+/// The maximum number of files that are looked at for a name like another.
+const MAX_NEIGHBOURS: usize = 4096;
+
+impl Search {
+    /// The names of files of a kind in the place of the scene's own folder that a name leads to, in
+    /// order; hidden ones are not told.
+    #[must_use]
+    pub fn neighbours(&self, name: &str, kind: &FileKind) -> Vec<String> {
+        let path = Path::new(name);
+        let is_below = path
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
+        let (Some(folder), true) = (self.folders.first(), is_below) else {
+            return Vec::new();
+        };
+        let place = folder.resolved.join(path.parent().unwrap_or(Path::new("")));
+        // A link may lead out of the scene's folder.
+        let place = fs::canonicalize(place).ok();
+        let place = place.filter(|place| place.starts_with(&folder.resolved));
+        let entries = place.and_then(|place| fs::read_dir(place).ok());
+        let entries = entries.into_iter().flatten().flatten();
+        let names = entries
+            .take(MAX_NEIGHBOURS)
+            .filter_map(|entry| entry.file_name().into_string().ok());
+        let is_of_kind = |name: &String| {
+            let extension = Path::new(name).extension().unwrap_or_default();
+            let extension = extension.to_string_lossy().to_lowercase();
+            !name.starts_with('.') && kind.extensions.contains(&&*extension)
+        };
+        let mut names: Vec<String> = names.filter(is_of_kind).collect();
+        names.sort_unstable();
+        names
+    }
+}

@@ -1,0 +1,28 @@
+//! What the text around a node says, and whether two nodes were written to say the same.
+
+use super::{NodeId, Tree};
+use crate::source::Span;
+
+impl<'s> Tree<'s> {
+    /// The rest of the line that follows a span in this text.
+    #[must_use]
+    pub fn rest_of_line(&self, span: Span) -> &'s str {
+        let end = span.end.saturating_sub(self.base) as usize;
+        let rest = self.source.get(end..).unwrap_or_default();
+        rest.split(['\n', '\r']).next().unwrap_or_default()
+    }
+
+    /// Whether two values are the same: words and texts, lists and maps of the same in one order.
+    #[must_use]
+    pub fn is_same(&self, a: NodeId, b: NodeId) -> bool {
+        let (a, b) = (self.target(a), self.target(b));
+        let inside = |id: NodeId| (id.0..self.end(id)).map(NodeId);
+        let is_same = |(a, b): (NodeId, NodeId)| {
+            self.node(a).form == self.node(b).form
+                && self.target(a) == a
+                && self.target(b) == b
+                && self.shape(a) == self.shape(b)
+        };
+        inside(a).len() == inside(b).len() && inside(a).zip(inside(b)).all(is_same)
+    }
+}

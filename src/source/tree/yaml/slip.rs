@@ -1,0 +1,146 @@
+//! Slips of the hand that the YAML parser notices late, or tells of in its own words: found in the
+//! text around the place, with the text that was meant.
+
+use super::super::{Tree, to_u32};
+use super::Mistake;
+use crate::source::Span;
+use granit_parser::ErrorKind;
+
+/// The slip that explains an error at a place, if one is found there.
+pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mistake<'static>> {
+    let text = Text { tree };
+    let is_tab = matches!(
+        kind,
+        ErrorKind::TabNotAllowed | ErrorKind::TabInBlockIndentation | ErrorKind::TabInPlainScalar
+    );
+    if is_tab {
+        text.tab(at)
+    } else if text.after(at).starts_with('"') {
+        text.backslash(at)
+    } else {
+        text.indentation(at)
+    }
+}
+
+/// The text that a tree was to be made of.
+struct Text<'t, 's> {
+    tree: &'t Tree<'s>,
+}
+
+impl Text<'_, '_> {
+    /// A tab before the first word of the line, or of one after it.
+    fn tab(&self, at: usize) -> Option<Mistake<'static>> {
+        let line = self.line(at);
+        let found = self.after(line).find('\t')? + line;
+        let rest = self.after(found);
+        let count = rest.len() - rest.trim_start_matches('\t').len();
+        let span = self.span(found, found + count);
+        let spaces = "  ".repeat(count);
+        Some(slip(
+            "a tab can't indent".to_owned(),
+            "a tab".to_owned(),
+            "indent with spaces",
+            span,
+            (span, spaces),
+        ))
+    }
+
+    /// A backslash in double quotes, as in the path of a file, that is taken for an escape.
+    fn backslash(&self, at: usize) -> Option<Mistake<'static>> {
+        let line = self.after(at + 1).split(['\n', '\r']).next()?;
+        let inside = line.split('"').next()?;
+        if !inside.contains('\\') || inside.contains('\'') || inside.len() == line.len() {
+            return None;
+        }
+        let span = self.span(at, at + inside.len() + 2);
+        Some(slip(
+            "a backslash in double quotes starts an escape".to_owned(),
+            "no such escape in here".to_owned(),
+            "in single quotes it is a backslash",
+            span,
+            (span, format!("'{inside}'")),
+        ))
+    }
+
+    /// A line that is indented a little more or less than the one before, which it seems to belong to.
+    fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
+        let line = self.line(at);
+        let own = Indented::of(self.after(line).lines().next()?)?;
+        let before = self.tree.source.get(..line)?.lines().rev();
+        let before = before.filter_map(Indented::of).next()?;
+        // A key without a value on its line has the next lines for its value.
+        let is_value = before.words.ends_with(':');
+        let apart = own.spaces.abs_diff(before.spaces);
+        if is_value || own.starts_item || apart == 0 || apart > 3 || !own.words.contains(':') {
+            return None;
+        }
+        let key = own.words.split(':').next()?;
+        let (spaces, wanted) = (own.spaces, before.spaces);
+        let first = line + spaces;
+        Some(slip(
+            format!("`{key}` has {spaces} spaces before it, and its neighbour {wanted}"),
+            format!("{spaces} spaces before this"),
+            "indent lines that belong together alike",
+            self.span(first, first + key.len()),
+            (self.span(line, first), " ".repeat(wanted)),
+        ))
+    }
+
+    /// The text from a place on.
+    fn after(&self, at: usize) -> &str {
+        self.tree.source.get(at..).unwrap_or_default()
+    }
+
+    /// Where the line of a place starts.
+    fn line(&self, at: usize) -> usize {
+        let before = self.tree.source.get(..at).unwrap_or_default();
+        before.rfind('\n').map_or(0, |end| end + 1)
+    }
+
+    fn span(&self, start: usize, end: usize) -> Span {
+        let base = self.tree.base;
+        Span::new(self.tree.file, to_u32(start) + base, to_u32(end) + base)
+    }
+}
+
+fn slip(
+    message: String,
+    label: String,
+    hint: &'static str,
+    span: Span,
+    replacement: (Span, String),
+) -> Mistake<'static> {
+    Mistake::Syntax {
+        message,
+        label,
+        hint,
+        replacement: Some(Box::new(replacement)),
+        span,
+        bracket: None,
+    }
+}
+
+/// A line with words.
+struct Indented<'t> {
+    /// How many spaces stand before its first key; the dash of an item and what follows it count.
+    spaces: usize,
+    /// Whether it starts an item.
+    starts_item: bool,
+    words: &'t str,
+}
+
+impl<'t> Indented<'t> {
+    /// A line, unless it is empty or a comment.
+    fn of(line: &'t str) -> Option<Self> {
+        let words = line.trim();
+        if words.is_empty() || words.starts_with('#') {
+            return None;
+        }
+        let inner = line.trim_start_matches([' ', '-']);
+        Some(Self {
+            spaces: line.len() - inner.len(),
+            starts_item: words.starts_with('-'),
+            words,
+        })
+    }
+}
