@@ -294,7 +294,11 @@ fn clear(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
 
 /// Leaves a surface opaque.
 fn no_glass(phong: &mut ir::Phong, span: Span, context: &mut Context<'_>) {
-    (phong.kt, phong.eta) = (0.0, 1.0);
+    phong.kt = 0.0;
+    // A negative index is left to the proof to refuse.
+    if phong.eta > 0.0 {
+        phong.eta = 1.0;
+    }
     let message = || "the surface has a weight of refraction, but is said to be opaque".to_owned();
     context.report(&codes::NO_EFFECT, span, message, |d| {
         d.at(span, "so its `kt` has no effect")
