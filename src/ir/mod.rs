@@ -74,6 +74,25 @@ pub struct Scene {
     pub environment: Option<Environment>,
 }
 
+impl Scene {
+    /// A scene of nothing.
+    #[must_use]
+    pub fn new(camera: Camera, settings: Settings) -> Self {
+        Self {
+            camera,
+            settings,
+            lights: Vec::new(),
+            images: Vec::new(),
+            textures: Vec::new(),
+            meshes: Vec::new(),
+            materials: Vec::new(),
+            surfaces: Vec::new(),
+            names: Vec::new(),
+            environment: None,
+        }
+    }
+}
+
 /// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values
 /// beside it.
 #[derive(Clone, Debug)]

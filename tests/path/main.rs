@@ -49,18 +49,7 @@ fn scene(samples: u32) -> Scene {
         },
         projection: Projection::Perspective,
     };
-    Scene {
-        camera,
-        settings,
-        lights: Vec::new(),
-        images: Vec::new(),
-        textures: Vec::new(),
-        meshes: Vec::new(),
-        materials: Vec::new(),
-        surfaces: Vec::new(),
-        names: Vec::new(),
-        environment: None,
-    }
+    Scene::new(camera, settings)
 }
 
 /// Lambert's surface, if the specular reflection is left away.

@@ -109,18 +109,7 @@ impl Lowering {
             pattern: ir::Pattern::Grid,
             light_samples: 1,
         };
-        let scene = ir::Scene {
-            camera: camera::placeholder(),
-            settings,
-            lights: Vec::new(),
-            images: Vec::new(),
-            textures: Vec::new(),
-            meshes: Vec::new(),
-            materials: Vec::new(),
-            surfaces: Vec::new(),
-            names: Vec::new(),
-            environment: None,
-        };
+        let scene = ir::Scene::new(camera::placeholder(), settings);
         let (shared, files, sizings) = (BTreeMap::new(), Files::default(), Vec::new());
         Self {
             scene,

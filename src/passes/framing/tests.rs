@@ -17,25 +17,15 @@ fn empty() -> Scene {
         },
         projection: Projection::Perspective,
     };
-    Scene {
-        camera,
-        settings: Settings {
-            mode: Mode::Phong,
-            shadows: false,
-            max_depth: 0,
-            supersampling: 1,
-            pattern: Pattern::Grid,
-            light_samples: 1,
-        },
-        lights: Vec::new(),
-        images: Vec::new(),
-        textures: Vec::new(),
-        meshes: Vec::new(),
-        materials: Vec::new(),
-        surfaces: Vec::new(),
-        names: Vec::new(),
-        environment: None,
-    }
+    let settings = Settings {
+        mode: Mode::Phong,
+        shadows: false,
+        max_depth: 0,
+        supersampling: 1,
+        pattern: Pattern::Grid,
+        light_samples: 1,
+    };
+    Scene::new(camera, settings)
 }
 
 /// A scene of boxes, each by two corners.

@@ -89,31 +89,22 @@ pub(super) fn lower<'s>(
 
 /// A scene without anything, that is rendered as glTF means it.
 fn empty() -> Scene {
-    Scene {
-        camera: camera::looking_at(ir::Ball {
-            center: Vec3::ZERO,
-            radius: 1.0,
+    let camera = camera::looking_at(ir::Ball {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    });
+    let settings = ir::Settings {
+        mode: Mode::Path(ir::PathSettings {
+            samples: SAMPLES,
+            multiple_scattering: true,
         }),
-        settings: ir::Settings {
-            mode: Mode::Path(ir::PathSettings {
-                samples: SAMPLES,
-                multiple_scattering: true,
-            }),
-            shadows: true,
-            max_depth: DEPTH,
-            supersampling: 1,
-            pattern: ir::Pattern::Grid,
-            light_samples: 1,
-        },
-        lights: Vec::new(),
-        images: Vec::new(),
-        textures: Vec::new(),
-        meshes: Vec::new(),
-        materials: Vec::new(),
-        surfaces: Vec::new(),
-        names: Vec::new(),
-        environment: None,
-    }
+        shadows: true,
+        max_depth: DEPTH,
+        supersampling: 1,
+        pattern: ir::Pattern::Grid,
+        light_samples: 1,
+    };
+    Scene::new(camera, settings)
 }
 
 /// The index of the variant of this name.
