@@ -3,14 +3,12 @@
 //! It is found by a small render of the whole view, always of the same size and samples, so that it
 //! does not depend on those of the picture, nor on the part of it that is rendered.
 
-use super::{Options, Renderer, prove};
+use super::Renderer;
 use crate::color::luminance;
-use crate::diag::Sink;
-use crate::ir::{Camera, Lowered, Mode, Origins, Scene};
+use crate::ir::{Camera, Mode, Scene};
 use crate::math::{exp, ln};
 use crate::render::{Background, Film, Job, OnPixel, Values};
-use crate::source::Limits;
-use crate::valid::{Proof, ProofOptions};
+use crate::valid::{Proof, revalidate};
 
 /// The small render: its sides in pixels, and the paths of each.
 const SIDE: u32 = 64;
@@ -58,18 +56,7 @@ fn small(scene: &Scene, camera: &Camera) -> Proof {
     if let Mode::Path(path) = &mut scene.settings.mode {
         path.samples = PATHS;
     }
-    let lowered = Lowered {
-        scene,
-        origins: Origins::default(),
-    };
-    let options = Options {
-        valid: ProofOptions {
-            limits: Limits::NONE,
-        },
-        ..Options::default()
-    };
-    prove(&lowered, &options, &mut Sink::default())
-        .expect("the scene was proven before, and another size of its picture is in range")
+    revalidate(&scene)
 }
 
 /// The exposure at which the surfaces of a film are neither too dark nor too bright.

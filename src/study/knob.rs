@@ -1,9 +1,9 @@
 //! The knobs of accuracy: numbers that trade work for error, and which of them a scene has.
 
 use super::setting::Setting;
-use super::subject::prove;
 use crate::ir::{Light, Material, Mode, Phong, Scene};
 use crate::plan::{Arithmetic, Effect, Plan, Rules, State, Verdict, loss};
+use crate::valid::revalidate;
 use serde::{Deserialize, Serialize};
 
 /// A number that trades work for accuracy.
@@ -158,7 +158,7 @@ pub(super) fn place(arithmetic: Arithmetic) -> u32 {
 
 /// Whether the plan expects no visible loss from an arithmetic.
 pub(super) fn bears(scene: &Scene, arithmetic: Arithmetic) -> bool {
-    loss(&prove(scene), arithmetic).is_none()
+    loss(&revalidate(scene), arithmetic).is_none()
 }
 
 /// The reason to leave a knob alone in a scene, or `None`: the scene does not ask for its effect,
@@ -186,7 +186,7 @@ fn left_out(knob: Knob, scene: &Scene) -> Option<String> {
         .into_iter()
         .fold(own, |all, knob| all.with(knob, own.get(knob).max(2)))
         .apply(&mut turned);
-    let plan = Plan::new(&prove(&turned), Rules::ALL);
+    let plan = Plan::new(&revalidate(&turned), Rules::ALL);
     let verdict = plan
         .verdicts
         .iter()

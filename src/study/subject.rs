@@ -3,13 +3,11 @@
 
 use super::bench::{Bench, Time};
 use super::setting::Setting;
-use crate::diag::Sink;
 use crate::image::Image;
-use crate::ir::{Origins, Pattern, Scene};
+use crate::ir::{Pattern, Scene};
 use crate::plan::{Arithmetic, Plan, Rules};
 use crate::render::{Counts, Crop, Job, Seeds, Tiles, render};
-use crate::source::Limits;
-use crate::valid::{self, Proof};
+use crate::valid::{Proof, revalidate};
 
 /// A scene, and the part of its picture that is rendered.
 #[derive(Clone)]
@@ -158,7 +156,7 @@ impl<'bench> Subject<'bench> {
         if seeds.pixel != 0 {
             scene.settings.pattern = Pattern::Jitter;
         }
-        prove(&scene)
+        revalidate(&scene)
     }
 
     fn render(
@@ -210,15 +208,6 @@ impl<'bench> Subject<'bench> {
         }
         .within(width, height)
     }
-}
-
-/// The proof of a scene that was already proven in another setting.
-pub(super) fn prove(scene: &Scene) -> Proof {
-    let options = valid::ProofOptions {
-        limits: Limits::NONE,
-    };
-    let proof = valid::validate(scene, &Origins::default(), &options, &mut Sink::default());
-    proof.expect("the scene was proven before, and a setting is in range")
 }
 
 /// A part of a picture.

@@ -9,13 +9,14 @@
 use super::knob::{Knob, idle};
 use super::metrics::LEVELS;
 use super::noise::{Allotment, Noise};
-use super::subject::{Stopped, prove};
+use super::subject::Stopped;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
     AnyWorld, Background, Counts, Crop, Film, Job, OnPixel, ProgressiveFilm, Replicates, Tiles,
     Values,
 };
+use crate::valid::revalidate;
 use std::time::Duration;
 
 /// When to stop; with both, whichever comes first.
@@ -227,7 +228,7 @@ fn spread(world: &mut AnyWorld, scene: &Scene, light_samples: u32) {
     let mut scene = scene.clone();
     scene.settings.pattern = Pattern::Jitter;
     scene.settings.light_samples = light_samples;
-    world.change(prove(&scene));
+    world.change(revalidate(&scene));
 }
 
 /// The best number of points of each soft light, and the rays for finding it. Larger numbers are

@@ -131,6 +131,19 @@ impl Proof {
     }
 }
 
+/// The proof of a scene that was already proven with another camera or in other settings.
+///
+/// # Panics
+/// If what was changed is out of range.
+#[must_use]
+pub fn revalidate(scene: &ir::Scene) -> Proof {
+    let options = ProofOptions {
+        limits: Limits::NONE,
+    };
+    let proof = validate(scene, &Origins::default(), &options, &mut Sink::default());
+    proof.expect("the scene was proven before, and what was changed is in range")
+}
+
 /// Proves the scene, or reports in the sink all faults of it, not only the first.
 ///
 /// Returns `None` if and only if this call reported an error.
