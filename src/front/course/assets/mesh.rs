@@ -9,19 +9,17 @@ use crate::source::{FileKind, Found};
 use std::collections::BTreeMap;
 
 /// Such files.
-pub(super) const KIND: FileKind = FileKind {
-    extensions: &["obj", "off"],
-    begins: is_mesh,
-};
-
-const TEXT: TextKind = TextKind {
+pub(super) const TEXT: TextKind = TextKind {
     noun: "mesh",
     is_not: "neither OBJ nor OFF",
     code: &codes::BAD_MESH_FILE,
     without: Without::Object,
     // Some two million triangles.
     max_bytes: 1 << 28,
-    begins: is_mesh,
+    file: FileKind {
+        extensions: &["obj", "off"],
+        begins: is_mesh,
+    },
 };
 
 /// Brings one mesh, or the one that the same file became before, whatever it was called; without a

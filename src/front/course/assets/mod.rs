@@ -241,10 +241,10 @@ impl Porter<'_> {
 fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
         Asset::Image(_) => &image::KIND,
-        Asset::Mesh(_) => &mesh::KIND,
+        Asset::Mesh(_) => &mesh::TEXT.file,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,
-        Asset::Photometry(_) => &photometry::KIND,
+        Asset::Photometry(_) => &photometry::TEXT.file,
     }
 }
 

@@ -9,18 +9,16 @@ use crate::ir::{Emitter, Light, Lowered, Photometry, Punctual};
 use crate::source::{Budget, FileKind, Resource};
 
 /// Such files.
-pub(super) const KIND: FileKind = FileKind {
-    extensions: &["ies"],
-    begins: is_profile,
-};
-
-const TEXT: TextKind = TextKind {
+pub(super) const TEXT: TextKind = TextKind {
     noun: "profile",
     is_not: "no IES profile",
     code: &codes::BAD_PHOTOMETRY,
     without: Without::Light,
     max_bytes: 1 << 24,
-    begins: is_profile,
+    file: FileKind {
+        extensions: &["ies"],
+        begins: is_profile,
+    },
 };
 
 /// Brings the profile of a lamp, which is dark without its file.

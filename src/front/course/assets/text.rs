@@ -4,7 +4,7 @@ use super::{Porter, Wanted, Without};
 use crate::diag::{Code, Diagnostic};
 use crate::front::over_limit;
 use crate::front::words::Unread;
-use crate::source::{Budget, FileId, Found};
+use crate::source::{Budget, FileId, FileKind, Found};
 
 /// A kind of text file.
 pub(super) struct TextKind {
@@ -18,8 +18,8 @@ pub(super) struct TextKind {
     pub(super) without: Without,
     /// The largest file read, in bytes.
     pub(super) max_bytes: u64,
-    /// Whether a file that begins so is of this kind.
-    pub(super) begins: fn(&[u8]) -> bool,
+    /// How such a file is told from others.
+    pub(super) file: FileKind,
 }
 
 impl Porter<'_> {
@@ -59,7 +59,7 @@ impl Porter<'_> {
 
     fn open_text(&mut self, found: &Found, wish: &Wanted, kind: &TextKind) -> Option<FileId> {
         match self.loader.found(found, kind.max_bytes, self.map) {
-            Ok(bytes) if (kind.begins)(&bytes) => Some(self.map.add_found(found, bytes)),
+            Ok(bytes) if (kind.file.begins)(&bytes) => Some(self.map.add_found(found, bytes)),
             // A finding within would quote a file that is none of the scene's business.
             Ok(bytes) => {
                 let name = found.shown.display();
