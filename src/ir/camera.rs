@@ -1,6 +1,6 @@
 //! The camera: an eye, an image plane, and a lens.
 
-use crate::math::{Vec3, atan2, cos, length, sin, unit, unit_scale};
+use crate::math::{Vec3, atan2, cos, length, sin, turned_about, unit, unit_scale};
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,10 +57,7 @@ impl Camera {
     /// point.
     #[must_use]
     pub fn turned(&self, angle: f64, axis: Vec3, through: Vec3) -> Self {
-        let (sine, cosine) = (sin(angle), cos(angle));
-        // Rodrigues' formula.
-        let turn =
-            |v: Vec3| v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine));
+        let turn = |v: Vec3| turned_about(v, axis, [sin(angle), cos(angle)]);
         let point = |p: [f64; 3]| (through + turn(Vec3::from_array(p) - through)).to_array();
         let step = |s: [f64; 3]| turn(Vec3::from_array(s)).to_array();
         let Self {

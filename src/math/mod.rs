@@ -26,7 +26,7 @@ pub use glam::DVec3 as Vec3;
 pub use glam::Vec4 as Lanes;
 pub use number::{NonNegative, Positive, UnitInterval, shortest};
 pub use onb::Basis;
-pub use rotation::{axis_and_angle, turned_to_z};
+pub use rotation::{axis_and_angle, turned_about, turned_to_z};
 pub use turns::{cos_sin_turns, golden_turns};
 pub use weight::Weight;
 

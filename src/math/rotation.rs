@@ -2,6 +2,13 @@
 
 use super::{Vec3, atan2, cos, sin};
 
+/// `v` turned by an angle in radians about a unit vector, given by its sine and cosine (Rodrigues'
+/// formula).
+#[must_use]
+pub fn turned_about(v: Vec3, axis: Vec3, [sine, cosine]: [f64; 2]) -> Vec3 {
+    v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))
+}
+
 /// The rows of a rotation: the shortest one that takes the unit
 /// vector `axis` to +z, then one that lowers φ by `angle` degrees. `None` if nothing turns.
 #[must_use]

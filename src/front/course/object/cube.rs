@@ -9,7 +9,7 @@ use crate::front::course::object::solid::around;
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::schema::Definitions;
 use crate::front::course::value::{Point, Text, Vector};
-use crate::math::{Vec3, cos, sin, unit, unit_scale};
+use crate::math::{Vec3, cos, sin, turned_about, unit, unit_scale};
 use crate::source::tree::NodeId;
 use serde_json::{Value as Json, json};
 
@@ -47,7 +47,7 @@ impl Lower for Cube {
         };
         let turn = match (turn_axis, turn_angle) {
             (FieldOutcome::Read(axis), FieldOutcome::Read(angle)) => {
-                turned_about(Vec3::from_array(axis.value.0), angle.value.0)
+                axes_turned_about(Vec3::from_array(axis.value.0), angle.value.0)
             }
             _ => Vec3::AXES,
         };
@@ -100,14 +100,13 @@ impl Value for ThirdEdge {
     }
 }
 
-/// Where the axes come to, turned by an angle in radians about an axis (Rodrigues' formula); as they
-/// are if it has no direction.
-pub(super) fn turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
-    let Some(axis) = unit(axis) else {
-        return Vec3::AXES;
-    };
-    let (c, s) = (cos(angle), sin(angle));
-    Vec3::AXES.map(|v| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c)))
+/// Where the axes come to, turned by an angle in radians about an axis; as they are if it has no
+/// direction.
+pub(super) fn axes_turned_about(axis: Vec3, angle: f64) -> [Vec3; 3] {
+    let turns = [sin(angle), cos(angle)];
+    unit(axis).map_or(Vec3::AXES, |axis| {
+        Vec3::AXES.map(|v| turned_about(v, axis, turns))
+    })
 }
 
 #[cfg(test)]
@@ -116,10 +115,10 @@ mod tests {
 
     #[test]
     fn a_quarter_turn_about_z_takes_x_to_y() {
-        let [x, y, z] = turned_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
+        let [x, y, z] = axes_turned_about(Vec3::Z * 3.0, std::f64::consts::FRAC_PI_2);
         let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-15;
         assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
-        assert_eq!(turned_about(Vec3::ZERO, 1.0), Vec3::AXES);
+        assert_eq!(axes_turned_about(Vec3::ZERO, 1.0), Vec3::AXES);
     }
 
     #[test]

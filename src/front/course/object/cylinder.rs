@@ -1,7 +1,7 @@
 //! The cylinder.
 
 use super::Lower;
-use super::cube::turned_about;
+use super::cube::axes_turned_about;
 use crate::front::course::decode::{Context, Numbers, SharedValue, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
@@ -84,7 +84,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         FieldOutcome::Read(angle),
     ) = (position, height, turn_axis, turn_angle)
     {
-        let [along, ..] = turned_about(Vec3::from_array(axis.value.0), angle.value.0);
+        let [along, ..] = axes_turned_about(Vec3::from_array(axis.value.0), angle.value.0);
         let base = Vec3::from_array(middle.value.0) - along * (height.value.0 / 2.0);
         return Some((
             middle.map(|_| base.to_array()),
