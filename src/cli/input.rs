@@ -40,8 +40,8 @@ pub(super) struct Proven {
     pub(super) scene: Proof,
 }
 
-/// What kind of scene was read.
-pub(super) struct Kind {
+/// Where a scene comes from, and what was chosen for it.
+pub(super) struct Provenance {
     /// It is a glTF asset.
     pub(super) is_asset: bool,
     /// It is one with lights of its own, and they are not left out.
@@ -161,9 +161,12 @@ impl Input {
     }
 
     /// Lowers the scene, sets the stage, lets `change` change it, and proves it.
-    pub(super) fn prove(&mut self, change: impl FnOnce(&mut Lowered, &Kind)) -> Option<Proven> {
+    pub(super) fn prove(
+        &mut self,
+        change: impl FnOnce(&mut Lowered, &Provenance),
+    ) -> Option<Proven> {
         let mut lowered = pipeline::load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
-        let mut kind = Kind {
+        let mut provenance = Provenance {
             is_asset: self.is_asset(),
             is_lit_asset: self.is_asset() && lowered.scene.lights.iter().any(Light::shines),
             framing: None,
@@ -173,11 +176,11 @@ impl Input {
             let camera = lowered
                 .origins
                 .span(Place::new(Noun::Camera, 0, Field::Whole));
-            let has_camera = self.all_around || !kind.is_asset || camera.is_some();
-            kind.is_lit_asset &= !stage.without_lights;
-            kind.framing = pipeline::stage(&mut lowered, stage, has_camera, &mut self.sink);
+            let has_camera = self.all_around || !provenance.is_asset || camera.is_some();
+            provenance.is_lit_asset &= !stage.without_lights;
+            provenance.framing = pipeline::stage(&mut lowered, stage, has_camera, &mut self.sink);
         }
-        change(&mut lowered, &kind);
+        change(&mut lowered, &provenance);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
         Some(Proven { lowered, scene })
     }
@@ -238,7 +241,7 @@ impl Input {
 pub(super) fn require(
     input: &mut Input,
     talk: &mut Talk,
-    change: impl FnOnce(&mut Lowered, &Kind),
+    change: impl FnOnce(&mut Lowered, &Provenance),
 ) -> Result<Proven, Failure> {
     let proven = input.prove(change);
     input.tell(talk)?;

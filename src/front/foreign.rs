@@ -4,15 +4,15 @@
 use super::mesh::is_mesh;
 use crate::diag::{Diagnostic, clip_path, codes};
 
-/// A kind of file: what it is, how it begins, and what to do with it.
-type Kind = (&'static str, fn(&[u8]) -> bool, &'static str);
+/// A kind of file that is no scene: what it is, how it begins, and what to do with it.
+type ForeignFile = (&'static str, fn(&[u8]) -> bool, &'static str);
 
 const TEXTURE: &str = "name it in a scene, as the `texture` of a material";
 const SKY: &str = "name it in a scene, as `Environment: {file: …}`, or light a scene by `--env`";
 const MESH: &str = "name it in a scene: `- {type: mesh, file: …}`";
 const EXPORT: &str = "export the scene as glTF 2.0 (`.glb`) from the program that made it";
 
-const KINDS: &[Kind] = &[
+const FOREIGN: &[ForeignFile] = &[
     ("a PNG picture", |b| b.starts_with(b"\x89PNG"), TEXTURE),
     (
         "a JPEG picture",
@@ -75,7 +75,7 @@ const HEAD: usize = 4096;
 /// Why a file is no scene, if its first bytes say that it is something else.
 pub fn foreign(name: &str, bytes: &[u8]) -> Option<Diagnostic> {
     let head = &bytes[..bytes.len().min(HEAD)];
-    let (is, _, hint) = KINDS.iter().find(|(_, begins, _)| begins(head))?;
+    let (is, _, hint) = FOREIGN.iter().find(|(_, begins, _)| begins(head))?;
     let message = format!("`{}` is {is}, and no scene", clip_path(name));
     Some(Diagnostic::new(&codes::NOT_A_SCENE, message).hint(*hint))
 }

@@ -5,7 +5,7 @@ mod shot;
 use super::Failure;
 use super::args;
 use super::findings;
-use super::input::{self, Input, Kind, Proven};
+use super::input::{self, Input, Proven, Provenance};
 use super::interrupt::Interrupt;
 use super::look::OutputLook;
 use super::output::{self, Output};
@@ -97,10 +97,13 @@ impl RenderSetup {
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
         let (mut set, mut first) = (Ok(()), None);
-        let proven = input::require(input, talk, |lowered, kind| {
+        let proven = input::require(input, talk, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
-            first = Some((lowered.scene.camera.clone(), kind.is_lit_asset && is_traced));
-            resize(&mut lowered.scene, self.overrides.size, kind);
+            first = Some((
+                lowered.scene.camera.clone(),
+                provenance.is_lit_asset && is_traced,
+            ));
+            resize(&mut lowered.scene, self.overrides.size, provenance);
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| {
                 passes::set(&mut lowered.scene.settings, name, value)
@@ -345,10 +348,10 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
 
 /// Gives the view of an asset a picture of another size: it shows no less than before. Other scenes
 /// keep their height.
-fn resize(scene: &mut Scene, size: Option<[u32; 2]>, kind: &Kind) {
-    match (size, kind.framing) {
+fn resize(scene: &mut Scene, size: Option<[u32; 2]>, provenance: &Provenance) {
+    match (size, provenance.framing) {
         (Some(_), Some(framing)) => Framing { size, ..framing }.apply(scene),
-        (Some(size), None) if kind.is_asset => scene.camera.fit(size),
+        (Some(size), None) if provenance.is_asset => scene.camera.fit(size),
         _ => {}
     }
 }
