@@ -30,7 +30,7 @@ const WHITTED: Features = PHONG
     .with(Features::CAMERA);
 
 /// All integrators: those that `benches/kernels.md` shows to be worth their code.
-pub const KERNELS: [Kernel; 6] = [
+pub const KERNELS: [Kernel; 7] = [
     kernel("phong", PHONG),
     kernel("phong, camera", PHONG.with(Features::CAMERA)),
     kernel("phong, shadows", PHONG.with(Features::SHADOW)),
@@ -39,6 +39,7 @@ pub const KERNELS: [Kernel; 6] = [
         Features::LIGHT.with(Features::MAPS).with(Features::CAMERA),
     ),
     kernel("whitted, camera", WHITTED),
+    kernel("whitted, maps, camera", WHITTED.with(Features::MAPS)),
     kernel("everything", Features::EVERYTHING),
 ];
 
@@ -61,7 +62,8 @@ macro_rules! dispatch {
             2 => $crate::render::kernel::dispatch!(@ 2 $world.$method $arguments),
             3 => $crate::render::kernel::dispatch!(@ 3 $world.$method $arguments),
             4 => $crate::render::kernel::dispatch!(@ 4 $world.$method $arguments),
-            _ => $crate::render::kernel::dispatch!(@ 5 $world.$method $arguments),
+            5 => $crate::render::kernel::dispatch!(@ 5 $world.$method $arguments),
+            _ => $crate::render::kernel::dispatch!(@ 6 $world.$method $arguments),
         }
     }};
     (@ $index:literal $world:ident.$method:ident ($($argument:expr),*)) => {

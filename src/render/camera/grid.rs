@@ -91,8 +91,8 @@ impl Grid {
         seeds: Seeds,
     ) -> Cell {
         let number = u64::from(row) * u64::from(self.factor) + u64::from(column);
-        let key = Key::new(pixel, number);
-        let place = self.place([column, row], key.seeded(seeds.pixel));
+        let key = || Key::new(pixel, number);
+        let place = self.place([column, row], || key().seeded(seeds.pixel));
         Cell {
             target: image_point(camera, pixel, place),
             rotated: CranleyPatterson::new(seeds.lens, key),
@@ -101,8 +101,11 @@ impl Grid {
 
     /// The offset of a sub-sample within its pixel, each coordinate in [0, 1].
     #[inline(always)]
-    fn place(&self, cell: [u32; 2], key: Key) -> [f64; 2] {
-        let random = || [0, 1].map(|axis| key.child(PATTERN).uniform(axis));
+    fn place(&self, cell: [u32; 2], key: impl Fn() -> Key) -> [f64; 2] {
+        let random = || {
+            let key = key().child(PATTERN);
+            [0, 1].map(|axis| key.uniform(axis))
+        };
         let within = |offset: [f64; 2]| {
             [0, 1].map(|axis| (f64::from(cell[axis]) + offset[axis]) / f64::from(self.factor))
         };

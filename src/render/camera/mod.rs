@@ -96,11 +96,12 @@ impl CranleyPatterson {
 
     /// The rotation of a sub-sample; seed 0 gives [`Self::NONE`].
     #[must_use]
-    pub(in crate::render) fn new(seed: u64, key: Key) -> Self {
+    #[inline]
+    pub(in crate::render) fn new(seed: u64, key: impl Fn() -> Key) -> Self {
         if seed == 0 {
             return Self::NONE;
         }
-        let key = key.child(LENS).seeded(seed);
+        let key = key().child(LENS).seeded(seed);
         Self {
             rotation: key.bits(0),
             shift: key.uniform(1),

@@ -12,6 +12,9 @@ use crate::math::{Basis, NonNegative, Vec3, cos_sin_turns, golden_turns, pow};
 pub(in crate::render) struct Key(u64);
 
 impl Key {
+    /// The key where nothing is random.
+    pub(in crate::render) const UNUSED: Self = Self(0);
+
     /// The key of a camera ray.
     #[must_use]
     pub(in crate::render) fn new(pixel: [u32; 2], sample: u64) -> Self {

@@ -41,16 +41,27 @@ impl Sphere {
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
         let f = ray.origin - self.center;
         let d = ray.direction;
+        let (f2, b) = (f.dot(f), -f.dot(d));
+
+        // Leave spheres that lie behind the origin or beside the line: from outside, both roots
+        // have the sign of b, and there is none where a·(f² − r²) > b². Rounding may move the two
+        // sides by 27 u·a·f².
+        let outside = f2 * (1.0 - 64.0 * U) - self.radius * self.radius;
+        if outside > 0.0 && (b < 0.0 || d.dot(d) * outside > b * b) {
+            return None;
+        }
+        self.first_root(ray)
+    }
+
+    /// As [`Self::intersect`], of a line that comes close.
+    #[inline(never)]
+    fn first_root(&self, ray: &Ray) -> Option<f64> {
+        let f = ray.origin - self.center;
+        let d = ray.direction;
         let r2 = self.radius * self.radius;
         let f2 = f.dot(f);
         let a = d.dot(d);
         let b = -f.dot(d);
-
-        // Leave spheres behind the origin: both roots have the sign of `b` where `c` is surely
-        // above 0.
-        if b < 0.0 && f2 > r2 * (1.0 + 32.0 * U) {
-            return None;
-        }
 
         // Compute the discriminant from the foot of the perpendicular.
         let nearest = b / a;

@@ -141,7 +141,11 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     fn next(&self, path: &Branch, weight: f64, ray: Ray, kind: BranchKind) -> Option<Branch> {
         let beta = (path.beta * weight).min(f64::MAX);
         let goes_on = beta > 0.0 || !self.applies(Rule::MirrorKs);
-        let key = path.key.child(kind as u64);
+        let key = if Self::can(Features::SAMPLED) {
+            path.key.child(kind as u64)
+        } else {
+            Key::UNUSED
+        };
         goes_on.then(|| Branch {
             ray,
             beta,

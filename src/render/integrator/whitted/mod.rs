@@ -98,20 +98,25 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     }
 
     /// What a camera ray sees, by the mode of the scene; black where it meets nothing.
-    #[inline(always)]
+    ///
+    /// It is compiled once for pictures, growing pictures and layers, so that what it calls at
+    /// every hit is compiled into it.
+    #[inline(never)]
     pub(in crate::render) fn radiance(&mut self, ray: Ray, key: Key) -> Vec3 {
         self.counts.camera += 1;
         let depth = self.world.plan.max_depth;
         let mut sum = Vec3::ZERO;
-        let mut next = Some(Branch {
+        let mut path = Branch {
             ray,
             beta: 1.0,
             bounces_left: depth,
             key,
             kind: BranchKind::Mirrored,
-        });
-        while let Some(path) = next {
-            self.weightless = path.beta == 0.0;
+        };
+        loop {
+            if Self::can(Features::NAIVE) {
+                self.weightless = path.beta == 0.0;
+            }
             if let Some(shading_point) = self.shading_point(&path.ray, path.key) {
                 let bounces = depth - path.bounces_left;
                 self.counts.hits += u64::from(bounces == 0);
@@ -122,13 +127,14 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
                     self.branch(&path, &shading_point);
                 }
             }
-            next = if Self::can(Features::BOUNCE) {
-                self.next_branch()
-            } else {
-                None
-            };
+            if !Self::can(Features::BOUNCE) || self.pending.is_empty() {
+                return sum;
+            }
+            match self.next_branch() {
+                Some(next) => path = next,
+                None => return sum,
+            }
         }
-        sum
     }
 
     /// Looks whether a ray after so many bounces meets what the plan leaves out.

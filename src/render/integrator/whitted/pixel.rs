@@ -57,7 +57,11 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
             }
             Stream::Replicate { number, .. } => (self.ray_of_replicate(id, number), number),
         };
-        let key = Key::new(id.pixel, id.index.into()).seeded(seed);
+        let key = if Self::can(Features::SAMPLED) {
+            Key::new(id.pixel, id.index.into()).seeded(seed)
+        } else {
+            Key::UNUSED
+        };
         let sample = self.trace(ray, key);
         self.verify_sample(id.pixel, &sample);
         if Self::can(Features::NAIVE) || self.pixel.is_uniform {
