@@ -5,6 +5,7 @@ mod exposure;
 mod meter;
 pub mod trial;
 
+pub use exposure::OwnLight;
 pub use meter::Meter;
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
@@ -13,7 +14,7 @@ use crate::front::{course, gltf};
 use crate::image::Layers;
 use crate::ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use crate::math::BasisFault;
-use crate::passes::{Framing, Stage, Staged};
+use crate::passes::{Stage, Staged};
 use crate::plan::{self, Plan};
 use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
 use crate::source::{FileId, SourceMap};
@@ -96,17 +97,17 @@ fn refuse_choices(options: &front::FrontOptions, has_assets: bool, sink: &mut Si
     }
 }
 
-/// Puts view and light into a scene that was read, which has a camera of its own or not, and what has
-/// no light into the studio. Returns how its view was found, if it was.
+/// Puts view and light into a scene that was read, and what has no light into the studio; a bare one
+/// is an asset without a camera of its own. `None` if that is not possible; the sink says why.
 pub fn stage(
     lowered: &mut Lowered,
     stage: &Stage,
-    has_camera: bool,
+    is_bare: bool,
     sink: &mut Sink,
-) -> Option<Framing> {
-    let mismatch = match stage.apply(lowered, has_camera) {
-        Ok(Staged { is_dark, framing }) => {
-            if is_dark {
+) -> Option<Staged> {
+    let mismatch = match stage.apply(lowered, is_bare) {
+        Ok(staged) => {
+            if staged.is_dark {
                 let note = Diagnostic::new(
                     &codes::STUDIO,
                     "the scene has no light, so it stands in the studio",
@@ -115,7 +116,7 @@ pub fn stage(
                     "light it by `--env`, `--env-color` or `--sun`; `--env-color 0,0,0` is darkness",
                 ));
             }
-            return framing;
+            return Some(staged);
         }
         Err(BasisFault::ZeroGaze) => (
             &codes::EYE_IS_CENTER,

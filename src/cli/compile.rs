@@ -28,7 +28,7 @@ pub(super) fn run(args: &Compile) -> Result<(), Failure> {
 
 fn carry_out(args: &Compile, emit: Emit, talk: &mut Talk) -> Result<(), Failure> {
     let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
-    let proven = input::require(&mut input, talk, |_, _| ())?;
+    let proven = input::require(&mut input, talk, input::fill)?;
     if let Some(form) = args.explain {
         let form = if args.talk.message_format == MessageFormat::Json {
             Explanation::Json

@@ -29,7 +29,7 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     // A study has its own measure of work, and reports on settings that take more than anyone
     // renders.
     input.lift_rays();
-    let proven = input::require(input, talk, |_, _| ())?;
+    let proven = input::require(input, talk, input::fill)?;
     let interrupt = Interrupt::listen()?;
     let output = Output::open(&args.output, input)?;
     let page = args

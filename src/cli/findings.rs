@@ -27,6 +27,17 @@ pub(super) fn exposed(stops: f64) -> Diagnostic {
     Diagnostic::new(&codes::EXPOSED, message).hint(hint)
 }
 
+/// Says that the studio fills in beside the light of a scene.
+pub(super) fn filled(seen: f64) -> Diagnostic {
+    let message = format!(
+        "its own light shows {:.0} % of what is in the picture, so the studio fills in, dimmed",
+        100.0 * seen
+    );
+    Diagnostic::new(&codes::FILLED, message).hint(
+        "`--studio off` shows its own light alone, `--studio on` puts it into the studio undimmed",
+    )
+}
+
 /// Warns of what the arithmetic chosen loses; none of the robust one.
 pub(super) fn imprecise(proven: &Proven, arithmetic: plan::Arithmetic) -> Option<Diagnostic> {
     let loss = plan::loss(&proven.scene, arithmetic)?;

@@ -1,12 +1,12 @@
 //! The input of a command: a scene from a file or standard input, with what was found about it.
 
 use super::Failure;
-use super::args::{self, Reading};
+use super::args::{self, GroundArg, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
 use crate::front::{gltf, pixels};
 use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
-use crate::passes::{EnvironmentOverride, Framing, Stage, View};
+use crate::passes::{self, EnvironmentOverride, FillLight, Framing, Stage, StudioChoice, View};
 use crate::pipeline::{self, Options};
 use crate::source::{FileId, LoadError, Loader, Resource, SourceMap, Span};
 use crate::valid::Proof;
@@ -28,8 +28,6 @@ pub(super) struct Input {
     options: Options,
     /// Its view and light; none for a scene that is not to be shown.
     stage: Option<Stage>,
-    /// It will be seen from all around.
-    pub(super) all_around: bool,
 }
 
 /// A scene that was proven, and that from which it was.
@@ -46,6 +44,10 @@ pub(super) struct Provenance {
     pub(super) is_asset: bool,
     /// It is one with lights of its own, and they are not left out.
     pub(super) is_lit_asset: bool,
+    /// It is one of colours that no light changes.
+    pub(super) is_unlit: bool,
+    /// Whether the studio is still to fill in, beside its own light.
+    pub(super) fill: FillLight,
     /// How its view was found, if it has none of its own.
     pub(super) framing: Option<Framing>,
 }
@@ -101,7 +103,6 @@ impl Input {
             file,
             options,
             stage: None,
-            all_around: false,
         }
     }
 
@@ -122,6 +123,8 @@ impl Input {
             env_color,
             sun,
             no_scene_lights,
+            studio,
+            ground,
             integrator,
         } = stage;
         let mut input = Self::read(path, reading);
@@ -141,8 +144,16 @@ impl Input {
             environment: picture,
             suns: sun.clone(),
             without_lights: *no_scene_lights,
+            all_around: false,
+            studio: studio.map_or_else(StudioChoice::default, Into::into),
+            ground: ground.map(|ground| ground == GroundArg::On),
         });
         Ok(input)
+    }
+
+    /// Changes how it is shown.
+    pub(super) fn restage(&mut self, change: impl FnOnce(&mut Stage)) {
+        self.stage.as_mut().map(change);
     }
 
     /// The surroundings in a file; what is wrong in it is a finding.
@@ -169,6 +180,8 @@ impl Input {
         let mut provenance = Provenance {
             is_asset: self.is_asset(),
             is_lit_asset: self.is_asset() && lowered.scene.lights.iter().any(Light::shines),
+            is_unlit: self.is_asset() && lowered.scene.is_unlit(),
+            fill: FillLight::Never,
             framing: None,
         };
         if let Some(stage) = &self.stage {
@@ -176,9 +189,18 @@ impl Input {
             let camera = lowered
                 .origins
                 .span(Place::new(Noun::Camera, 0, Field::Whole));
-            let has_camera = self.all_around || !provenance.is_asset || camera.is_some();
+            let is_bare = provenance.is_asset && camera.is_none();
             provenance.is_lit_asset &= !stage.without_lights;
-            provenance.framing = pipeline::stage(&mut lowered, stage, has_camera, &mut self.sink);
+            if let Some(staged) = pipeline::stage(&mut lowered, stage, is_bare, &mut self.sink) {
+                // A scene that says how it is lit is shown as it says.
+                let is_meant = staged.fill == FillLight::IfDim && !provenance.is_asset;
+                provenance.fill = if is_meant {
+                    FillLight::Never
+                } else {
+                    staged.fill
+                };
+                provenance.framing = staged.framing;
+            }
         }
         change(&mut lowered, &provenance);
         let scene = pipeline::prove(&lowered, &self.options, &mut self.sink)?;
@@ -246,6 +268,14 @@ pub(super) fn require(
     let proven = input.prove(change);
     input.tell(talk)?;
     Ok(proven.expect("what is refused has an error in the sink, and `tell` has returned it"))
+}
+
+/// Lets the studio fill in beside the light of a scene if that is asked for, for commands that do not
+/// look what its own light shows.
+pub(super) fn fill(lowered: &mut Lowered, provenance: &Provenance) {
+    if provenance.fill == FillLight::Always {
+        passes::fill(&mut lowered.scene, 0.0);
+    }
 }
 
 /// The hash of a proven scene's IR, by which a picture or a report says what it is of.

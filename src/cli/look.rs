@@ -68,6 +68,14 @@ impl OutputLook {
         })
     }
 
+    /// Shows a glTF asset by itself, unless another tone map is asked for: its whites keep their
+    /// shades, and its colours stay those that its maker chose.
+    pub(super) fn show_asset(&mut self) {
+        if self.kind != OutputFormat::Exr {
+            self.tone = self.tone.or(Some(Tone::PbrNeutral));
+        }
+    }
+
     /// Whether the exposure is to be found: if it is asked for, or for the PNG of an asset with
     /// lights of its own.
     pub(super) fn finds_exposure(&self, is_lit_asset: bool) -> bool {
@@ -89,19 +97,29 @@ impl OutputLook {
         (!is_asked && self.stops != 0.0).then_some(self.stops)
     }
 
-    /// What values are multiplied by before they are shown.
-    pub(super) fn exposure(&self) -> f64 {
-        image::exposure(self.stops)
+    /// How values are shown, and what they are multiplied by before; linear ones as sRGB shows them.
+    pub(super) fn display(&self, mode: &Mode) -> (Tone, f64) {
+        let tone = match self.tone(mode) {
+            Tone::None | Tone::Srgb => Tone::Srgb,
+            tone @ (Tone::Agx | Tone::PbrNeutral) => tone,
+        };
+        (tone, image::exposure(self.stops))
+    }
+
+    /// The tone map of a picture of this mode.
+    fn tone(&self, mode: &Mode) -> Tone {
+        match self.kind {
+            OutputFormat::Exr => Tone::None,
+            OutputFormat::Png8 | OutputFormat::Png16 => self.tone.unwrap_or(mode.tone()),
+        }
     }
 
     /// Which values a film of this mode must hold.
     pub(super) fn values(&self, mode: &Mode) -> Values {
-        let is_plain = self.kind != OutputFormat::Exr
-            && self.stops == 0.0
-            && self.tone.unwrap_or(Tone::None) == Tone::None;
+        let is_plain = self.kind != OutputFormat::Exr && self.stops == 0.0;
         // Display values of the course are clamped sample by sample, as only its untouched pictures
         // want it.
-        if is_plain && mode.tone() == Tone::None {
+        if is_plain && mode.tone() == Tone::None && self.tone(mode) == Tone::None {
             Values::Display
         } else {
             Values::Linear
@@ -121,6 +139,9 @@ impl OutputLook {
     pub(super) fn describe(&self, settings: &mut serde_json::Value) {
         if self.stops != 0.0 {
             settings["exposure"] = self.stops.into();
+        }
+        if let Some(tone) = self.tone {
+            settings["tonemap"] = tone.name().into();
         }
         match self.background {
             BackgroundFill::Film => {}
@@ -143,15 +164,13 @@ impl OutputLook {
 
     /// The picture of a film.
     pub(super) fn develop(&self, film: Image, coverage: Vec<f32>, mode: &Mode) -> Picture {
-        let (tone, association) = match self.kind {
-            OutputFormat::Exr => (Tone::None, Association::Associated),
-            OutputFormat::Png8 | OutputFormat::Png16 => {
-                (self.tone.unwrap_or(mode.tone()), Association::Straight)
-            }
+        let association = match self.kind {
+            OutputFormat::Exr => Association::Associated,
+            OutputFormat::Png8 | OutputFormat::Png16 => Association::Straight,
         };
         image::Look {
             stops: self.stops,
-            tone,
+            tone: self.tone(mode),
             background: self.background,
         }
         .develop(film, coverage, association)

@@ -19,6 +19,17 @@ pub enum Tone {
 }
 
 impl Tone {
+    /// Its name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Srgb => "srgb",
+            Self::Agx => "agx",
+            Self::PbrNeutral => "pbr-neutral",
+        }
+    }
+
     /// The display values of linear ones.
     #[must_use]
     pub fn display(self, linear: [f64; 3]) -> [f64; 3] {

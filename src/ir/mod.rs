@@ -91,6 +91,14 @@ impl Scene {
             environment: None,
         }
     }
+
+    /// Whether no light changes what its surfaces show: all are unlit, and there are some.
+    #[must_use]
+    pub fn is_unlit(&self) -> bool {
+        let material = |surface: &Surface| self.materials.get(surface.material.0 as usize);
+        let is_unlit = |surface: &Surface| matches!(material(surface), Some(Material::Standard(standard)) if standard.unlit);
+        !self.surfaces.is_empty() && self.surfaces.iter().all(is_unlit)
+    }
 }
 
 /// A scene as a front end or a decoder leaves it: not yet proven, with the places of its values

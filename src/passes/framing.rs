@@ -90,6 +90,14 @@ impl Framing {
     }
 }
 
+/// The box around the subject of a scene; `None` if it stands on a ground of its own, or is nothing.
+pub(super) fn standing(scene: &Scene) -> Option<[Vec3; 2]> {
+    let subject = Subject::of(scene);
+    let mut around = EMPTY;
+    subject.corners(&mut |corner| around = [around[0].min(corner), around[1].max(corner)]);
+    (!subject.has_ground && around[0].x <= around[1].x).then_some(around)
+}
+
 impl Orbit {
     /// The axes of the camera: to the right, up, and from the scene to the eye.
     fn axes(&self) -> [Vec3; 3] {
@@ -162,6 +170,8 @@ struct Subject<'scene> {
     boxes: Vec<[Vec3; 2]>,
     /// Whether each mesh counts as the box around it.
     is_boxed: bool,
+    /// Whether surfaces are left out because others stand on them.
+    has_ground: bool,
 }
 
 impl<'scene> Subject<'scene> {
@@ -179,6 +189,7 @@ impl<'scene> Subject<'scene> {
             surfaces: scene.surfaces.iter().filter(shows).collect(),
             boxes: scene.mesh_boxes(),
             is_boxed: count.fold(0, usize::saturating_add) > TRIANGLES,
+            has_ground: false,
         };
         if subject.surfaces.is_empty() {
             subject.surfaces = scene.surfaces.iter().collect();
@@ -198,12 +209,13 @@ impl<'scene> Subject<'scene> {
         let rest = standing.fold(EMPTY, |[low, high], [from, to]| {
             [low.min(*from), high.max(*to)]
         });
-        let mut boxes = boxes.into_iter();
+        let (mut boxes, count) = (boxes.into_iter(), self.surfaces.len());
         self.surfaces.retain(|_| {
             !boxes
                 .next()
                 .is_some_and(|around| is_flat(around) && is_under(around, rest))
         });
+        self.has_ground = self.surfaces.len() < count;
     }
 
     /// The box around a surface.

@@ -1,7 +1,8 @@
 //! Passes: a scene in, the same scene changed out, before it is proven. What one run asks for that
-//! the scene does not say itself: other settings, another view, other light, the studio.
+//! the scene does not say itself: other settings, another view, other light, the studio, a ground.
 
 mod framing;
+mod ground;
 mod lit;
 mod overrides;
 mod settings;
@@ -11,4 +12,7 @@ mod studio;
 pub use framing::{Framing, Orbit};
 pub use overrides::Overrides;
 pub use settings::set;
-pub use stage::{EnvironmentOverride, IntegratorChoice, Stage, Staged, Sun, View};
+pub use stage::{
+    EnvironmentOverride, FillLight, IntegratorChoice, Stage, Staged, StudioChoice, Sun, View,
+};
+pub use studio::fill;

@@ -2,7 +2,7 @@
 //! surroundings of a scene before it is proven. Nothing else of the scene changes.
 
 use super::framing::{Framing, Orbit};
-use super::{lit, studio};
+use super::{framing, ground, lit, studio};
 use crate::ir::{
     Ball, Camera, Emitter, Environment, Image, Light, Lowered, Mode, Noun, PathSettings,
     PointLight, Projection, Punctual, Scene,
@@ -23,6 +23,39 @@ pub struct Stage {
     pub suns: Vec<Sun>,
     /// The lights of the scene are left out.
     pub without_lights: bool,
+    /// It is turned around, so its view is not framed.
+    pub all_around: bool,
+    /// Whether it stands in the studio.
+    pub studio: StudioChoice,
+    /// Whether a ground is laid under it; if not said, under an asset without a camera of its own
+    /// that stands in the studio.
+    pub ground: Option<bool>,
+}
+
+/// Whether a scene whose paths are traced stands in the studio.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StudioChoice {
+    /// If it brings no light; dimmed if what it brings shows little of it.
+    #[default]
+    Auto,
+    /// Yes, whatever surrounds it otherwise.
+    On,
+    /// No.
+    Off,
+    /// Yes, dimmed, if nothing else surrounds it.
+    Fill,
+}
+
+/// Whether the studio is to fill in, dimmed, beside the light of a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FillLight {
+    /// No.
+    #[default]
+    Never,
+    /// If its own light shows little of it.
+    IfDim,
+    /// Yes.
+    Always,
 }
 
 /// A view; what is not given is that of the camera of the scene, whose picture keeps its size.
@@ -72,6 +105,8 @@ pub struct Sun {
 pub struct Staged {
     /// It had no light, and was put into the studio.
     pub is_dark: bool,
+    /// Whether the studio is still to fill in.
+    pub fill: FillLight,
     /// How its view was found, if it was.
     pub framing: Option<Framing>,
 }
@@ -80,13 +115,15 @@ pub struct Staged {
 const FAR: f64 = 1e4;
 
 impl Stage {
-    /// Puts view and light into a scene, which has a camera of its own or not.
+    /// Puts view and light into a scene; a bare one is an asset without a camera of its own.
     ///
     /// # Errors
     /// If the view has no direction, or no upward one.
-    pub fn apply(&self, lowered: &mut Lowered, has_camera: bool) -> Result<Staged, BasisFault> {
+    pub fn apply(&self, lowered: &mut Lowered, is_bare: bool) -> Result<Staged, BasisFault> {
         let Lowered { scene, origins } = lowered;
-        let framing = self.view.framing(&scene.camera, has_camera);
+        let framing = self
+            .view
+            .framing(&scene.camera, !is_bare || self.all_around);
         if let Some(framing) = &framing {
             framing.apply(scene);
             origins.forget(Noun::Camera);
@@ -114,11 +151,37 @@ impl Stage {
         if !matches!(scene.settings.mode, Mode::Path(_)) {
             stand_lights(scene);
         }
-        let is_dark = matches!(scene.settings.mode, Mode::Path(_)) && !lit::is_lit(scene);
-        if is_dark {
-            studio::enter(scene);
+        let (is_dark, fill) = self.enter_studio(scene);
+        let stands = (is_dark || self.studio == StudioChoice::On) && is_bare && !scene.is_unlit();
+        if self.ground.unwrap_or(stands)
+            && let Some(around) = framing::standing(scene)
+        {
+            ground::lay(scene, around);
         }
-        Ok(Staged { is_dark, framing })
+        Ok(Staged {
+            is_dark,
+            fill,
+            framing,
+        })
+    }
+
+    /// Puts a scene whose paths are traced into the studio, if it is to stand there; whether it was
+    /// dark, and whether the studio is still to fill in.
+    fn enter_studio(&self, scene: &mut Scene) -> (bool, FillLight) {
+        if !matches!(scene.settings.mode, Mode::Path(_)) {
+            return (false, FillLight::Never);
+        }
+        let is_dark = self.studio == StudioChoice::Auto && !lit::is_lit(scene);
+        if is_dark || self.studio == StudioChoice::On {
+            studio::enter(scene, 1.0);
+        }
+        let fill = match self.studio {
+            _ if scene.environment.is_some() => FillLight::Never,
+            StudioChoice::Auto => FillLight::IfDim,
+            StudioChoice::Fill => FillLight::Always,
+            StudioChoice::On | StudioChoice::Off => FillLight::Never,
+        };
+        (is_dark, fill)
     }
 }
 

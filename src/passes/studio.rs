@@ -6,7 +6,7 @@
 //! radiance is 0.57.
 
 use crate::ir::{Environment, Image, Pixels, Scene};
-use crate::math::{Vec3, acos, atan2, cos, sin};
+use crate::math::{Vec3, acos, atan2, cos, pow, sin};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Width and height of the picture of the studio: a pixel spans less than 6°, half of the edge of a
@@ -17,6 +17,8 @@ const ROOM: [f64; 2] = [0.3, 0.12];
 /// Over so many degrees light becomes dark, at the horizon and at the edge of a soft box.
 const HORIZON: f64 = 30.0;
 const EDGE: f64 = 10.0;
+/// How bright it is beside other light.
+const FILL: f64 = 0.5;
 
 /// A soft box: the azimuth (from +z towards +x) and elevation of its middle, half its width and
 /// height, in degrees; its radiance.
@@ -112,14 +114,20 @@ fn picture() -> Image {
     }
 }
 
-/// Puts a scene into the studio.
-pub(super) fn enter(scene: &mut Scene) {
+/// Puts a scene into the studio, whose light is multiplied by a factor.
+pub(super) fn enter(scene: &mut Scene, factor: f64) {
     let image = scene.add_image(picture());
     scene.environment = Some(Environment {
-        radiance: [1.0; 3],
+        radiance: [factor; 3],
         image: Some(image),
         image_from_world: None,
     });
+}
+
+/// Lets the studio fill in beside the light of a scene: dimmed, as a picture shows it whose exposure
+/// is so many stops.
+pub fn fill(scene: &mut Scene, stops: f64) {
+    enter(scene, FILL * pow(2.0, -stops));
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
-//! Automatic exposure: how bright a scene is shown whose lights are in lux and candela.
+//! What the light of a scene shows of it: how bright it is to be shown, if its lights are in lux and
+//! candela, and how much of it is seen.
 //!
-//! It is found by a small render of the whole view, always of the same size and samples, so that it
+//! That is found by a small render of the whole view, always of the same size and samples, so that it
 //! does not depend on those of the picture, nor on the part of it that is rendered.
 
 use super::Renderer;
 use crate::color::luminance;
 use crate::ir::{Camera, Mode, Scene};
-use crate::math::{exp, ln};
+use crate::math::{exp, ln, pow};
 use crate::render::{Background, Film, Job, OnPixel, Values};
 use crate::valid::{Proof, revalidate};
 
@@ -20,16 +21,29 @@ const UNCLIPPED: f64 = 0.95;
 /// Pixels darker than this part of the bright ones count as if they were as bright.
 const DARK: f64 = 1e-3;
 
+/// Of what is darker than this, nothing is seen: 9 % of white as a display shows it.
+const SEEN: f64 = 0.01;
+
+/// What the light of a scene shows of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnLight {
+    /// The exposure that shows it, in whole thirds of a stop; 0 if its surfaces are dark.
+    pub stops: f64,
+    /// The part of its surfaces that is seen then, of those in the picture, in [0, 1].
+    pub seen: f64,
+}
+
 impl Renderer {
-    /// The exposure of a proven scene as seen by a camera, in whole thirds of a stop; 0 of one
-    /// whose surfaces are dark. The scene is that of the renderer, but for its camera and settings.
-    /// `None` if `on_pixel` said stop.
-    pub fn exposure(
+    /// What the light of a proven scene shows to a camera, exposed by as much as that asks for, or as
+    /// it is. The scene is that of the renderer, but for its camera and settings. `None` if
+    /// `on_pixel` said stop.
+    pub fn own_light(
         &mut self,
         scene: &Scene,
         camera: &Camera,
+        exposes: bool,
         on_pixel: &OnPixel<'_>,
-    ) -> Option<f64> {
+    ) -> Option<OwnLight> {
         let own = self.world.scene().clone();
         self.change(small(scene, camera));
         let job = Job {
@@ -39,7 +53,11 @@ impl Renderer {
         };
         let film = self.render(&job, on_pixel);
         self.change(own);
-        film.as_ref().map(stops)
+        film.map(|film| {
+            let stops = if exposes { stops(&film) } else { 0.0 };
+            let seen = seen(&film, stops);
+            OwnLight { stops, seen }
+        })
     }
 }
 
@@ -61,9 +79,7 @@ fn small(scene: &Scene, camera: &Camera) -> Proof {
 
 /// The exposure at which the surfaces of a film are neither too dark nor too bright.
 fn stops(film: &Film) -> f64 {
-    // What covers a pixel in part is as bright as if it covered it whole.
-    let pixels = film.image.pixels.iter().zip(&film.coverage);
-    let shown = pixels.map(|(pixel, covered)| pixel.map(|value| value / f64::from(*covered)));
+    let shown = surfaces(film);
     let is_lit = |pixel: &[f64; 3]| luminance(*pixel) > 0.0 && luminance(*pixel).is_finite();
     let lit: Vec<[f64; 3]> = shown.filter(is_lit).collect();
     let mut brightest: Vec<f64> = lit.iter().map(|[r, g, b]| r.max(*g).max(*b)).collect();
@@ -85,6 +101,23 @@ fn stops(film: &Film) -> f64 {
     let factor = (GREY / mean).min(1.0 / bright);
     let stops = ln(factor) / std::f64::consts::LN_2;
     (3.0 * stops).round() / 3.0
+}
+
+/// The part of the surfaces of a film that is seen at an exposure.
+fn seen(film: &Film, stops: f64) -> f64 {
+    let least = SEEN * pow(2.0, -stops);
+    let (all, seen) = surfaces(film).fold((0_u32, 0_u32), |(all, seen), pixel| {
+        (all + 1, seen + u32::from(luminance(pixel) >= least))
+    });
+    f64::from(seen) / f64::from(all.max(1))
+}
+
+/// The pixels of a film that show a surface. What covers a pixel in part is as bright as if it covered
+/// it whole.
+fn surfaces(film: &Film) -> impl Iterator<Item = [f64; 3]> {
+    let pixels = film.image.pixels.iter().zip(&film.coverage);
+    let covered = pixels.filter(|(_, covered)| **covered > 0.0);
+    covered.map(|(pixel, covered)| pixel.map(|value| value / f64::from(*covered)))
 }
 
 #[cfg(test)]
@@ -128,6 +161,32 @@ mod tests {
         pixels.extend([[64.0 * GREY, 0.0, 0.0]; 10]);
         let found = exposed(pixels, vec![1.0; 100]);
         assert!(64.0 * GREY * libm::exp2(found) <= 1.0 + 0.13, "{found}");
+    }
+
+    #[test]
+    fn what_is_seen_is_counted_among_the_surfaces_at_the_exposure() {
+        let pixels = [
+            vec![[0.02; 3]; 10],
+            vec![[0.002; 3]; 30],
+            vec![[0.0; 3]; 60],
+        ]
+        .concat();
+        let image = Image {
+            width: 100,
+            height: 1,
+            pixels,
+        };
+        let coverage = [vec![1.0; 40], vec![0.0; 60]].concat();
+        let counts = Counts::default();
+        let film = Film {
+            image,
+            coverage,
+            counts,
+        };
+        assert_eq!(
+            [0.0, 3.0, -2.0].map(|stops| seen(&film, stops)),
+            [0.25, 1.0, 0.0]
+        );
     }
 
     #[test]

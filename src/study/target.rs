@@ -10,6 +10,7 @@ use super::knob::{Knob, idle};
 use super::metrics::LEVELS;
 use super::noise::{Allotment, Noise};
 use super::subject::Stopped;
+use crate::color::Tone;
 use crate::image::Image;
 use crate::ir::{Pattern, Scene};
 use crate::render::{
@@ -39,8 +40,8 @@ pub struct Order {
     pub background: Background,
     /// What the picture holds; errors are those of display values in any case.
     pub values: Values,
-    /// What values are multiplied by before they are shown, where paths are traced.
-    pub exposure: f64,
+    /// How values are shown, and what they are multiplied by before, where paths are traced.
+    pub display: (Tone, f64),
     /// Whether soft lights keep their number of points. Otherwise it is chosen.
     pub keep_lights: bool,
     /// Where sampling starts: another seed gives independent noise.
@@ -139,7 +140,7 @@ fn in_rounds(
     let (light_samples, tried) = light_samples(world, scene, order, watch)?;
     spread(world, scene, light_samples);
     let mut film = ProgressiveFilm::new(order.crop, order.seed);
-    (film.background, film.exposure) = (order.background, order.exposure);
+    (film.background, film.display) = (order.background, order.display);
     (watch.round)(Progress {
         pixels: film.len() as u64,
         error: None,

@@ -20,6 +20,7 @@ mod render;
 mod reports;
 mod set;
 mod stage;
+mod studio;
 #[cfg(unix)]
 mod unix;
 mod words;

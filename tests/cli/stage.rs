@@ -157,15 +157,24 @@ fn a_sun_asked_for_is_the_light_of_an_asset() {
 fn a_white_surface_under_an_even_sky_is_the_sky() {
     let folder = folder();
     let grey = 187;
-    let even = values(folder.path(), "square.gltf --env-color 0.5 --spp 4");
+    let even = values(
+        folder.path(),
+        "square.gltf --env-color 0.5 --spp 4 --tonemap srgb",
+    );
     assert!(
         even.iter().all(|value| value.abs_diff(grey) <= 1),
         "{even:?}"
     );
-    let sky = values(folder.path(), "square.gltf --env sky.hdr --spp 64");
+    let sky = values(
+        folder.path(),
+        "square.gltf --env sky.hdr --spp 64 --tonemap srgb",
+    );
     let mean = sky.iter().map(|value| f64::from(*value)).sum::<f64>() / sky.len() as f64;
     assert!((mean - f64::from(grey)).abs() < 2.0, "{mean}");
-    let warm = values(folder.path(), "square.gltf --env-color 1,0.5,0 --spp 4");
+    let warm = values(
+        folder.path(),
+        "square.gltf --env-color 1,0.5,0 --spp 4 --tonemap srgb",
+    );
     assert!(
         warm.chunks(3)
             .all(|pixel| pixel[0] >= 254 && pixel[1].abs_diff(grey) <= 1 && pixel[2] == 0),
@@ -197,7 +206,7 @@ fn what_has_no_light_stands_in_the_studio() {
     }
     let dark = values(folder.path(), "square.gltf --env-color 0 --spp 4");
     assert!(dark.iter().all(|value| *value == 0));
-    let studio = values(folder.path(), "square.gltf --spp 64");
+    let studio = values(folder.path(), "square.gltf --spp 64 --tonemap srgb");
     assert!(
         studio.iter().all(|value| (40..250).contains(value)),
         "{studio:?}"
@@ -280,7 +289,8 @@ fn an_asset_that_a_scene_holds_looks_as_it_does_alone() {
         fs::write(folder.path().join("held.yaml"), holding(eye, center, rest)).unwrap();
         picture(folder.path(), "held.yaml --spp 4")
     };
-    let view = "--eye 0,0,3 --center 0,0,0 --yfov 30 --size 24x16 --spp 4 --exposure 0";
+    let view =
+        "--eye 0,0,3 --center 0,0,0 --yfov 30 --size 24x16 --spp 4 --exposure 0 --tonemap srgb";
     let alone = |words: &str| picture(folder.path(), &format!("{words} {view}"));
     let square = "Objects:\n- {type: gltf, file: square.gltf}\n";
     let sun = "Lights:\n- {type: sun, direction: [0, 0, 1], irradiance: 2}\n";

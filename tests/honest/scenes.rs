@@ -1,6 +1,7 @@
 //! Made-up scenes with everything that makes noise, and how far a render to a target is from what
 //! it promises.
 
+use rtc::color::Tone;
 use rtc::diag::Sink;
 use rtc::image::Image;
 use rtc::ir::{Lowered, Origins, Scene};
@@ -142,7 +143,7 @@ pub(crate) fn order(scene: &Scene, goal: Goal, seed: u64) -> Order {
         height,
     };
     Order {
-        exposure: 1.0,
+        display: (Tone::Srgb, 1.0),
         goal,
         crop,
         background: Background::Environment,

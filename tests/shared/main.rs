@@ -16,6 +16,7 @@ mod every;
 mod figures;
 mod gltf;
 mod laws;
+mod looks;
 mod oracle;
 mod paths;
 mod pictures;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         figures::trials(),
         gltf::trials(),
         laws::trials(),
+        looks::trials(),
         paths::trials(),
         pictures::trials(),
         plain::trials(),

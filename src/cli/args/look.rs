@@ -9,8 +9,8 @@ use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct LookArgs {
-    /// How a PNG shows linear values; an EXR holds them as they are [default: srgb if paths are
-    /// traced, else none]
+    /// How a PNG shows linear values; an EXR holds them as they are [default: pbr-neutral for a
+    /// glTF asset, srgb where else paths are traced, else none]
     #[arg(long, value_enum, value_name = "MAP")]
     pub(in crate::cli) tonemap: Option<Tonemap>,
     /// Exposure in stops, of EXR too: each doubles the values; or `auto`, by what is seen

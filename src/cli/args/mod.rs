@@ -10,7 +10,7 @@ pub(super) use common::{Color, MessageFormat, Reading, TalkArgs};
 pub(super) use cost::{Cost, StudyFormat};
 pub(super) use look::{BitDepth, LookArgs};
 pub(super) use render::{Pruning, Render};
-pub(super) use stage::StageArgs;
+pub(super) use stage::{GroundArg, StageArgs};
 
 use crate::ir;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};

@@ -39,10 +39,48 @@ pub(in crate::cli) struct StageArgs {
     /// Leave out the lights of the scene
     #[arg(long)]
     pub(in crate::cli) no_scene_lights: bool,
+    /// Whether it stands in the studio [default: auto]
+    #[arg(long, value_enum, value_name = "WHEN")]
+    pub(in crate::cli) studio: Option<StudioArg>,
+    /// Whether a ground that fades out is laid under it, to catch its shadow [default: on for a glTF
+    /// asset without a camera in the studio, unless the background is transparent]
+    #[arg(long, value_enum, value_name = "WHEN")]
+    pub(in crate::cli) ground: Option<GroundArg>,
     /// How light is followed [default: all paths of what holds glTF, a sun or surroundings; else
     /// Whitted's way]
     #[arg(long, value_enum)]
     pub(in crate::cli) integrator: Option<IntegratorArg>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum StudioArg {
+    /// If it has no light; dimmed in `render`, if the light of a glTF asset shows little of it
+    Auto,
+    /// Always
+    On,
+    /// Never: what has no light is black
+    Off,
+    /// Dimmed, beside its own light
+    Fill,
+}
+
+impl From<StudioArg> for passes::StudioChoice {
+    fn from(studio: StudioArg) -> Self {
+        match studio {
+            StudioArg::Auto => Self::Auto,
+            StudioArg::On => Self::On,
+            StudioArg::Off => Self::Off,
+            StudioArg::Fill => Self::Fill,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum GroundArg {
+    /// Always
+    On,
+    /// Never
+    Off,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,5 +1,6 @@
 //! `rtc render`: a scene to a picture. What was typed becomes a [`RenderSetup`] before anything is read.
 
+mod light;
 mod shot;
 
 use super::Failure;
@@ -11,14 +12,15 @@ use super::look::OutputLook;
 use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
-use crate::image::{Layers, Lost, Origin};
-use crate::ir::{Camera, Mode, Scene};
+use crate::image::{BackgroundFill, Layers, Lost, Origin};
+use crate::ir::{Mode, Scene};
 use crate::passes::{self, Framing, Overrides};
 use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
 use crate::render::Crop;
 use crate::study::Goal;
 use crate::valid::Proof;
+use light::FirstView;
 use std::path::{Path, PathBuf};
 
 /// A render as it will be done.
@@ -36,6 +38,8 @@ struct RenderSetup {
     /// Views around the scene, if more than its own.
     turntable: Option<u32>,
     up: Option<[f64; 3]>,
+    /// The studio fills in beside the light of the scene.
+    is_filled: bool,
 }
 
 /// What pictures are taken of: a proven scene, and its renderer from the first picture on.
@@ -49,7 +53,12 @@ pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let mut plan = RenderSetup::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
     let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
-    input.all_around = args.turntable.is_some();
+    input.restage(|stage| {
+        stage.all_around = args.turntable.is_some();
+        if args.look.background == BackgroundFill::Transparent {
+            stage.ground = stage.ground.or(Some(false));
+        }
+    });
     let outcome = plan.carry_out(&mut input, &mut talk);
     talk.finish()?;
     outcome
@@ -92,6 +101,7 @@ impl RenderSetup {
             verify: args.pruning.verify_effects,
             turntable: args.turntable,
             up: args.stage.up,
+            is_filled: false,
         })
     }
 
@@ -99,10 +109,14 @@ impl RenderSetup {
         let (mut set, mut first) = (Ok(()), None);
         let proven = input::require(input, talk, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
-            first = Some((
-                lowered.scene.camera.clone(),
-                provenance.is_lit_asset && is_traced,
-            ));
+            first = Some(FirstView {
+                camera: lowered.scene.camera.clone(),
+                is_lit_asset: provenance.is_lit_asset && is_traced,
+                fill: provenance.fill,
+            });
+            if provenance.is_asset && is_traced && !provenance.is_unlit {
+                self.look.show_asset();
+            }
             resize(&mut lowered.scene, self.overrides.size, provenance);
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| {
@@ -120,10 +134,8 @@ impl RenderSetup {
             proven,
             renderer: None,
         };
-        if let Some((camera, is_lit_asset)) = first
-            && self.look.finds_exposure(is_lit_asset)
-        {
-            self.expose(&mut subject, &camera, input, &interrupt)?;
+        if let Some(view) = first {
+            self.light(&mut subject, &view, input, &interrupt)?;
             input.tell(talk)?;
         }
         let Some(count) = self.turntable else {
@@ -145,25 +157,6 @@ impl RenderSetup {
                 talk,
                 &interrupt,
             )?;
-        }
-        Ok(())
-    }
-
-    /// Finds the exposure of all pictures by the first view, whatever the size of the picture.
-    fn expose(
-        &mut self,
-        subject: &mut Subject,
-        camera: &Camera,
-        input: &mut Input,
-        interrupt: &Interrupt,
-    ) -> Result<(), Failure> {
-        let (proven, renderer) = self.renderer(subject).map_err(no_threads)?;
-        let on_pixel = |_| !interrupt.is_raised();
-        let stops = renderer.exposure(&proven.lowered.scene, camera, &on_pixel);
-        let stops = stops.ok_or(Failure::Interrupted)?;
-        self.look.expose(stops);
-        if stops != 0.0 {
-            input.push(findings::exposed(stops));
         }
         Ok(())
     }
@@ -201,7 +194,7 @@ impl RenderSetup {
             input.push(findings::nothing_in_view(&subject.proven));
             input.tell(talk)?;
         }
-        let summary = shot.summary(path, self.look.found_exposure(), verbose);
+        let summary = shot.summary(path, &self.light_told(), verbose);
         // Where samples are clamped, and where a tone map follows, no more is seen of what is no
         // number.
         let unnumbered = shot.image.unnumbered().max(shot.counts.unnumbered);

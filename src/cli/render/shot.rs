@@ -25,8 +25,9 @@ pub(super) struct Rendered {
 }
 
 impl Rendered {
-    /// What is said of it, with the exposure that was found for it; if `verbose`, with how often each effect was simulated.
-    pub(super) fn summary(&self, path: &Path, exposure: Option<f64>, verbose: bool) -> String {
+    /// What is said of it, with what is told of its light; if `verbose`, with how often each effect was
+    /// simulated.
+    pub(super) fn summary(&self, path: &Path, light: &str, verbose: bool) -> String {
         let Self {
             image,
             counts,
@@ -35,11 +36,8 @@ impl Rendered {
             coverage: _,
         } = self;
         let work = progress::summary(counts.rays(), *elapsed);
-        let exposed = exposure.map_or_else(String::new, |stops| {
-            format!("exposed by {stops:+.2} stops, ")
-        });
         let line = format!(
-            "{}: {}×{}, {exposed}{work}",
+            "{}: {}×{}, {light}{work}",
             path.display(),
             image.width,
             image.height
@@ -124,7 +122,7 @@ impl RenderSetup {
             crop: window,
             background: self.look.background(),
             values: self.look.values(&subject.proven.scene.settings().mode),
-            exposure: self.look.exposure(),
+            display: self.look.display(&subject.proven.scene.settings().mode),
             keep_lights: self.overrides.light_samples.is_some(),
             seed: 0,
         };

@@ -42,4 +42,10 @@ super::codes! { RD:
          Check `eye`, `center` and the position. A plane written as a normal and a distance d holds the points whose \
          distance from the origin along the normal is d; in other programs the sign of d differs, or the normal's length \
          counts.";
+    FILLED = "RD009", Note, "the studio fills in beside the light of the scene",
+        "A glTF asset by itself that only glows, or has one weak lamp, leaves most of what is in the picture black. Where its \
+         own light shows less than half of its surfaces, the studio stays as a fill light: half as bright, as the \
+         picture is exposed. How much is seen is found from 64 × 64 pixels of the whole view; it does not depend on the size, \
+         the part or the samples of the picture. `--studio on|off|fill` says which it is to be. `rtc cost` and `rtc compile` \
+         do not look: there the studio fills in only if asked for.";
 }

@@ -6,7 +6,7 @@
 
 use super::pixel::{Accumulator, Sample, SampleId, SampleRanges, Stream};
 use super::tiled::Tiled;
-use super::{Background, Counts, Crop, Values, coverage};
+use super::{Background, Counts, Crop, DISPLAY, Values, coverage};
 use crate::color::Tone;
 use crate::image::Image;
 use crate::math::Vec3;
@@ -36,8 +36,8 @@ pub struct ProgressiveFilm {
     seed: u64,
     /// The background, where paths are traced.
     pub background: Background,
-    /// What values are multiplied by before they are shown, where paths are traced.
-    pub exposure: f64,
+    /// How values are shown, and what they are multiplied by before, where paths are traced.
+    pub display: (Tone, f64),
     pub(in crate::render) pixels: Tiled<Replicates>,
     /// The rays so far.
     pub counts: Counts,
@@ -51,7 +51,7 @@ impl ProgressiveFilm {
         Self {
             seed,
             background: Background::default(),
-            exposure: 1.0,
+            display: (DISPLAY, 1.0),
             pixels: Tiled::new(crop, Replicates::default()),
             counts: Counts::default(),
         }

@@ -2,7 +2,6 @@
 
 use super::{Selection, run};
 use crate::color::Tone;
-use crate::render::film::DISPLAY;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::pixel::Sample;
 use crate::render::film::progressive::{ProgressiveFilm, Replicates};
@@ -41,8 +40,8 @@ impl<S: Geometry> World<S> {
     ) -> bool {
         let (lights, background) = (Lights::new(self, Strategy::Mis), film.background);
         let tracer = || PathTracer::<S, F>::new(self, &lights, Strategy::Mis, on_pixel);
-        let tone = (DISPLAY, film.exposure);
-        add_samples(film, wanted, Some(tone), || tracer().before(background))
+        let tone = Some(film.display);
+        add_samples(film, wanted, tone, || tracer().before(background))
     }
 
     /// Grows with the features `F`.

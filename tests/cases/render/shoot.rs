@@ -94,8 +94,9 @@ fn stage(
         environment,
         suns: options.suns.clone(),
         without_lights: false,
+        ..Stage::default()
     };
-    pipeline::stage(lowered, &stage, true, sink);
+    pipeline::stage(lowered, &stage, false, sink);
     Ok(())
 }
 

@@ -49,6 +49,39 @@ def _(a):
     on_ground(a)
 
 
+def shining(strength, color=(1, 1, 1)):
+    return pbr((0, 0, 0), 0, 1, {"emissive_strength": {"emissiveStrength": strength}}, emissiveFactor=list(color))
+
+
+def card(asset, material, low, high, z=0.0):
+    asset.node(mesh=asset.mesh(asset.quad(material, low, high, z)))
+
+
+@case("light/leaf", "One leaf that shines, behind a dark island, which its light hardly shows.",
+      "size=48x48 spp=64")
+def _(a):
+    card(a, matt(0.04, 0.05, 0.04), (-1.6, -1), (1.6, 0.2))
+    card(a, matt(0.05, 0.03, 0.02), (-0.2, 0.2), (0.2, 1))
+    card(a, shining(30, (0.4, 1, 0.2)), (0.3, 0.5), (0.6, 0.8), -0.4)
+    a.camera()
+
+
+@case("light/labels", "A dark board with white labels that shine, too little to count as light.", "size=48x48 spp=16 finds=RD003")
+def _(a):
+    card(a, pbr((0.06, 0.07, 0.09), 0, 0.5), (-1.2, -1), (1.2, 1))
+    for k in range(3):
+        card(a, shining(1), (-1, 0.55 - 0.6 * k), (-0.2, 0.7 - 0.6 * k), 0.01)
+    a.camera()
+
+
+@case("light/strengths", "Five lamps on a wall, each twice as strong as the one before it.", "size=48x48 spp=64")
+def _(a):
+    card(a, matt(0.4, 0.4, 0.4), (-1.2, -1), (1.2, 1))
+    for k in range(5):
+        card(a, shining(2 ** k, (0.2, 0.5, 1)), (-1.05 + 0.44 * k, -0.15), (-0.75 + 0.44 * k, 0.15), 0.1)
+    a.camera()
+
+
 # Textures.
 
 def quads(asset, materials, uv=((0, 1), (1, 1), (1, 0), (0, 0)), **more):

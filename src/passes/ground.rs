@@ -1,0 +1,120 @@
+//! The ground that an asset stands on in the studio: a grey disc that catches its shadow and fades
+//! out to all sides.
+
+use crate::ir::{
+    Alpha, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Standard, Surface,
+};
+use crate::math::{Vec3, cos, sin};
+use std::f64::consts::TAU;
+
+/// Its radius, and that within which it hides all behind it, in half diagonals of what stands on
+/// it.
+const RADIUS: f64 = 4.0;
+const SOLID: f64 = 1.0;
+/// What it reflects: in the studio it is about as bright as the floor of the room.
+const GREY: f64 = 0.15;
+/// It lies lower than what stands on it by this part of the half diagonal, so that no face is in
+/// its plane.
+const GAP: f64 = 1e-3;
+/// Its rings of triangles, and the corners of a ring.
+const RINGS: u32 = 12;
+const CORNERS: u32 = 48;
+
+/// Lays the ground under a box. It is seen from above alone.
+pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) {
+    let middle = low + (high - low) / 2.0;
+    let half = Vec3::new(high.x - low.x, 0.0, high.z - low.z).length() / 2.0;
+    // What stands upright without any depth has a shadow as long as it is high.
+    let half = half.max((high.y - low.y) / 2.0);
+    if !(middle.is_finite() && half > 0.0) {
+        return;
+    }
+    let center = Vec3::new(middle.x, low.y - GAP * half, middle.z);
+    let (mesh, material) = (scene.meshes.len(), scene.materials.len());
+    let [Ok(mesh), Ok(material)] = [mesh, material].map(u32::try_from) else {
+        return;
+    };
+    scene.meshes.push(disc());
+    scene.materials.push(Material::Standard(Box::new(Standard {
+        name: "ground".to_owned(),
+        base_color: [GREY, GREY, GREY, 1.0],
+        metallic: 0.0,
+        alpha: Alpha::Blend,
+        ..Standard::default()
+    })));
+    let size = RADIUS * half;
+    scene.surfaces.push(Surface {
+        shape: Shape::Instance(Instance {
+            mesh: MeshId(mesh),
+            world_from_object: [
+                [size, 0.0, 0.0],
+                [0.0, size, 0.0],
+                [0.0, 0.0, size],
+                center.to_array(),
+            ],
+        }),
+        material: MaterialId(material),
+    });
+}
+
+/// A disc of radius 1 around the origin that faces +y; its alpha falls to 0 at its edge.
+fn disc() -> Mesh {
+    let ring = |ring: u32| {
+        let radius = f64::from(ring) / f64::from(RINGS);
+        (0..CORNERS).map(move |corner| {
+            let turn = TAU * f64::from(corner) / f64::from(CORNERS);
+            (radius, [radius * sin(turn), 0.0, radius * cos(turn)])
+        })
+    };
+    let corners: Vec<_> = (1..=RINGS).flat_map(ring).collect();
+    let index = |ring: u32, corner: u32| 1 + (ring - 1) * CORNERS + corner % CORNERS;
+    let inner = (0..CORNERS).map(|corner| [0, index(1, corner), index(1, corner + 1)]);
+    let outer = (1..RINGS).flat_map(|ring| {
+        (0..CORNERS).flat_map(move |corner| {
+            let [a, b] = [corner, corner + 1].map(|corner| index(ring, corner));
+            let [c, d] = [corner, corner + 1].map(|corner| index(ring + 1, corner));
+            [[a, c, d], [a, d, b]]
+        })
+    });
+    let middle = std::iter::once((0.0, [0.0; 3]));
+    let all: Vec<_> = middle.chain(corners).collect();
+    Mesh {
+        positions: all.iter().map(|(_, place)| *place).collect(),
+        colors: all
+            .iter()
+            .map(|(radius, _)| [1.0, 1.0, 1.0, alpha(*radius)])
+            .collect(),
+        triangles: inner.chain(outer).collect::<Vec<_>>().into(),
+        ..Mesh::default()
+    }
+}
+
+/// How much the ground hides at a part of its radius: all in the middle, nothing at the edge, with
+/// the smoothstep between.
+fn alpha(radius: f64) -> f64 {
+    let solid = SOLID / RADIUS;
+    let x = ((1.0 - radius) / (1.0 - solid)).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ground_faces_up_and_fades() {
+        let disc = disc();
+        let mut area = 0.0;
+        for triangle in disc.triangles.iter() {
+            let [a, b, c] =
+                triangle.map(|corner| Vec3::from_array(disc.positions.at(corner as usize)));
+            let cross = (b - a).cross(c - a);
+            assert!(cross.y > 0.0, "{triangle:?}");
+            area += cross.y / 2.0;
+        }
+        assert!((area - TAU / 2.0).abs() < 0.02, "{area}");
+        let alphas = || disc.colors.iter().map(|[.., alpha]| alpha);
+        assert!(alphas().zip(alphas().skip(1)).all(|(a, b)| a >= b));
+        assert_eq!((alphas().next(), alphas().last()), (Some(1.0), Some(0.0)));
+    }
+}
