@@ -27,6 +27,27 @@ pub(super) fn exposed(stops: f64) -> Diagnostic {
     Diagnostic::new(&codes::EXPOSED, message).hint(hint)
 }
 
+/// Says that the camera of an asset sees a picture of another shape than the one asked for, so that
+/// more is shown at two sides.
+pub(super) fn fitted(own: [u32; 2], asked: [u32; 2]) -> Option<Diagnostic> {
+    /// Shapes that differ by less, as by a rounded pixel, are the same.
+    const SAME: f64 = 0.01;
+    let aspect = |[width, height]: [u32; 2]| f64::from(width) / f64::from(height);
+    let ratio = aspect(asked) / aspect(own);
+    if (ratio - 1.0).abs() < SAME {
+        return None;
+    }
+    let sides = if ratio > 1.0 {
+        "left and right"
+    } else {
+        "above and below"
+    };
+    let message = format!("the camera of the asset sees another shape; more is shown {sides}");
+    let [width, height] = own;
+    let hint = format!("its own picture is {width}×{height}, or any size of that shape");
+    Some(Diagnostic::new(&codes::FITTED, message).hint(hint))
+}
+
 /// Says that the studio fills in beside the light of a scene.
 pub(super) fn filled(seen: f64) -> Diagnostic {
     let message = format!(

@@ -93,6 +93,28 @@ fn the_view_of_a_camera_is_never_cropped_by_another_size() {
 }
 
 #[test]
+fn a_picture_of_another_shape_than_the_camera_sees_is_told() {
+    let folder = card(SEEN);
+    let told = |size: &str| {
+        let args = [
+            "render",
+            "card.gltf",
+            "-v",
+            "--spp",
+            "1",
+            "-o",
+            "x.png",
+            "--size",
+            size,
+        ];
+        stderr(&rtc(&folder, &args))
+    };
+    assert!(told("64x64").contains("more is shown above and below"));
+    assert!(told("64x16").contains("more is shown left and right"));
+    assert!(!told("64x32").contains("RD010"));
+}
+
+#[test]
 fn an_orbit_is_two_or_three_angles_and_stands_for_the_eye() {
     let folder = card(ALONE);
     for args in [

@@ -12,6 +12,7 @@ use super::look::OutputLook;
 use super::output::{self, Output};
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
+use crate::diag::Diagnostic;
 use crate::image::{BackgroundFill, Layers, Lost, Origin};
 use crate::ir::{Mode, Scene};
 use crate::passes::{self, Framing, Overrides};
@@ -106,7 +107,7 @@ impl RenderSetup {
     }
 
     fn carry_out(&mut self, input: &mut Input, talk: &mut Talk) -> Result<(), Failure> {
-        let (mut set, mut first) = (Ok(()), None);
+        let (mut set, mut first, mut fitted) = (Ok(()), None, None);
         let proven = input::require(input, talk, |lowered, provenance| {
             let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
             first = Some(FirstView {
@@ -117,7 +118,7 @@ impl RenderSetup {
             if provenance.is_asset && is_traced && !provenance.is_unlit {
                 self.look.show_asset();
             }
-            resize(&mut lowered.scene, self.overrides.size, provenance);
+            fitted = resize(&mut lowered.scene, self.overrides.size, provenance);
             self.overrides.apply(&mut lowered.scene);
             set = self.set.iter().try_for_each(|(name, value)| {
                 passes::set(&mut lowered.scene.settings, name, value)
@@ -125,10 +126,11 @@ impl RenderSetup {
         })?;
         set.map_err(|words| Failure::Trouble(format!("--set: {words}")))?;
         self.window(&proven.lowered.scene)?;
-        if let Some(warning) = findings::imprecise(&proven, self.arithmetic) {
-            input.push(warning);
-            input.tell(talk)?;
-        }
+        let imprecise = findings::imprecise(&proven, self.arithmetic);
+        imprecise
+            .into_iter()
+            .chain(fitted)
+            .for_each(|finding| input.push(finding));
         let interrupt = Interrupt::listen()?;
         let mut subject = Subject {
             proven,
@@ -136,8 +138,8 @@ impl RenderSetup {
         };
         if let Some(view) = first {
             self.light(&mut subject, &view, input, &interrupt)?;
-            input.tell(talk)?;
         }
+        input.tell(talk)?;
         let Some(count) = self.turntable else {
             return self.shoot(&mut subject, &self.output, input, talk, &interrupt);
         };
@@ -339,14 +341,23 @@ fn rules(args: &args::Pruning, goal: Goal) -> Rules {
     }
 }
 
-/// Gives the view of an asset a picture of another size: it shows no less than before. Other scenes
-/// keep their height.
-fn resize(scene: &mut Scene, size: Option<[u32; 2]>, provenance: &Provenance) {
+/// Gives the view of an asset a picture of another size: it shows no less than before; what is to be
+/// said of that. Other scenes keep their height.
+fn resize(
+    scene: &mut Scene,
+    size: Option<[u32; 2]>,
+    provenance: &Provenance,
+) -> Option<Diagnostic> {
     match (size, provenance.framing) {
         (Some(_), Some(framing)) => Framing { size, ..framing }.apply(scene),
-        (Some(size), None) if provenance.is_asset => scene.camera.fit(size),
+        (Some(size), None) if provenance.is_asset => {
+            let before = scene.camera.size;
+            scene.camera.fit(size);
+            return findings::fitted(before, size);
+        }
         _ => {}
     }
+    None
 }
 
 fn no_threads(fault: rayon::ThreadPoolBuildError) -> Failure {

@@ -48,4 +48,7 @@ super::codes! { RD:
          picture is exposed. How much is seen is found from 64 × 64 pixels of the whole view; it does not depend on the size, \
          the part or the samples of the picture. `--studio on|off|fill` says which it is to be. `rtc cost` and `rtc compile` \
          do not look: there the studio fills in only if asked for.";
+    FITTED = "RD010", Note, "the picture shows more than the camera of the asset sees",
+        "A camera of glTF sees a picture of a certain shape. With `--size` of another shape the picture is fitted around what \
+         the camera sees: nothing of that is cut off, and there is more of the scene at two sides.";
 }
