@@ -82,6 +82,7 @@ fn earth() -> Scene {
         surfaces: vec![ir::Surface {
             shape: ir::Shape::Sphere(sphere),
             material: ir::MaterialId(0),
+            casts_no_shadow: false,
         }],
         names: Vec::new(),
         environment: None,

@@ -4,6 +4,7 @@
 //! What a stage has to say of one shape alone stands in the file of that shape, or in one `impl`.
 
 use super::bounds::box_corners;
+use super::standard::is_default;
 use super::{MaterialId, MeshId};
 use crate::math::{Vec3, unit};
 use arbitrary::Arbitrary;
@@ -153,6 +154,10 @@ pub struct Surface {
     pub shape: Shape,
     /// What it is made of.
     pub material: MaterialId,
+    /// Whether lights shine through it as if it were not there, though it is seen and may itself be
+    /// shadowed. Traced paths don't know of this: there it casts shadows as every surface does.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub casts_no_shadow: bool,
 }
 
 /// A sphere.

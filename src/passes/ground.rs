@@ -54,6 +54,7 @@ pub(super) fn lay(scene: &mut Scene, [low, high]: [Vec3; 2]) {
             ],
         }),
         material: MaterialId(material),
+        casts_no_shadow: false,
     });
 }
 

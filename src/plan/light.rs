@@ -63,25 +63,28 @@ impl LightFindings {
         let lights = (0..self.plans.len())
             .filter(|light| self.plans[*light].direct)
             .collect::<Vec<_>>();
-        let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else {
+        let casters = facts.casters().collect::<Vec<_>>();
+        let (Some(light), Some(receiver), Some(last)) =
+            (lights.first(), receivers.first(), casters.last())
+        else {
             return;
         };
         if receivers
             .len()
             .saturating_mul(lights.len())
-            .saturating_mul(count)
+            .saturating_mul(casters.len())
             > MAX_PAIRS
         {
             self.capped = true;
-            self.casts = vec![true; count];
+            casters.iter().for_each(|caster| self.casts[*caster] = true);
             self.shadow = Some(Shadow {
                 light: *light,
-                caster: count - 1,
+                caster: *last,
                 receiver: *receiver,
             });
             return;
         }
-        self.alone = count == 1;
+        self.alone = casters.len() == 1 && receivers.iter().all(|receiver| receiver == last);
         for light in lights {
             let source = &facts.sources[light];
             let is_dark =
@@ -107,7 +110,7 @@ impl LightFindings {
             receiver,
         } = *pair;
         let mut falls = false;
-        for caster in 0..facts.bodies.len() {
+        for caster in facts.casters() {
             let may_cast = if caster == receiver {
                 !facts.spares_itself(receiver, visibility.sides[receiver], &source)
             } else {
@@ -141,6 +144,12 @@ fn extent(light: &CourseLight) -> Space {
 }
 
 impl Facts<'_> {
+    /// The surfaces that shadow rays may meet.
+    pub(super) fn casters(&self) -> impl Iterator<Item = usize> {
+        let surfaces = self.scene.surfaces();
+        (0..surfaces.len()).filter(|surface| surfaces[*surface].casts_shadow)
+    }
+
     /// The remaining terms of a light, and the rule that removed the others.
     fn light(&self, light: &CourseLight, visibility: &Visibility) -> (LightPlan, Option<Rule>) {
         let surfaces = || (0..self.bodies.len()).filter(|surface| visibility.reached[*surface]);

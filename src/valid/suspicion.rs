@@ -11,6 +11,7 @@ pub(super) fn suspicions(scene: &ir::Scene, check: &mut Check<'_>) {
         return;
     }
     no_light(scene, check);
+    shadows_of_paths(scene, check);
     for (index, material) in scene.materials.iter().enumerate() {
         let Some(phong) = material.phong() else {
             continue;
@@ -64,5 +65,25 @@ fn no_light(scene: &ir::Scene, check: &mut Check<'_>) {
         let finding = Diagnostic::new(&codes::NO_LIGHT, "the scene has no light, so it is black")
             .hint("a light is written as `Lights: [{position: [0, 0, 0], color: [1, 1, 1]}]`");
         check.report_all(Noun::Light, "/lights", "no light here", finding);
+    }
+}
+
+/// Warns of surfaces without shadows in a scene of paths, which know only surfaces that cast them.
+fn shadows_of_paths(scene: &ir::Scene, check: &mut Check<'_>) {
+    let ir::Scene {
+        settings, surfaces, ..
+    } = scene;
+    let first = surfaces.iter().position(|surface| surface.casts_no_shadow);
+    if let (ir::Mode::Path(_), Some(index)) = (&settings.mode, first) {
+        let finding = Diagnostic::new(
+            &codes::SHADOW_IN_PATHS,
+            "every object that paths meet casts a shadow",
+        )
+        .hint("`RenderMode: phong` takes `shadow: false` as it is written");
+        check.report(
+            place(Noun::Surface, index, Field::Whole),
+            "this one too, in spite of its `shadow: false`",
+            finding,
+        );
     }
 }

@@ -345,9 +345,10 @@ fn surface() -> impl Strategy<Value = Surface> {
             }
         ),
     ];
-    (shape, any::<u32>()).prop_map(|(shape, material)| Surface {
+    (shape, any::<u32>(), any::<bool>()).prop_map(|(shape, material, casts_no_shadow)| Surface {
         shape,
         material: MaterialId(material),
+        casts_no_shadow,
     })
 }
 

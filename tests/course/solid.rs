@@ -4,15 +4,12 @@ use super::*;
 
 /// The corners of the triangles that a scene is made of.
 fn triangles(scene: &Scene) -> Vec<[Vec3; 3]> {
-    let corners = scene
-        .surfaces
-        .iter()
-        .map(|ir::Surface { shape, material: _ }| {
-            let ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) = shape else {
-                panic!("{shape:?}")
-            };
-            vertices.map(Vec3::from_array)
-        });
+    let corners = scene.surfaces.iter().map(|ir::Surface { shape, .. }| {
+        let ir::Shape::Triangle(ir::Triangle { vertices, uvs: _ }) = shape else {
+            panic!("{shape:?}")
+        };
+        vertices.map(Vec3::from_array)
+    });
     corners.collect()
 }
 

@@ -18,6 +18,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
     let surface = |shape| ir::Surface {
         shape,
         material: ir::MaterialId(0),
+        casts_no_shadow: false,
     };
     ir::Scene {
         camera: ir::Camera {

@@ -48,7 +48,11 @@ fn place(scene: &mut Scene, mesh: u32, world_from_object: [[f64; 3]; 4], standar
         mesh: MeshId(mesh),
         world_from_object,
     });
-    scene.surfaces.push(Surface { shape, material });
+    scene.surfaces.push(Surface {
+        shape,
+        material,
+        casts_no_shadow: false,
+    });
 }
 
 /// What the surfaces say one by one: the nearest hit, and of several at one t that of the first

@@ -80,7 +80,11 @@ fn add_quad(scene: &mut Scene, [a, b, c, d]: [[f64; 3]; 4], standard: Standard) 
             vertices,
             uvs: Some(uvs),
         });
-        scene.surfaces.push(Surface { shape, material });
+        scene.surfaces.push(Surface {
+            shape,
+            material,
+            casts_no_shadow: false,
+        });
     }
 }
 
@@ -102,7 +106,11 @@ fn add_sphere(scene: &mut Scene, center: [f64; 3], radius: f64, standard: Standa
         radius,
         texture_from_world: None,
     });
-    scene.surfaces.push(Surface { shape, material });
+    scene.surfaces.push(Surface {
+        shape,
+        material,
+        casts_no_shadow: false,
+    });
 }
 
 fn add_light(scene: &mut Scene, light: Punctual) {

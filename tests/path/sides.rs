@@ -147,7 +147,11 @@ fn the_front_of_a_mirrored_instance_is_that_of_its_mesh() {
                 mesh: MeshId(0),
                 world_from_object,
             });
-            scene.surfaces.push(Surface { shape, material });
+            scene.surfaces.push(Surface {
+                shape,
+                material,
+                casts_no_shadow: false,
+            });
         });
         assert_eq!(mean(&render(&scene)), expected, "{axes:?}");
     }
@@ -249,7 +253,11 @@ fn inside(mesh: Mesh, standard: Standard) -> Scene {
         mesh: MeshId(0),
         world_from_object,
     });
-    scene.surfaces.push(Surface { shape, material });
+    scene.surfaces.push(Surface {
+        shape,
+        material,
+        casts_no_shadow: false,
+    });
     scene
 }
 

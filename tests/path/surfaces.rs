@@ -153,6 +153,7 @@ fn add_mesh(scene: &mut Scene, standard: Standard, x: [f64; 3], fill: impl Fn(&m
             world_from_object,
         }),
         material,
+        casts_no_shadow: false,
     });
 }
 

@@ -73,7 +73,7 @@ impl Dice {
         let lights = self.roll(4);
         let materials = 1 + self.roll(3);
         let (images, textures) = self.textures();
-        Scene {
+        let mut scene = Scene {
             camera: self.camera(),
             settings: self.settings(),
             lights: (0..lights).map(|_| self.light()).collect(),
@@ -87,11 +87,16 @@ impl Dice {
                 .map(|_| ir::Surface {
                     shape: self.shape(),
                     material: MaterialId(self.roll(materials)),
+                    casts_no_shadow: false,
                 })
                 .collect(),
             names: Vec::new(),
             environment: None,
+        };
+        for surface in &mut scene.surfaces {
+            surface.casts_no_shadow = self.chance(5);
         }
+        scene
     }
 
     fn camera(&mut self) -> ir::Camera {

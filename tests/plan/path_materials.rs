@@ -327,6 +327,7 @@ fn a_map_without_texture_coordinates_is_1() {
             scene.surfaces.push(ir::Surface {
                 shape,
                 material: ir::MaterialId(1),
+                casts_no_shadow: false,
             });
         }
         fires(Rule::PathOpaque, &scene)

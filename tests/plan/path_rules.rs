@@ -39,6 +39,7 @@ pub(super) fn add(scene: &mut Scene, shape: &Shape, material: &Standard) {
     scene.surfaces.push(Surface {
         shape: shape.clone(),
         material: MaterialId(scene.materials.len() as u32),
+        casts_no_shadow: false,
     });
     let material = Box::new(material.clone());
     scene.materials.push(Material::Standard(material));

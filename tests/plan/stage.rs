@@ -78,6 +78,7 @@ pub(super) fn with(surfaces: &[(Shape, Phong)]) -> Scene {
         scene.surfaces.push(Surface {
             shape: shape.clone(),
             material: MaterialId(index),
+            casts_no_shadow: false,
         });
     }
     scene
@@ -158,5 +159,6 @@ pub(super) fn square(scene: &mut Scene, normals: [[f64; 3]; 4]) {
     scene.surfaces.push(Surface {
         shape,
         material: MaterialId(0),
+        casts_no_shadow: false,
     });
 }

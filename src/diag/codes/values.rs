@@ -71,6 +71,9 @@ super::codes! { VA:
     COLOR_OF_BYTES = "VA023", Warning, "a colour looks like bytes from 0 to 255",
         "Colours are from 0 to 1, and more is brighter than white. A surface of whole numbers above 1, or a light of whole \
          numbers from 100 to 255, was most likely written in bytes. Divide each channel by 255.";
+    SHADOW_IN_PATHS = "VA024", Warning, "an object without a shadow stands in a scene of paths",
+        "`shadow: false` is followed by `RenderMode: phong`. Paths find light by chance as well as by aim, and an object \
+         that stops one of the two would give light twice or never, so there it casts its shadow.";
     OUT_OF_RANGE = "VA101", Error, "a number is outside the range of its key",
         "The message says which values the key takes: counts are not negative and below 2^32, the sides of an image are at \
          most 65535 pixels.";

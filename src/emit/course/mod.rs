@@ -108,6 +108,7 @@ impl Text {
         for Surface {
             shape,
             material: MaterialId(id),
+            casts_no_shadow,
         } in &scene.surfaces
         {
             self.shape(shape, scene)?;
@@ -117,6 +118,9 @@ impl Text {
                 (true, true) => self.line(4, &format!("material: *m{id}")),
                 (true, false) => self.material(&format!("material: &m{id}"), material, scene)?,
                 (false, _) => self.material("material:", material, scene)?,
+            }
+            if *casts_no_shadow {
+                self.line(4, "shadow: false");
             }
         }
         Ok(())

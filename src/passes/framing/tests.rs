@@ -55,6 +55,7 @@ fn scene(boxes: &[[[f64; 3]; 2]]) -> Scene {
                 world_from_object,
             }),
             material: MaterialId(0),
+            casts_no_shadow: false,
         });
     }
     scene
@@ -168,6 +169,7 @@ fn what_has_no_extent_keeps_its_camera() {
             uvs: None,
         }),
         material: MaterialId(0),
+        casts_no_shadow: false,
     });
     for mut scene in [scene(&[]), point] {
         let before = scene.camera.clone();

@@ -137,6 +137,9 @@ fn shadows(findings: &Findings<'_>) -> Verdict {
         };
         return Verdict::needed(effect, words, facts);
     }
+    if findings.facts.casters().next().is_none() {
+        return Verdict::absent(effect, "no surface casts shadows", vec![]);
+    }
     let lit = findings.first(|summary| findings.is_lit(summary));
     let Some(surface) = lit else {
         return Verdict::pruned(

@@ -74,10 +74,26 @@ pub struct World<S = Shape> {
     pub(in crate::render) verify: Option<Verify>,
     /// The surfaces that shadow rays of paths test for alpha.
     pub(in crate::render) alpha_tested: AlphaTested,
+    apart: Apart,
+    /// The surfaces apart that cast shadows, if some of them don't.
+    casters: Option<Apart>,
+    flattened: Option<Flattened>,
+}
+
+/// The surfaces that are not flattened.
+struct Apart {
     unbounded: Vec<u32>,
     bounded: Vec<u32>,
+    /// The hierarchy of `bounded`.
     bvh: Bvh,
-    flattened: Option<Flattened>,
+}
+
+impl Apart {
+    /// Whether there are none.
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.unbounded.is_empty() && self.bounded.is_empty()
+    }
 }
 
 /// The `t_max` that ends a walk.
@@ -128,7 +144,8 @@ impl<S: Geometry> World<S> {
     #[inline]
     fn closest_hit_apart(&self, ray: &Ray) -> Nearest<(usize, u32)> {
         let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
-        if self.is_all_flattened() {
+        let apart = &self.apart;
+        if apart.is_empty() {
             return nearest;
         }
         let shear = Shear::new(ray);
@@ -143,11 +160,11 @@ impl<S: Geometry> World<S> {
             }
             nearest.t
         };
-        for surface in &self.unbounded {
+        for surface in &apart.unbounded {
             visit(*surface);
         }
-        self.bvh.walk(ray, f64::INFINITY, |item, _| {
-            visit(self.bounded[item as usize])
+        apart.bvh.walk(ray, f64::INFINITY, |item, _| {
+            visit(apart.bounded[item as usize])
         });
         nearest
     }
@@ -171,9 +188,10 @@ impl<S: Geometry> World<S> {
                 add(t, surface, prim_id)
             });
         };
-        self.unbounded.iter().for_each(|surface| visit(*surface));
-        self.bvh.walk(ray, t, |item, _| {
-            visit(self.bounded[item as usize]);
+        let apart = &self.apart;
+        apart.unbounded.iter().for_each(|surface| visit(*surface));
+        apart.bvh.walk(ray, t, |item, _| {
+            visit(apart.bounded[item as usize]);
             t
         });
         if let Some(flattened) = &self.flattened {
@@ -188,13 +206,8 @@ impl<S: Geometry> World<S> {
         tie.first()
     }
 
-    /// Whether all surfaces are flattened.
-    #[inline]
-    fn is_all_flattened(&self) -> bool {
-        self.unbounded.is_empty() && self.bounded.is_empty()
-    }
-
-    /// Whether anything lies strictly between `from` and `to`; both ends may lie on surfaces.
+    /// Whether anything that casts shadows lies strictly between `from` and `to`; both ends may lie
+    /// on surfaces.
     ///
     /// `from` should be a start of rays, off its own surface. What lies within the rounding error
     /// of `to` does not count: a light on a surface is not hidden by it.
@@ -203,7 +216,7 @@ impl<S: Geometry> World<S> {
         segment(from, to).is_some_and(|(ray, t_max)| self.any_hit(&ray, t_max))
     }
 
-    /// Whether anything is hit with 0 < t < `t_max`.
+    /// Whether anything that casts shadows is hit with 0 < t < `t_max`.
     pub(in crate::render) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
         self.transmittance(ray, t_max, NOWHERE, |_| 0.0) == 0.0
     }
@@ -240,9 +253,10 @@ impl<S: Geometry> World<S> {
         transmittance
     }
 
-    /// Whether a surface that is not flattened is hit with 0 < t < `t_max`.
+    /// Whether a surface that casts shadows and is not flattened is hit with 0 < t < `t_max`.
     fn any_hit_apart(&self, ray: &Ray, t_max: f64) -> bool {
-        if self.is_all_flattened() {
+        let apart = self.casters.as_ref().unwrap_or(&self.apart);
+        if apart.is_empty() {
             return false;
         }
         let shear = Shear::new(ray);
@@ -252,12 +266,12 @@ impl<S: Geometry> World<S> {
                 .intersect(ray, &shear, t_max);
             hit.is_some_and(|(t, _)| t < t_max)
         };
-        if self.unbounded.iter().any(|surface| hits(*surface)) {
+        if apart.unbounded.iter().any(|surface| hits(*surface)) {
             return true;
         }
         let mut blocked = false;
-        self.bvh.walk(ray, t_max, |item, t_max| {
-            blocked = blocked || hits(self.bounded[item as usize]);
+        apart.bvh.walk(ray, t_max, |item, t_max| {
+            blocked = blocked || hits(apart.bounded[item as usize]);
             if blocked { OVER } else { t_max }
         });
         blocked

@@ -6,7 +6,7 @@ use super::material::{PhongList, standard};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::texture::Textures;
-use super::{Surface, World, light};
+use super::{Apart, Surface, World, light};
 use crate::plan::Plan;
 use crate::plan::facts::material;
 use crate::render::accel::bvh::Bvh;
@@ -37,9 +37,8 @@ impl<S: Prepare> World<S> {
             }
         };
         let Lookup {
-            unbounded,
-            bounded,
-            bvh,
+            apart,
+            casters,
             flattened,
         } = Lookup::of(scene, &surfaces);
         Self {
@@ -56,9 +55,8 @@ impl<S: Prepare> World<S> {
                 Some(_) => AlphaTested::of::<S>(scene),
                 None => AlphaTested::None,
             },
-            unbounded,
-            bounded,
-            bvh,
+            apart,
+            casters,
             flattened,
         }
     }
@@ -94,32 +92,52 @@ fn surfaces<S: Prepare>(
 
 /// Where rays look for the surfaces of a world.
 struct Lookup {
-    unbounded: Vec<u32>,
-    bounded: Vec<u32>,
-    bvh: Bvh,
+    apart: Apart,
+    casters: Option<Apart>,
     flattened: Option<Flattened>,
 }
 
 impl Lookup {
     fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>]) -> Self {
-        let (mut unbounded, mut bounded) = (Vec::new(), Vec::new());
-        let (mut boxes, mut apart) = (Vec::new(), Vec::new());
         let flattens = flattened_surfaces(scene);
-        for (index, surface) in (0_u32..).zip(surfaces) {
-            match surface.shape.bounds() {
-                _ if flattens[surface.index] && surface.shape.triangles() > 0 => apart.push(index),
+        let is_path = matches!(scene.settings().mode, valid::Mode::Path(_));
+        // Shadow rays of paths meet what all rays meet: light counts once, by whichever strategy.
+        let casts = |surface: &Surface<S>| is_path || scene.surfaces()[surface.index].casts_shadow;
+        // Shadow rays meet all flattened surfaces, so one without a shadow stays apart.
+        let is_flattened = |surface: &Surface<S>| {
+            flattens[surface.index] && surface.shape.triangles() > 0 && casts(surface)
+        };
+        let (flattened, apart): (Vec<u32>, Vec<u32>) = (0_u32..)
+            .take(surfaces.len())
+            .partition(|index| is_flattened(&surfaces[*index as usize]));
+        let casters = apart.iter().copied();
+        let casters: Vec<u32> = casters
+            .filter(|index| casts(&surfaces[*index as usize]))
+            .collect();
+        Self {
+            casters: (casters.len() < apart.len()).then(|| Apart::of(surfaces, &casters)),
+            apart: Apart::of(surfaces, &apart),
+            flattened: Flattened::new(surfaces, &flattened),
+        }
+    }
+}
+
+impl Apart {
+    fn of<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Self {
+        let (mut unbounded, mut bounded, mut boxes) = (Vec::new(), Vec::new(), Vec::new());
+        for index in indices {
+            match surfaces[*index as usize].shape.bounds() {
                 Some(bounds) => {
-                    bounded.push(index);
+                    bounded.push(*index);
                     boxes.push(bounds);
                 }
-                None => unbounded.push(index),
+                None => unbounded.push(*index),
             }
         }
         Self {
             unbounded,
             bounded,
             bvh: Bvh::build(&boxes),
-            flattened: Flattened::new(surfaces, &apart),
         }
     }
 }

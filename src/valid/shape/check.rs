@@ -14,7 +14,11 @@ pub(in crate::valid) fn surface(
     counts: &EntityCounts,
     check: &mut Check<'_>,
 ) -> Option<Option<Surface>> {
-    let ir::Surface { shape, material } = surface;
+    let ir::Surface {
+        shape,
+        material,
+        casts_no_shadow,
+    } = surface;
     let kind = shape.kind();
     let mut proof = SurfaceCheck {
         kind,
@@ -33,6 +37,7 @@ pub(in crate::valid) fn surface(
     Some(shape?.map(|shape| Surface {
         shape,
         material,
+        casts_shadow: !casts_no_shadow,
         index,
     }))
 }

@@ -15,6 +15,8 @@ pub struct Surface {
     pub shape: Shape,
     /// An index into [`super::Proof::materials`], in range.
     pub material: usize,
+    /// Whether it hides lights from other surfaces and from itself, where shadows are asked for.
+    pub casts_shadow: bool,
     /// Its index in the IR. The IR also has the triangles without an area.
     pub index: usize,
 }

@@ -71,6 +71,7 @@ impl Dice {
                 texture_from_world: None,
             }),
             material: MaterialId(scene.materials.len() as u32),
+            casts_no_shadow: false,
         });
         scene.materials.push(Material::Standard(Box::new(mirror)));
     }

@@ -28,6 +28,8 @@ record! {
         turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [position] [position turn_axis turn_angle] }
 }
@@ -41,8 +43,9 @@ impl Lower for Cube {
             turn_axis,
             turn_angle,
             material,
+            shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, context) else {
+        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
             return;
         };
         let turn = match (turn_axis, turn_angle) {

@@ -33,6 +33,8 @@ record! {
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [position direction height] [ends] [position height turn_axis turn_angle] }
 }
@@ -43,9 +45,10 @@ impl Lower for Cylinder {
             kind,
             radius,
             material,
+            shadow,
             ..
         } = self;
-        let clothes = lowering.clothe(kind, material, context);
+        let clothes = lowering.clothe(kind, material, shadow, context);
         if let (Some(clothes), Some((base, axis, height))) = (clothes, axis(self)) {
             let shape = ir::Cylinder {
                 base: base.value,
@@ -76,6 +79,7 @@ fn axis(cylinder: &Cylinder) -> Option<(Numbers, Numbers, Spanned<f64>)> {
         ends,
         radius: _,
         material: _,
+        shadow: _,
     } = cylinder;
     if let (
         FieldOutcome::Read(middle),

@@ -22,6 +22,8 @@ record! {
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
@@ -33,6 +35,7 @@ impl Lower for Disc {
             normal,
             radius,
             material,
+            shadow,
         } = self;
         let shape = ir::Disc {
             center: center.value.0,
@@ -44,7 +47,7 @@ impl Lower for Disc {
             ("normal", normal.span),
             ("radius", radius.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material, context) {
+        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
             lowering.put(&clothes, ir::Shape::Disc(shape), &places);
         }
     }

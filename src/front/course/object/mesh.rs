@@ -31,6 +31,8 @@ record! {
         fit: Spanned<Radius>, optional, keys!["fit" "radius"];
         /// What it is made of; grey if nothing is said.
         material: Spanned<SharedValue<Material>>, optional, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [file] [file scale] [file size] [file fit] }
 }
@@ -54,12 +56,13 @@ impl Lower for Mesh {
             size,
             fit,
             material,
+            shadow,
         } = self;
         let clothes = match material {
-            FieldOutcome::Read(material) => lowering.clothe(kind, material, context),
+            FieldOutcome::Read(material) => lowering.clothe(kind, material, shadow, context),
             FieldOutcome::Absent => {
                 bare(kind, context);
-                Some(lowering.clothe_in_grey(kind))
+                Some(lowering.clothe_in_grey(kind, shadow))
             }
             FieldOutcome::Broken => None,
         };

@@ -169,6 +169,7 @@ pub(super) struct Clothes {
     whole: Option<Span>,
     material: MaterialId,
     span: Option<Span>,
+    casts_shadow: bool,
 }
 
 impl Lowering {
@@ -177,6 +178,7 @@ impl Lowering {
         &mut self,
         kind: &Spanned<Text>,
         material: &Spanned<SharedValue<Material>>,
+        shadow: &Spanned<bool>,
         context: &mut Context<'_>,
     ) -> Option<Clothes> {
         let id = self.material(material, context)?;
@@ -184,15 +186,21 @@ impl Lowering {
             whole: kind.span,
             material: id,
             span: material.span,
+            casts_shadow: shadow.value,
         })
     }
 
     /// Clothes an object for which no material was written.
-    pub(super) fn clothe_in_grey(&mut self, kind: &Spanned<Text>) -> Clothes {
+    pub(super) fn clothe_in_grey(
+        &mut self,
+        kind: &Spanned<Text>,
+        shadow: &Spanned<bool>,
+    ) -> Clothes {
         Clothes {
             whole: kind.span,
             material: self.grey(),
             span: kind.span,
+            casts_shadow: shadow.value,
         }
     }
 
@@ -208,9 +216,14 @@ impl Lowering {
             whole,
             material,
             span,
+            casts_shadow,
         } = *clothes;
         let (index, kind) = (self.scene.surfaces.len(), shape.kind());
-        self.scene.surfaces.push(ir::Surface { shape, material });
+        self.scene.surfaces.push(ir::Surface {
+            shape,
+            material,
+            casts_no_shadow: !casts_shadow,
+        });
         self.origin(Noun::Surface, index, Field::Whole, whole);
         for (way, span) in places {
             let field = Field::of_shape(kind, way);

@@ -34,6 +34,8 @@ record! {
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [position normal] [normal distance] [corners] [position edges] }
 }
@@ -54,6 +56,8 @@ record! {
         radius: Spanned<Positive>, required, keys!["radius" "r"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
@@ -78,7 +82,7 @@ impl Value for Outline {
 
 impl Lower for Plane {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, context);
+        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
         if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(self)) {
             let places = [("center", center.span), ("normal", normal.span)];
             let shape = ir::Plane {
@@ -99,8 +103,9 @@ impl Lower for BoundedPlane {
             normal,
             radius,
             material,
+            shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, context) else {
+        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
             return;
         };
         match outline.value {
@@ -179,6 +184,7 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         distance,
         edges,
         material: _,
+        shadow: _,
     } = plane;
     match (corners, position, normal, distance, edges) {
         (FieldOutcome::Read(corners), ..) => Some(through(corners)),

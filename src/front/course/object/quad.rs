@@ -42,13 +42,15 @@ record! {
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [corners] [position edges] }
 }
 
 impl Lower for Quad {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, context);
+        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
         if let (Some(clothes), Some(mut corners)) = (clothes, corners(self)) {
             if let Some(swap) = crossing(&corners.map(|corner| Vec3::from_array(corner.value))) {
                 crossed(&mut corners, swap, context);
@@ -69,6 +71,7 @@ fn corners(quad: &Quad) -> Option<[Numbers; 4]> {
         position,
         edges,
         material: _,
+        shadow: _,
     } = quad;
     match (corners, position, edges) {
         (FieldOutcome::Read(corners), ..) => {

@@ -36,6 +36,8 @@ record! {
         depth: Spanned<ThirdEdge>, optional, keys!["depth"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [extremes] [position dimension] [position dimension rotation] [position edges depth] }
 }
@@ -49,6 +51,8 @@ record! {
         corners: [Spanned<Point>; 4], required, FOUR_CORNERS;
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
@@ -66,6 +70,8 @@ record! {
             &[&["t1point1", "t1point2", "t1point3", "t2point1", "t2point2", "t2point3"]];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [corners up] [ends] }
 }
@@ -94,7 +100,7 @@ const PRISM: &[Face] = &[
 
 impl Lower for Cuboid {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
-        let clothes = lowering.clothe(&self.kind, &self.material, context);
+        let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
         if let (Some(clothes), Some((corners, span))) = (clothes, box_corners(self)) {
             assumed_depth(&self.depth, corners[4] - corners[0], context);
             lowering.cuboid(&clothes, &corners, span, context);
@@ -108,8 +114,9 @@ impl Lower for Tetrahedron {
             kind,
             corners,
             material,
+            shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, context) else {
+        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
             return;
         };
         let span = corners[0].span;
@@ -141,8 +148,9 @@ impl Lower for Prism {
             up,
             ends,
             material,
+            shadow,
         } = self;
-        let Some(clothes) = lowering.clothe(kind, material, context) else {
+        let Some(clothes) = lowering.clothe(kind, material, shadow, context) else {
             return;
         };
         let (span, corners, up) = match (corners, up, ends) {
@@ -282,6 +290,7 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
         edges,
         depth,
         material: _,
+        shadow: _,
     } = cuboid;
     let end = |index: usize, axis: usize| (index >> axis) & 1;
     if let (FieldOutcome::Read(corner), FieldOutcome::Read([up, side]), FieldOutcome::Read(depth)) =

@@ -29,6 +29,8 @@ record! {
         axis: Spanned<Vector>, optional, keys!["axis" "rotation" "rotationVector"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
@@ -83,6 +85,7 @@ impl Lower for Sphere {
             angle,
             axis,
             material,
+            shadow,
         } = self;
         let axis = texture_axis(radius, axis, context);
         let shape = ir::Shape::Sphere(ir::Sphere {
@@ -91,7 +94,7 @@ impl Lower for Sphere {
             texture_from_world: turned_to_z(axis, angle.value.0),
         });
         let places = [("center", position.span), ("radius", radius.span)];
-        if let Some(clothes) = lowering.clothe(kind, material, context) {
+        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
             lowering.put(&clothes, shape, &places);
         }
     }

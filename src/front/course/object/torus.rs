@@ -28,6 +28,8 @@ record! {
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), keys!["direction" "axis" "normal" "N"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
     forms { [radius alpha] [rims] }
 }
@@ -42,6 +44,7 @@ impl Lower for Torus {
             rims,
             direction,
             material,
+            shadow,
         } = self;
         let (radius, alpha) = match (radius, alpha, rims) {
             (FieldOutcome::Read(radius), FieldOutcome::Read(alpha), _) => {
@@ -70,7 +73,7 @@ impl Lower for Torus {
             ("major", radius.span),
             ("minor", alpha.span),
         ];
-        if let Some(clothes) = lowering.clothe(kind, material, context) {
+        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
             lowering.put(&clothes, ir::Shape::Torus(shape), &places);
         }
     }

@@ -34,6 +34,8 @@ record! {
         uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
+        shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
 }
 
@@ -47,6 +49,7 @@ impl Lower for Triangle {
             corners,
             uvs,
             material,
+            shadow,
         } = self;
         let uvs = if let FieldOutcome::Read(uvs) = uvs {
             Some(uvs.map(|uv| uv.value.0))
@@ -59,7 +62,7 @@ impl Lower for Triangle {
         });
         let spans = corners.map(|corner| corner.span);
         let places = [0, 1, 2].map(|k| (VERTICES[k], spans[k]));
-        if let Some(clothes) = lowering.clothe(kind, material, context) {
+        if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
             lowering.put(&clothes, shape, &places);
         }
     }

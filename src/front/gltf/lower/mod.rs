@@ -230,7 +230,11 @@ impl Lowering<'_, '_, '_> {
         });
         let place = Place::new(Noun::Surface, self.scene.surfaces.len(), Field::Whole);
         self.origins.record(place, self.report.json.span(at));
-        self.scene.surfaces.push(ir::Surface { shape, material });
+        self.scene.surfaces.push(ir::Surface {
+            shape,
+            material,
+            casts_no_shadow: false,
+        });
         self.scene.names.push(name.to_owned());
     }
 
