@@ -64,27 +64,24 @@ impl LightFindings {
             .filter(|light| self.plans[*light].direct)
             .collect::<Vec<_>>();
         let casters = facts.casters().collect::<Vec<_>>();
-        let (Some(light), Some(receiver), Some(last)) =
-            (lights.first(), receivers.first(), casters.last())
-        else {
+        let (Some(light), Some(receiver)) = (lights.first(), receivers.first()) else {
             return;
         };
-        if receivers
-            .len()
-            .saturating_mul(lights.len())
-            .saturating_mul(casters.len())
-            > MAX_PAIRS
-        {
+        let pairs = receivers.len().saturating_mul(lights.len());
+        if let (true, Some(caster)) = (
+            pairs.saturating_mul(casters.len()) > MAX_PAIRS,
+            casters.last(),
+        ) {
             self.capped = true;
             casters.iter().for_each(|caster| self.casts[*caster] = true);
             self.shadow = Some(Shadow {
                 light: *light,
-                caster: *last,
+                caster: *caster,
                 receiver: *receiver,
             });
             return;
         }
-        self.alone = casters.len() == 1 && receivers.iter().all(|receiver| receiver == last);
+        self.alone = casters.len() == 1 && receivers == casters;
         for light in lights {
             let source = &facts.sources[light];
             let is_dark =
