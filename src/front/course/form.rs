@@ -3,8 +3,11 @@
 use super::decode::Context;
 use super::record::{Field, Need, Record};
 use super::spelling::list;
-use crate::diag::codes;
+use crate::diag::{Severity, codes};
 use crate::source::Span;
+
+/// The field that `--lenient` leaves out where a form has none.
+const ROTATION: &str = "rotation";
 
 /// Whether the fields that are there make up one of the forms of the record; if not, that is
 /// reported.
@@ -43,6 +46,19 @@ pub(super) fn check(
         within == Some(form.len())
     };
     if forms.iter().any(is_it) {
+        return true;
+    }
+    let without = |form: &&[&str]| {
+        let rest = given.clone().filter(|(_, field)| field.name != ROTATION);
+        rest.clone().count() == form.len()
+            && rest.clone().all(|(_, field)| form.contains(&field.name))
+    };
+    if context.options.lenient && forms.iter().any(without) {
+        let message = || format!("a {word} given in this way is not turned");
+        context.report(&codes::NO_EFFECT, head, message, |d| {
+            d.at(head, "its `rotation` is left out")
+                .severity(Severity::Warning)
+        });
         return true;
     }
     let given: Vec<_> = given.map(|(_, field)| field.name).collect();

@@ -179,14 +179,22 @@ impl Reader {
             });
             return 0;
         }
-        if let Some((at, field)) = fields.iter().enumerate().find(|(_, field)| part_of(field)) {
-            let row = field
-                .rows
+        let is_there = |key: &str| {
+            context.entries[self.from..]
                 .iter()
-                .find(|row| row.contains(&entry.key))
-                .copied()
-                .unwrap_or_default();
-            let others = list(row.iter().copied().filter(|key| *key != entry.key));
+                .any(|e| e.key == key && !e.claimed)
+        };
+        let absent = |row: &&[&'static str]| {
+            let absent = row.iter().copied().filter(|key| !is_there(key));
+            absent.collect::<Vec<_>>()
+        };
+        // Of the groups with this key the one is meant of which the fewest keys are missing.
+        let groups = fields.iter().enumerate().flat_map(|(at, field)| {
+            let rows = field.rows.iter().filter(|row| row.contains(&entry.key));
+            rows.map(move |row| (at, absent(row)))
+        });
+        if let Some((at, absent)) = groups.min_by_key(|(_, absent)| absent.len()) {
+            let others = list(absent.into_iter());
             let message = || format!("the {word} has `{}` without {others}", entry.key);
             context.report(&codes::MISSING_KEY, span, message, |d| {
                 d.at(span, "one of a group").hint("give all of them")

@@ -5,7 +5,8 @@ use super::solid::turned;
 use crate::front::course::decode::{Context, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::record::{keys, record};
-use crate::front::course::value::{Angles, FileName, Point, Scale, Text};
+use crate::front::course::value::{Angles, FileName, Point, Rotation, Scale, Text};
+use crate::math::Vec3;
 
 record! {
     /// A glTF asset, with its own materials and lights; its cameras do not count. A scene with one is shown by its paths.
@@ -19,7 +20,7 @@ record! {
         /// How many times larger it is than in its file, in all directions or along its x, y and z.
         scale: Spanned<Scale>, default(Scale([1.0; 3])), keys!["scale"];
         /// The angles in radians by which it is turned about its origin: first about x, then y, then z.
-        rotation: Spanned<Angles>, default(Angles([0.0; 3])), keys!["rotation"];
+        rotation: Spanned<Rotation<Angles>>, default(Rotation(Some(Angles([0.0; 3])))), keys!["rotation"];
     }
 }
 
@@ -32,7 +33,10 @@ impl Lower for Gltf {
             scale,
             rotation,
         } = self;
-        let [x, y, z] = turned(rotation.value.0);
+        let [x, y, z] = rotation
+            .value
+            .0
+            .map_or(Vec3::AXES, |angles| turned(angles.0));
         let [sx, sy, sz] = scale.value.0;
         let columns = [x * sx, y * sy, z * sz].map(|axis| axis.to_array());
         lowering

@@ -12,16 +12,18 @@ use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::schema::Definitions;
 use crate::front::course::value::{Point, Text, Vector, word, word_schema};
 use crate::ir;
-use crate::math::{Vec3, unit, unit_scale};
+use crate::math::{Vec3, length, shortest, unit, unit_scale};
 use crate::source::tree::NodeId;
 use serde_json::Value as Json;
 
 record! {
-    /// An infinite plane: a point and a normal, a normal and a distance from the origin, three points, or a point and
-    /// two directions.
+    /// An infinite plane: a point and a normal, a normal and a distance from the origin, three points, a point and two
+    /// directions, or the four numbers of its equation.
     struct Plane, "plane" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"];
+        /// The numbers of the equation a·x + b·y + c·z + d = 0 of its points. In some programs the sign of `d` is the other.
+        equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]];
         /// One of three points of the plane.
         corners: [Spanned<Point>; 3], optional, CORNERS;
         /// A point of the plane.
@@ -37,7 +39,7 @@ record! {
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"];
     }
-    forms { [position normal] [normal distance] [corners] [position edges] }
+    forms { [position normal] [normal distance] [corners] [position edges] [equation] }
 }
 
 record! {
@@ -83,6 +85,7 @@ impl Value for Outline {
 impl Lower for Plane {
     fn lower(&self, lowering: &mut Lowering, context: &mut Context<'_>) {
         let clothes = lowering.clothe(&self.kind, &self.material, &self.shadow, context);
+        note_sign(self, context);
         if let (Some(clothes), Some((center, normal))) = (clothes, center_and_normal(self)) {
             let places = [("center", center.span), ("normal", normal.span)];
             let shape = ir::Plane {
@@ -178,6 +181,7 @@ fn oblique(normal: &Spanned<Vector>, context: &mut Context<'_>) {
 fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
     let Plane {
         kind: _,
+        equation,
         corners,
         position,
         normal,
@@ -186,6 +190,9 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
         material: _,
         shadow: _,
     } = plane;
+    if let FieldOutcome::Read(equation) = equation {
+        return Some(of_equation(equation));
+    }
     match (corners, position, normal, distance, edges) {
         (FieldOutcome::Read(corners), ..) => Some(through(corners)),
         (_, FieldOutcome::Read(position), FieldOutcome::Read(normal), ..) => {
@@ -207,6 +214,39 @@ fn center_and_normal(plane: &Plane) -> Option<(Numbers, Numbers)> {
             ))
         }
         _ => None,
+    }
+}
+
+/// A point and the normal of the plane a·x + b·y + c·z + d = 0.
+fn of_equation([a, b, c, d]: &[Spanned<Real>; 4]) -> (Numbers, Numbers) {
+    let normal = Vec3::new(a.value.0, b.value.0, c.value.0);
+    // A normal of length 0 is left for the proof to refuse.
+    let point = unit(normal).map_or(Vec3::ZERO, |n| n * (-d.value.0 / length(normal)));
+    let ends = a.span.zip(c.span).map(|(first, last)| first.to(last));
+    (
+        Spanned {
+            value: point.to_array(),
+            span: d.span,
+        },
+        Spanned {
+            value: normal.to_array(),
+            span: ends,
+        },
+    )
+}
+
+/// Says which sign the last number of an equation has.
+fn note_sign(plane: &Plane, context: &mut Context<'_>) {
+    let FieldOutcome::Read([.., d]) = &plane.equation else {
+        return;
+    };
+    if let (Some(span), true) = (d.span, d.value.0 != 0.0) {
+        let message = || "a plane of four numbers is that of a·x + b·y + c·z + d = 0".to_owned();
+        let other = shortest(-d.value.0);
+        context.report(&codes::TWO_READINGS, span, message, |d| {
+            d.at(span, "on the other side of the origin in some programs")
+                .hint(format!("a·x + b·y + c·z = d is meant by `d: {other}`"))
+        });
     }
 }
 
@@ -241,4 +281,24 @@ fn at_distance(normal: &Spanned<Vector>, distance: &Spanned<Real>) -> (Numbers, 
         distance.map(|distance| (direction * distance.0).to_array()),
         normal.map(|vector| vector.0),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_of_the_equation_fulfils_it() {
+        for [a, b, c, d] in [
+            [0.0, 2.0, 0.0, 6.0],
+            [1.0, -2.0, 3.0, -40.0],
+            [1e200, 0.0, 0.0, 1e200],
+        ] {
+            let (point, normal) = of_equation(&[a, b, c, d].map(|x| Spanned::unwritten(Real(x))));
+            assert_eq!(normal.value, [a, b, c]);
+            let [x, y, z] = point.value;
+            let rest = a * x + b * y + c * z + d;
+            assert!(rest.abs() <= 1e-15 * d.abs(), "{point:?}");
+        }
+    }
 }

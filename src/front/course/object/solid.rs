@@ -11,7 +11,7 @@ use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::object::Clothes;
 use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::value::{Angles, Point, Text, Vector};
+use crate::front::course::value::{Angles, Point, Rotation, Text, Vector};
 use crate::ir;
 use crate::math::{Vec3, cos, shortest, sin, unit_scale};
 use crate::source::Span;
@@ -29,7 +29,7 @@ record! {
         /// The lengths along x, y and z, before it is turned.
         dimension: Spanned<Vector>, optional, keys!["dimension" "dimensions"];
         /// The angles in radians by which it is turned about its centre: first about x, then y, then z.
-        rotation: Spanned<Angles>, optional, keys!["rotation"];
+        rotation: Spanned<Rotation<Angles>>, optional, keys!["rotation"];
         /// An edge from the corner `position`.
         edges: [Spanned<Vector>; 2], optional, &[&["up", "side"]];
         /// The third edge; or its length alone, at right angles to the others, along `up` × `side`.
@@ -310,8 +310,11 @@ fn box_corners(cuboid: &Cuboid) -> Option<([Vec3; 8], Option<Span>)> {
         }
         (_, FieldOutcome::Read(center), FieldOutcome::Read(dimension), rotation) => {
             let turn = match rotation {
-                FieldOutcome::Read(rotation) => turned(rotation.value.0),
-                FieldOutcome::Absent => Vec3::AXES,
+                FieldOutcome::Read(Spanned {
+                    value: Rotation(Some(angles)),
+                    ..
+                }) => turned(angles.0),
+                FieldOutcome::Read(_) | FieldOutcome::Absent => Vec3::AXES,
                 FieldOutcome::Broken => return None,
             };
             let center = Vec3::from_array(center.value.0);

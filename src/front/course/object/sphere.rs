@@ -1,16 +1,17 @@
 //! The sphere, and the turn of its texture.
 
 use super::Lower;
-use crate::diag::codes;
+use crate::diag::{Severity, codes};
 use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::number::{Degrees, Positive, json_number};
 use crate::front::course::record::{FieldOutcome, keys, record};
 use crate::front::course::schema::Definitions;
-use crate::front::course::value::{Point, Text, Vector};
+use crate::front::course::value::{Point, Quaternion, Rotation, Text, Vector};
 use crate::ir;
-use crate::math::{Vec3, turned_to_z, unit};
+use crate::math::{Vec3, axis_and_angle, turned_about, turned_to_z, unit};
+use crate::source::Span;
 use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
@@ -26,7 +27,9 @@ record! {
         /// By how many degrees the texture is turned about its axis.
         angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"];
         /// The axis that the texture is turned about: its poles lie on it.
-        axis: Spanned<Vector>, optional, keys!["axis" "rotation" "rotationVector"];
+        axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"];
+        /// How the texture is turned, in place of an axis and an angle: a quaternion (x, y, z, w) of any length but 0.
+        quaternion: Spanned<Quaternion>, optional, keys!["quaternion"];
         /// What it is made of.
         material: Spanned<SharedValue<Material>>, required, keys!["material"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
@@ -84,14 +87,24 @@ impl Lower for Sphere {
             radius,
             angle,
             axis,
+            quaternion,
             material,
             shadow,
         } = self;
-        let axis = texture_axis(radius, axis, context);
+        let texture_from_world = match quaternion {
+            FieldOutcome::Read(quaternion) => {
+                let axis = axis.ok().and_then(|axis| axis.span);
+                note_two_turns(axis.or(angle.span), quaternion, context);
+                turned_by(quaternion.value)
+            }
+            FieldOutcome::Absent | FieldOutcome::Broken => {
+                turned_to_z(texture_axis(radius, axis, context), angle.value.0)
+            }
+        };
         let shape = ir::Shape::Sphere(ir::Sphere {
             center: position.value.0,
             radius: radius.value.length,
-            texture_from_world: turned_to_z(axis, angle.value.0),
+            texture_from_world,
         });
         let places = [("center", position.span), ("radius", radius.span)];
         if let Some(clothes) = lowering.clothe(kind, material, shadow, context) {
@@ -104,9 +117,20 @@ impl Lower for Sphere {
 /// noted.
 fn texture_axis(
     radius: &Spanned<Radius>,
-    axis: &FieldOutcome<Spanned<Vector>>,
+    axis: &FieldOutcome<Spanned<Rotation<Vector>>>,
     context: &mut Context<'_>,
 ) -> Vec3 {
+    let axis = match axis {
+        FieldOutcome::Read(Spanned {
+            value: Rotation(Some(axis)),
+            span,
+        }) => FieldOutcome::Read(Spanned {
+            value: *axis,
+            span: *span,
+        }),
+        FieldOutcome::Read(_) | FieldOutcome::Absent => FieldOutcome::Absent,
+        FieldOutcome::Broken => FieldOutcome::Broken,
+    };
     let mut no_effect = |axis: &Spanned<Vector>, message: &str| {
         axis.span.into_iter().for_each(|span| {
             context.report(
@@ -117,7 +141,7 @@ fn texture_axis(
             );
         });
     };
-    let chosen = match (axis, &radius.value.axis) {
+    let chosen = match (&axis, &radius.value.axis) {
         (FieldOutcome::Read(axis), inner) => {
             inner.iter().for_each(|inner| {
                 no_effect(
@@ -137,4 +161,63 @@ fn texture_axis(
         );
         Vec3::Z
     })
+}
+
+/// The rows of the rotation to directions of a texture that a quaternion q turns, v ↦ q·v·q*; none
+/// for the identity. With q = (s·n, w) it turns about n by an angle of cosine w² − s² and sine
+/// 2·w·s.
+fn turned_by(Quaternion(parts): Quaternion) -> Option<[[f64; 3]; 3]> {
+    let largest = parts
+        .iter()
+        .fold(0.0_f64, |most, part| most.max(part.abs()));
+    let [x, y, z, w] = parts.map(|part| part / largest);
+    let axis = unit(Vec3::new(x, y, z))?;
+    let s = axis.dot(Vec3::new(x, y, z));
+    let turns = [2.0 * w * s, w * w - s * s].map(|part| part / (w * w + s * s));
+    // By an axis and an angle, so that these say it again to the last bit.
+    let rows = Vec3::AXES.map(|v| turned_about(v, axis, turns).to_array());
+    let (pole, angle) = axis_and_angle(rows);
+    turned_to_z(unit(pole)?, angle)
+}
+
+/// Says that a quaternion counts alone, and that one of length 0 turns nothing.
+fn note_two_turns(
+    other: Option<Span>,
+    quaternion: &Spanned<Quaternion>,
+    context: &mut Context<'_>,
+) {
+    let mut no_effect = |span: Option<Span>, message: &str| {
+        if let Some(span) = span {
+            context.report(
+                &codes::NO_EFFECT,
+                span,
+                || message.to_owned(),
+                |d| d.at(span, "no effect").severity(Severity::Warning),
+            );
+        }
+    };
+    no_effect(other, "a texture is turned once: the `quaternion` counts");
+    if quaternion.value.0 == [0.0; 4] {
+        no_effect(quaternion.span, "a quaternion of length 0 turns nothing");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quaternion_turns_the_texture_as_it_turns_a_vector() {
+        let half = std::f64::consts::FRAC_PI_4;
+        // A quarter turn about z takes x to y, at any length of the quaternion.
+        for length in [1.0, -3.0, 1e200] {
+            let parts = [0.0, 0.0, libm::sin(half) * length, libm::cos(half) * length];
+            let [x, y, z] = turned_by(Quaternion(parts)).unwrap().map(Vec3::from_array);
+            let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-14;
+            assert!(is_near(x, Vec3::Y) && is_near(y, Vec3::NEG_X) && is_near(z, Vec3::Z));
+        }
+        for identity in [[0.0, 0.0, 0.0, 2.0], [0.0; 4]] {
+            assert_eq!(turned_by(Quaternion(identity)), None);
+        }
+    }
 }
