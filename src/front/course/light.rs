@@ -21,9 +21,9 @@ record! {
         /// What kind of light this is.
         kind: Spanned<LightKind>, optional, keys!["type"];
         /// Where the light stands.
-        position: Spanned<Point>, optional, keys!["position"];
+        position: Spanned<Point>, optional, keys!["position"], json "position";
         /// Its colour: red, green, blue; more than 1 is allowed. With a `file`, a factor of its candelas.
-        color: Spanned<Color>, optional, keys!["color"];
+        color: Spanned<Color>, optional, keys!["color"], json "color";
         /// The radius of the sphere that shines; 0 is a point. A larger one makes the edges of shadows soft.
         radius: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["radius" "size"];
         /// The direction from the scene to the sun; with a `file`, that in which the lamp points, its vertical angle 0.

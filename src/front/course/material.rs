@@ -16,9 +16,9 @@ record! {
     /// What a surface is made of: Phong's model with mirror and refraction.
     struct Material, "material" {
         /// The colour: red, green, blue.
-        color: Spanned<Color>, optional, keys!["color"];
+        color: Spanned<Color>, optional, keys!["color"], json "color";
         /// The file of a picture laid over the surface, which gives its colour; or `UV` for the colours (u, 0, v).
-        texture: Spanned<FileName>, optional, keys!["texture"];
+        texture: Spanned<FileName>, optional, keys!["texture"], json "texture";
         /// The file of a picture whose brightness is the height of the surface.
         bump: Spanned<FileName>, optional, keys!["bump"];
         /// The file of a picture of normals: red to the right, green upwards, blue away from the surface.
@@ -26,22 +26,22 @@ record! {
         /// The file of a picture whose red multiplies `ks`.
         specular_map: Spanned<FileName>, optional, keys!["specularMap"];
         /// The weight of the ambient light.
-        ka: Spanned<NonNegative>, required, keys!["ka"];
+        ka: Spanned<NonNegative>, required, keys!["ka"], json "ka";
         /// The weight of the diffuse light.
-        kd: Spanned<NonNegative>, required, keys!["kd"];
+        kd: Spanned<NonNegative>, required, keys!["kd"], json "kd";
         /// The weight of the highlight and of the mirror image; 1 beside a `specularMap` that replaces it.
-        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks"];
+        ks: Spanned<NonNegative>, unless("specular_map"), keys!["ks"], json "ks";
         /// The exponent of the highlight: the larger, the smaller and sharper.
-        n: Spanned<NonNegative>, required, keys!["n"];
+        n: Spanned<NonNegative>, required, keys!["n"], json "n";
         /// The weight of the light that passes through; 0 is opaque.
         kt: Spanned<NonNegative>, default(NonNegative(0.0)), keys!["kt" "refract"];
         /// The index of refraction, for instance 1.5 for glass; 0 is opaque.
-        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt"];
+        eta: Spanned<NonNegative>, default(NonNegative(1.0)), keys!["eta" "index" "nt"], json "nt";
         /// In some files what becomes of light: `refraction` is glass, a `kt` of 1 without `ka` and `kd`; `reflection`
         /// and `default` mirror by `ks`, though in those files `default` does not.
         kind: Spanned<Finish>, optional, keys!["type"];
         /// In some files whether it is glass: a `kt` of 1 without `ka` and `kd`, or none.
-        is_transparent: Spanned<bool>, optional, keys!["isTransparent"];
+        is_transparent: Spanned<bool>, optional, keys!["isTransparent"], json "isTransparent";
         /// How many rays sample a blurred mirror image; 1 is a sharp one.
         glossy_samples: Spanned<Count>, default(Count(1)), keys!["glossySamples"];
     }

@@ -22,7 +22,7 @@ A scene is a YAML file. This page is made from the declarations that the decoder
 Every key has one canonical spelling, and often others that are met in files; all are read. A key of more than one word
 stands for several keys that are given together. Keys that are not on this page are ignored with a warning, and are
 errors with `--strict`; only `comment` may stand in every map and means nothing. A list of one item is read as that item,
-and keys in any case of letters unless `--strict` is on. A scene may be JSON, which is YAML too. Lengths are in scene units; points, directions and colours are lists of three numbers.
+and keys in any case of letters unless `--strict` is on. A scene may be JSON, which is YAML too: the third column says which keys the course had in the years of JSON, and the programs written for them. Lengths are in scene units; points, directions and colours are lists of three numbers.
 ";
 
 const WRITES: &str = "a string takes all that is written to it";
@@ -57,18 +57,24 @@ pub fn page() -> String {
 fn section(title: &str, record: &Record, page: &mut String) {
     writeln!(page, "\n## {title}\n\n{}\n", record.doc.trim()).expect(WRITES);
     page.push_str(
-        "| key | other spellings | type | default | meaning |\n| --- | --- | --- | --- | --- |\n",
+        "| key | other spellings | in JSON files | type | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n",
     );
     for Field {
         name,
         doc,
         rows,
+        json,
         need,
         schema,
     } in record.fields
     {
         let (canonical, others) = rows.split_first().expect("a field has a row of keys");
         let others: Vec<_> = others.iter().map(|row| code(row)).collect();
+        let in_json = json.iter().map(|first| {
+            let row = rows.iter().find(|row| row[0] == *first);
+            code(row.expect("what JSON files have is a row of the field"))
+        });
+        let in_json = in_json.collect::<Vec<_>>().join("; ");
         let in_form = record.forms.iter().any(|form| form.contains(name));
         let default = match need {
             Need::Required => "required".to_owned(),
@@ -85,7 +91,7 @@ fn section(title: &str, record: &Record, page: &mut String) {
         let (key, others, meaning) = (code(canonical), others.join("; "), doc.trim());
         writeln!(
             page,
-            "| {key} | {others} | {kind} | {default} | {meaning} |"
+            "| {key} | {others} | {in_json} | {kind} | {default} | {meaning} |"
         )
         .expect(WRITES);
     }

@@ -2,7 +2,8 @@
 //! and its schema.
 //!
 //! A field is one value or a group of values that stand under a row of keys; it may have several
-//! rows, the canonical one first. Every key of a map is either used by one field or reported.
+//! rows, the canonical one first, and says which of them the course's JSON files have. Every key of
+//! a map is either used by one field or reported.
 
 use super::decode::{Context, MapEntry, Spanned, Value, ValueKey};
 use super::schema::Definitions;
@@ -27,6 +28,8 @@ pub(super) struct Field {
     pub(super) name: &'static str,
     pub(super) doc: &'static str,
     pub(super) rows: Rows,
+    /// The rows that the JSON files of the course have, by their first keys.
+    pub(super) json: &'static [&'static str],
     pub(super) need: Need,
     /// The schema of each value of the group.
     pub(super) schema: fn(&mut Definitions) -> Json,
@@ -55,7 +58,7 @@ macro_rules! record {
         struct $name:ident, $word:literal {
             $(
                 $(#[doc = $field_doc:literal])+
-                $field:ident: $type:ty, $need:ident $(($default:expr))?, $rows:expr;
+                $field:ident: $type:ty, $need:ident $(($default:expr))?, $rows:expr $(, json $json:literal)*;
             )+
         }
         $(forms { $([$($member:ident)+])+ })?
@@ -75,6 +78,7 @@ macro_rules! record {
                     name: stringify!($field),
                     doc: concat!($($field_doc),+),
                     rows: $rows,
+                    json: &[$($json),*],
                     need: record!(@need $need $type $(, $default)?),
                     schema: <$type as $crate::front::course::record::Slot>::schema,
                 }),+],

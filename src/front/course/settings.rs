@@ -24,7 +24,7 @@ record! {
         /// Where an editor finds the schema of this file; has no other meaning.
         _schema: Spanned<Text>, optional, keys!["$schema"];
         /// The camera of old files: it looks at the square from (0, 0, 0) to (400, 400, 0). Newer files have `Camera`.
-        eye: Spanned<Point>, optional, keys!["Eye"];
+        eye: Spanned<Point>, optional, keys!["Eye"], json "Eye";
         /// The camera: where it stands, what it looks at, and the image it makes.
         camera: Spanned<Camera>, optional, keys!["Camera"];
         /// The camera as three keys: where it stands, what it looks at, and the upward direction, whose length is the size of
@@ -35,20 +35,22 @@ record! {
         /// texture coordinates as the colours (u, 0, v).
         mode: Spanned<Mode>, default(Mode::Phong), keys!["RenderMode" "renderMode" "rendermode"];
         /// Whether surfaces hide lights from each other.
-        shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"];
+        shadows: Spanned<bool>, default(false), keys!["Shadows" "shadows" "shadow"], json "Shadows";
         /// Whether lights with a radius make the edges of shadows soft: `Off` makes points of them. There are shadows only
         /// with `Shadows`.
         soft_shadows: Spanned<Switch>, optional, keys!["SoftShadows"];
         /// How many mirror or refraction bounces follow the first hit.
-        depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"];
+        depth: Spanned<Natural>, default(Natural(0)), keys!["MaxRecursionDepth" "MaxIterations"],
+            json "MaxRecursionDepth";
         /// Whether there are mirror images: `false` is a `MaxRecursionDepth` of 0, `true` one of 2 unless it is written.
         reflections: Spanned<bool>, optional, keys!["Reflections"];
         /// How many rays a pixel takes along each of its sides.
         sampling: Spanned<SuperSampling>, default(SuperSampling::ONE),
-            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing" "AntiAlias" "AA"];
+            keys!["SuperSampling" "SuperSamplingFactor" "SuperSamplingRate" "AntiAliasing" "AntiAlias" "AA"],
+            json "SuperSamplingFactor", json "AntiAliasing";
         /// Width and height of the picture in pixels, beside an `Eye` or the three keys of a camera: the image begins at the
         /// origin and has one unit a pixel. A `Camera` has its own size.
-        image_size: Spanned<PictureSize>, optional, keys!["ImageSize" "Resolution"];
+        image_size: Spanned<PictureSize>, optional, keys!["ImageSize" "Resolution"], json "ImageSize";
         /// Width over height of the picture; has no effect, because pixels are square and the size is given.
         aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
         /// How many points of each soft light are asked; without it 16 if there is one.
@@ -58,9 +60,9 @@ record! {
         /// What surrounds the scene.
         environment: Spanned<Environment>, optional, keys!["Environment"];
         /// The lights.
-        lights: Spanned<Each<Light>>, default(Each::<Light>::none()), keys!["Lights"];
+        lights: Spanned<Each<Light>>, default(Each::<Light>::none()), keys!["Lights"], json "Lights";
         /// What there is to see.
-        objects: Spanned<Each<Object>>, default(Each::<Object>::none()), keys!["Objects"];
+        objects: Spanned<Each<Object>>, default(Each::<Object>::none()), keys!["Objects"], json "Objects";
     }
     lowered_forms { [camera] [eye] [look] }
 }

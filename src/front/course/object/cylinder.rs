@@ -16,25 +16,25 @@ record! {
     /// some files say it, its middle, a height, and how the x axis is turned to its own.
     struct Cylinder, "cylinder" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre of the base; beside `eulerAxis` the middle of the cylinder.
-        position: Spanned<Point>, optional, keys!["position" "center" "origin"];
+        position: Spanned<Point>, optional, keys!["position" "center" "origin"], json "origin";
         /// The direction from the base to the top, of any length but 0.
-        direction: Spanned<Vector>, optional, keys!["direction" "axis"];
+        direction: Spanned<Vector>, optional, keys!["direction" "axis"], json "axis";
         /// From base to top, above 0.
-        height: Spanned<Positive>, optional, keys!["height" "h" "length"];
+        height: Spanned<Positive>, optional, keys!["height" "h" "length"], json "height";
         /// What the x axis is turned about to be the axis of the cylinder.
         turn_axis: Spanned<Vector>, optional, keys!["eulerAxis"];
         /// By how much, in radians.
         turn_angle: Spanned<Real>, optional, keys!["eulerAngle"];
         /// The centre of a cap.
-        ends: [Spanned<Point>; 2], optional, &[&["p1", "p2"], &["center1", "center2"], &["end1", "end2"]];
+        ends: [Spanned<Point>; 2], optional, &[&["p1", "p2"], &["center1", "center2"], &["end1", "end2"]], json "p1";
         /// The radius, above 0.
-        radius: Spanned<Positive>, required, keys!["radius" "r"];
+        radius: Spanned<Positive>, required, keys!["radius" "r"], json "radius";
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [position direction height] [ends] [position height turn_axis turn_angle] }
 }

@@ -17,22 +17,23 @@ record! {
     /// A mesh from an OBJ or OFF file.
     struct Mesh, "mesh" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The file, beside the scene file or in a folder below it.
-        file: Spanned<FileName>, required, keys!["file" "filename" "fileName" "path" "modelPath" "name" "object"];
+        file: Spanned<FileName>, required, keys!["file" "filename" "fileName" "path" "modelPath" "name" "object"],
+            json "filename", json "object";
         /// Where the origin of the file's coordinates comes to; beside `fit`, where the middle of the mesh does.
-        position: Spanned<Point>, default(Point([0.0; 3])), keys!["position" "center"];
+        position: Spanned<Point>, default(Point([0.0; 3])), keys!["position" "center"], json "position";
         /// How many times larger it is than in its file, in all directions or along x, y and z.
-        scale: Spanned<Scale>, optional, keys!["scale" "scalefactor" "scaleFactor"];
+        scale: Spanned<Scale>, optional, keys!["scale" "scalefactor" "scaleFactor"], json "scale";
         /// A factor as `scale`, unless the mesh would hide the view or hold the eye in its box: then 1.5 times what `fit`
         /// says, with a warning. Better written `scale` or `fit`.
         size: Spanned<Real>, optional, keys!["size"];
         /// Half the longest side of the mesh in the scene, however large it is in its file; above 0.
         fit: Spanned<Radius>, optional, keys!["fit" "radius"];
         /// What it is made of; grey if nothing is said.
-        material: Spanned<SharedValue<Material>>, optional, keys!["material"];
+        material: Spanned<SharedValue<Material>>, optional, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [file] [file scale] [file size] [file fit] }
 }

@@ -21,23 +21,23 @@ record! {
     /// directions, or the four numbers of its equation.
     struct Plane, "plane" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The numbers of the equation a·x + b·y + c·z + d = 0 of its points. In some programs the sign of `d` is the other.
-        equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]];
+        equation: [Spanned<Real>; 4], optional, &[&["a", "b", "c", "d"]], json "a";
         /// One of three points of the plane.
-        corners: [Spanned<Point>; 3], optional, CORNERS;
+        corners: [Spanned<Point>; 3], optional, CORNERS, json "A";
         /// A point of the plane.
-        position: Spanned<Point>, optional, keys!["position" "center" "O" "a"];
+        position: Spanned<Point>, optional, keys!["position" "center" "O" "a"], json "position";
         /// The direction at right angles to the plane, of any length but 0.
-        normal: Spanned<Vector>, optional, keys!["normal" "N" "n"];
+        normal: Spanned<Vector>, optional, keys!["normal" "N" "n"], json "normal";
         /// The distance from the origin, along the normal.
         distance: Spanned<Real>, optional, keys!["distance" "d"];
         /// A direction in the plane.
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [position normal] [normal distance] [corners] [position edges] [equation] }
 }

@@ -33,17 +33,17 @@ record! {
     /// Four corners out of a plane span a curved patch; where edges cross there is a warning, and `--lenient` mends it.
     struct Quad, "quad" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// One of four corners, in order around it; a texture has its lower left at the first and its lower right at the second.
-        corners: [Spanned<Point>; 4], optional, FOUR_CORNERS;
+        corners: [Spanned<Point>; 4], optional, FOUR_CORNERS, json "vertex0", json "A", json "p0";
         /// The corner at the lower left of a texture.
         position: Spanned<Point>, optional, keys!["position" "corner"];
         /// An edge from that corner: `up` is the left one of a texture, `side` the lower one.
         edges: [Spanned<Vector>; 2], optional, EDGES;
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [corners] [position edges] }
 }

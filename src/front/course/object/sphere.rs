@@ -19,21 +19,22 @@ record! {
     /// A sphere.
     struct Sphere, "sphere" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, keys!["position" "center"];
+        position: Spanned<Point>, required, keys!["position" "center"], json "position";
         /// The radius, above 0; or a list of the radius and the axis that its texture is turned about.
-        radius: Spanned<Radius>, required, keys!["radius" "r"];
+        radius: Spanned<Radius>, required, keys!["radius" "r"], json "radius";
         /// By how many degrees the texture is turned about its axis.
-        angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"];
+        angle: Spanned<Degrees>, default(Degrees(0.0)), keys!["angle"], json "angle";
         /// The axis that the texture is turned about: its poles lie on it.
-        axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"];
+        axis: Spanned<Rotation<Vector>>, optional, keys!["axis" "rotation" "rotationVector"],
+            json "rotation", json "rotationVector";
         /// How the texture is turned, in place of an axis and an angle: a quaternion (x, y, z, w) of any length but 0.
         quaternion: Spanned<Quaternion>, optional, keys!["quaternion"];
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
 }
 

@@ -14,22 +14,22 @@ record! {
     /// A torus.
     struct Torus, "torus" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// The centre.
-        position: Spanned<Point>, required, keys!["position" "center"];
+        position: Spanned<Point>, required, keys!["position" "center"], json "position";
         /// From the centre to the middle of the tube, above 0.
         radius: Spanned<Positive>, optional, keys!["radius" "r"];
         /// The radius of the tube, above 0.
         alpha: Spanned<Positive>, optional, keys!["alpha"];
         /// The radii of the hole and of the whole torus. In some programs they are those of the tube and of the ring that
         /// it goes along, which are `alpha` and `radius`.
-        rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]];
+        rims: [Spanned<Positive>; 2], optional, &[&["innerRadius", "outerRadius"]], json "innerRadius";
         /// The direction of the axis, of any length but 0.
         direction: Spanned<Vector>, default(Vector([0.0, 0.0, 1.0])), keys!["direction" "axis" "normal" "N"];
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [radius alpha] [rims] }
 }

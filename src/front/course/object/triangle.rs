@@ -27,15 +27,16 @@ record! {
     /// A triangle, seen from both sides.
     struct Triangle, "triangle" {
         /// What kind of object this is.
-        kind: Spanned<Text>, required, keys!["type"];
+        kind: Spanned<Text>, required, keys!["type"], json "type";
         /// A corner.
-        corners: [Spanned<Point>; 3], required, CORNERS;
+        corners: [Spanned<Point>; 3], required, CORNERS, json "vertex0", json "A", json "p0";
         /// The place of a corner in the texture: (0, 0) is its lower left, (1, 1) its upper right.
-        uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]];
+        uvs: [Spanned<Uv>; 3], optional, &[&["uv0", "uv1", "uv2"], &["uv1", "uv2", "uv3"], &["UV1", "UV2", "UV3"]],
+            json "UV1";
         /// What it is made of.
-        material: Spanned<SharedValue<Material>>, required, keys!["material"];
+        material: Spanned<SharedValue<Material>>, required, keys!["material"], json "material";
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
-        shadow: Spanned<bool>, default(true), keys!["shadow"];
+        shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
 }
 
