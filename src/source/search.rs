@@ -196,6 +196,11 @@ impl<'a> Name<'a> {
         self.is_absolute || self.climbs > 0
     }
 
+    /// Whether it leads where nothing is looked for; the parent is looked in if it lends.
+    fn leads_above(&self, has_parent: bool) -> bool {
+        self.is_absolute || self.climbs > usize::from(has_parent)
+    }
+
     /// The name's tails, from the longest to its last component.
     fn tails(&self) -> impl Iterator<Item = PathBuf> {
         let first = self.components.len().saturating_sub(MAX_COMPONENTS);
@@ -246,7 +251,7 @@ impl Search {
             return Err(Missing::NoFolder);
         };
         let name = Name::new(written);
-        let mut outside = name.leads_out();
+        let mut outside = name.leads_above(self.has_parent);
         if let Some(opened) = self.climb(scene, &name) {
             let shown = scene.shown.join(written.trim().replace('\\', "/"));
             return Ok(Found::new(opened, shown, name.trimmed));

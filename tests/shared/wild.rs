@@ -43,13 +43,13 @@ const REFUSED: &[(&str, &str, &str)] = &[
     ),
     (
         "ganyuss_advanced_graphics/scene01-camera-ss-reflect-lights-shadows.yaml",
-        "RE002",
-        "its textures lie above its folder",
+        "RE001",
+        "its textures above its folder were not published with it",
     ),
     (
         "ganyuss_advanced_graphics/scene05.yaml",
-        "RE002",
-        "its texture lies above its folder",
+        "RE001",
+        "its texture above its folder was not published with it",
     ),
 ];
 
