@@ -62,6 +62,8 @@ pub struct Diagnostic {
     pub pointer: Option<String>,
     /// What the glTF validator of Khronos calls it: one of the aliases of the code.
     pub alias: Option<&'static str>,
+    /// The culprit of the finding that most likely caused this one, and is shown before it.
+    pub cause: Option<Span>,
 }
 
 impl Diagnostic {
@@ -77,6 +79,7 @@ impl Diagnostic {
             hints: Vec::new(),
             pointer: None,
             alias: None,
+            cause: None,
         }
     }
 
@@ -107,6 +110,16 @@ impl Diagnostic {
             text: text.into(),
         }));
         self
+    }
+
+    /// Marks the culprit of the finding that most likely caused this one; without a span nothing
+    /// happens.
+    #[must_use]
+    pub fn because(self, cause: Option<Span>, text: impl Into<String>) -> Self {
+        Self {
+            cause: cause.or(self.cause),
+            ..self.also(cause, text)
+        }
     }
 
     /// Adds advice.

@@ -69,13 +69,13 @@ impl Sink {
         self.dropped
     }
 
-    /// Sorts the findings by place; those without one come last, in the order they were made.
+    /// Sorts the findings by place, each after its cause; those without a place come last, in the
+    /// order they were made.
     pub fn sort(&mut self) {
         self.kept.sort_by_key(|d| {
-            (
-                d.primary.is_none(),
-                d.primary.as_ref().map(|label| label.span),
-            )
+            let place = d.primary.as_ref().map(|label| label.span);
+            let is_consequence = d.cause > place;
+            (place.is_none(), place.max(d.cause), is_consequence)
         });
     }
 }

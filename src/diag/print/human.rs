@@ -57,6 +57,7 @@ fn report<'a>(fold: &Fold<'a>, map: &'a SourceMap) -> Vec<Group<'a>> {
         hints,
         pointer,
         alias: _,
+        cause: _,
     } = diagnostic;
     let title = level(*severity).primary_title(clean(message)).id(code.id);
     let mut first = Group::with_title(title).elements(marks(diagnostic, map));

@@ -62,6 +62,7 @@ pub(super) fn finding(name: &str, diagnostic: &Diagnostic, map: &SourceMap) -> S
         hints,
         pointer,
         alias,
+        cause: _,
     } = diagnostic;
     let finding = Finding {
         code: code.id,

@@ -182,6 +182,8 @@ pub(super) struct Context<'a> {
     pub(super) spellings: Vec<(&'a str, &'static str, Span)>,
     /// The first key in another case of letters.
     pub(super) other_case: Option<(&'a str, &'static str, Span)>,
+    /// Unknown keys, and the keys that were probably meant.
+    pub(super) slips: Vec<(&'static str, Span)>,
     sink: &'a mut Sink,
     /// The shared values decoded so far.
     decoded: BTreeSet<NodeId>,
@@ -210,6 +212,7 @@ impl<'a> Context<'a> {
             entries: Vec::new(),
             spellings: Vec::new(),
             other_case: None,
+            slips: Vec::new(),
             sink,
             decoded: BTreeSet::new(),
             said: BTreeSet::new(),
@@ -290,6 +293,13 @@ impl<'a> Context<'a> {
         if self.other_case.is_none() {
             self.other_case = Some((written, meant, self.tree.span(key)));
         }
+    }
+
+    /// The last unknown key from the slip of this index on for which one of these was meant.
+    pub(super) fn slip_for(&self, keys: &[&str], from: usize) -> Option<Span> {
+        let slips = self.slips[from..].iter().rev();
+        let mut meant = slips.filter(|(meant, _)| keys.contains(meant));
+        meant.next().map(|(_, span)| *span)
     }
 
     /// The severity of what is left unread: an error if the user asked for strictness.

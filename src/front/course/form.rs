@@ -10,11 +10,12 @@ use crate::source::Span;
 const ROTATION: &str = "rotation";
 
 /// Whether the fields that are there make up one of the forms of the record; if not, that is
-/// reported.
+/// reported; `slips` is the index of the first slip in the map.
 pub(super) fn check(
     record: &Record,
     head: Span,
     is_there: impl Fn(usize) -> bool,
+    slips: usize,
     context: &mut Context<'_>,
 ) -> bool {
     let Record {
@@ -73,13 +74,20 @@ pub(super) fn check(
             format!("the {word} has no {}", missing.join(" or ")),
         ),
     };
+    let meant = record.fields.iter().filter(|field| in_forms(field));
+    let meant = meant.flat_map(|field| field.rows.iter().copied().flatten().copied());
+    let cause = context.slip_for(&meant.collect::<Vec<_>>(), slips);
     let ways: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
     let hint = format!("a {word} takes {}", ways.join("; or "));
     context.report(
         code,
         head,
         || message,
-        |d| d.at(head, format!("this {word}")).hint(hint),
+        |d| {
+            d.at(head, format!("this {word}"))
+                .because(cause, "perhaps this is it")
+                .hint(hint)
+        },
     );
     false
 }

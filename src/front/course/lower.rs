@@ -235,8 +235,11 @@ impl Lowering {
 fn no_camera(context: &mut Context<'_>) {
     let span = context.head(context.tree.root());
     let message = || "the scene has no `Camera`".to_owned();
+    let cause = context.slip_for(&["Camera", "Eye"], 0);
+    let cause = cause.filter(|cause| *cause != span);
     context.report(&codes::NO_CAMERA, span, message, |d| {
         d.at(span, "this scene")
+            .because(cause, "perhaps this is it")
             .hint("add `Camera:` with `eye`, `center`, `up` and `viewSize`; old files have `Eye:`")
     });
 }

@@ -24,6 +24,7 @@ mod settings;
 mod spelling;
 mod syntax;
 mod texture;
+mod turn;
 mod value;
 
 pub use lower::{UnfinishedScene, lower};

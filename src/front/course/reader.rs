@@ -103,7 +103,7 @@ impl Reader {
     /// Reports what was left unread and what is missing. False if the map has none of the forms it
     /// may have.
     pub(super) fn close(self, context: &mut Context<'_>) -> bool {
-        let mut partial = 0_u32;
+        let (mut partial, slips) = (0_u32, context.slips.len());
         for at in self.from..context.entries.len() {
             let entry = context.entries[at];
             if !entry.claimed && entry.key != COMMENT {
@@ -131,7 +131,8 @@ impl Reader {
             .flat_map(|(_, field)| field.rows[0].iter().copied())
             .collect();
         if !missing.is_empty() {
-            missing_keys(self.record.word, self.head, &missing, context);
+            let cause = context.slip_for(&missing, slips);
+            missing_keys(self.record.word, self.head, &missing, cause, context);
         }
         // Which form was meant is unclear while a group is incomplete, which was reported.
         partial != 0
@@ -139,6 +140,7 @@ impl Reader {
                 self.record,
                 self.head,
                 |at| self.rows[at].is_some(),
+                slips,
                 context,
             )
     }
@@ -214,16 +216,24 @@ impl Reader {
             entry.key,
             open.flat_map(|field| field.rows.iter().copied().flatten().copied()),
         );
+        context.slips.extend(meant.map(|meant| (meant, span)));
         unknown_key(word, meant, entry, context);
         0
     }
 }
 
 /// Reports keys that have to be there.
-pub(super) fn missing_keys(word: &str, head: Span, missing: &[&str], context: &mut Context<'_>) {
+pub(super) fn missing_keys(
+    word: &str,
+    head: Span,
+    missing: &[&str],
+    cause: Option<Span>,
+    context: &mut Context<'_>,
+) {
     let message = || format!("the {word} has no {}", list(missing.iter().copied()));
     context.report(&codes::MISSING_KEY, head, message, |d| {
         d.at(head, format!("this {word}"))
+            .because(cause, "perhaps this is it")
     });
 }
 

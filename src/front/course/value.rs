@@ -4,7 +4,8 @@ use super::decode::{Context, Value, describe};
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
-use crate::diag::{Severity, clip, codes};
+use crate::diag::clip;
+use crate::diag::codes;
 use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
@@ -134,62 +135,6 @@ spread! {
 spread! {
     /// How many times larger along x, y and z, or in all directions.
     Scale, { "type": "number", "minimum": -1e60, "maximum": 1e60 }
-}
-
-/// How something is turned: a quaternion (x, y, z, w) of any length.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Quaternion(pub(super) [f64; 4]);
-
-impl Value for Quaternion {
-    const IS_LIST: bool = true;
-
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        const WHAT: &str = "a list of four numbers";
-        tuple(node, WHAT, context, |node, context| {
-            number(node, WHAT, context)
-        })
-        .map(Self)
-    }
-
-    fn schema(_: &mut Definitions) -> Json {
-        json!({ "type": "array", "items": { "type": "number" }, "minItems": 4, "maxItems": 4 })
-    }
-}
-
-/// A rotation; none where `--lenient` leaves out one that is written in an unknown way.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rotation<T>(pub(super) Option<T>);
-
-impl<T: Value> Value for Rotation<T> {
-    const IS_LIST: bool = T::IS_LIST;
-
-    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
-        let tree = context.tree;
-        let is_known = tree.is_list(node)
-            && tree.items(node).take(4).count() == 3
-            && tree
-                .items(node)
-                .all(|item| plain_number(item, context).is_some());
-        if is_known || !context.options.lenient {
-            return T::decode(node, context).map(|rotation| Self(Some(rotation)));
-        }
-        let (key, span) = (context.key, tree.span(node));
-        let message = || format!("`{}` is written in an unknown way", clip(key.text));
-        context.report(&codes::NO_EFFECT, span, message, |d| {
-            d.at(span, "left out: nothing is turned")
-                .severity(Severity::Warning)
-                .hint("here it is a list of three numbers")
-        });
-        Some(Self(None))
-    }
-
-    fn schema(definitions: &mut Definitions) -> Json {
-        T::schema(definitions)
-    }
-
-    fn json(&self) -> Json {
-        self.0.as_ref().map_or(Json::Null, Value::json)
-    }
 }
 
 /// A place in a texture.

@@ -5,7 +5,8 @@ use super::solid::turned;
 use crate::front::course::decode::{Context, Spanned};
 use crate::front::course::lower::Lowering;
 use crate::front::course::record::{keys, record};
-use crate::front::course::value::{Angles, FileName, Point, Rotation, Scale, Text};
+use crate::front::course::turn::Rotation;
+use crate::front::course::value::{Angles, FileName, Point, Scale, Text};
 use crate::math::Vec3;
 
 record! {

@@ -97,7 +97,7 @@ impl Value for Object {
             return context.expected(node, "a map");
         }
         let Some(kind) = look_up("type", node, context) else {
-            missing_keys("object", context.head(node), &["type"], context);
+            missing_keys("object", context.head(node), &["type"], None, context);
             return None;
         };
         let span = context.tree.span(kind);
