@@ -241,6 +241,7 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &m
     let span = context.tree.span(entry.key_node);
     let severity = context.unread();
     let better = meant.map(|meant| context.in_its_quotes(entry.key_node, meant));
+    let looks_like_number = entry.key.starts_with(|c: char| c.is_ascii_digit());
     context.report(
         &codes::UNKNOWN_KEY,
         span,
@@ -250,6 +251,9 @@ fn unknown_key(word: &str, meant: Option<&str>, entry: MapEntry<'_>, context: &m
             match meant.zip(better) {
                 Some((meant, better)) => {
                     d.replace(format!("did you mean `{meant}`?"), span, better)
+                }
+                None if looks_like_number => {
+                    d.hint("a comma begins the next key: decimals stand behind a point, lists in `[` and `]`")
                 }
                 None => d,
             }

@@ -55,6 +55,8 @@ record! {
         aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
         /// How many points of each soft light are asked; without it 16 if there is one.
         light_samples: Spanned<Count>, optional, keys!["LightSamples"];
+        /// Whether light falls in steps and outlines are dark, as in a cartoon; not followed, with a warning.
+        toon: Spanned<bool>, optional, keys!["Toon"], json "Toon";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// What surrounds the scene.
@@ -175,6 +177,7 @@ impl Lowering {
             Spanned::unwritten(Count(1))
         };
         note_unused(scene, context);
+        note_toon(scene, context);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
@@ -359,6 +362,20 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
                 d.at(span, "no effect").also(mode.span, "the mode")
             });
         }
+    }
+}
+
+/// Says that there is no toon shading.
+fn note_toon(scene: &Scene, context: &mut Context<'_>) {
+    if let FieldOutcome::Read(Spanned {
+        value: true,
+        span: Some(span),
+    }) = scene.toon
+    {
+        let message = || "toon shading is not there: the picture has Phong's".to_owned();
+        context.report(&codes::NO_EFFECT, span, message, |d| {
+            d.at(span, "not followed").severity(Severity::Warning)
+        });
     }
 }
 

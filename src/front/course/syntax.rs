@@ -43,7 +43,11 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
             say(&codes::NESTED_TOO_DEEP, message, span, "too deep here")
                 .hint("a scene needs a depth of 6")
         }
-        Mistake::Unclosed { bracket, runs_into } => unclosed(bracket, runs_into),
+        Mistake::Unclosed {
+            bracket,
+            runs_into,
+            comment,
+        } => unclosed(bracket, runs_into, comment),
         Mistake::DuplicateKey {
             key,
             first,
@@ -114,7 +118,7 @@ fn duplicate_key(key: &str, first: Span, second: Span, is_same: bool) -> Diagnos
     }
 }
 
-fn unclosed(bracket: Span, runs_into: Option<Span>) -> Diagnostic {
+fn unclosed(bracket: Span, runs_into: Option<Span>, comment: Option<Span>) -> Diagnostic {
     say(
         &codes::UNCLOSED,
         "a bracket is never closed",
@@ -122,5 +126,6 @@ fn unclosed(bracket: Span, runs_into: Option<Span>) -> Diagnostic {
         "opened here",
     )
     .also(runs_into, "what follows was taken to be inside")
+    .also(comment, "`#` starts a comment, up to the end of the line")
     .hint("close it with `]` or `}` after its last item")
 }

@@ -1,6 +1,7 @@
 //! The other types of the format: vectors and colours, sizes, truth values, words.
 
 use super::decode::{Context, Value, describe};
+use super::meant::listed;
 use super::number::{in_radians, is_number, json_number, number, plain_number};
 use super::schema::Definitions;
 use super::spelling::{list, nearest};
@@ -31,8 +32,13 @@ pub(super) fn tuple<T, const N: usize>(
             format!("{count}")
         };
         let message = || format!("`{}` must have {N} numbers, not {found}", clip(key.text));
+        let meant = listed(tree.written(node), N).filter(|_| count == 1);
         context.report(&codes::WRONG_LENGTH, span, message, |d| {
-            d.at(span, format!("{found} here"))
+            let finding = d.at(span, format!("{found} here"));
+            match meant {
+                Some(list) => finding.replace("commas stand between them", span, list),
+                None => finding,
+            }
         });
         return None;
     }

@@ -97,7 +97,14 @@ impl Value for Object {
             return context.expected(node, "a map");
         }
         let Some(kind) = look_up("type", node, context) else {
-            missing_keys("object", context.head(node), &["type"], None, context);
+            let tree = context.tree;
+            let is_slip = |key: &NodeId| {
+                let word = tree.text(*key);
+                word.is_some_and(|word| nearest(word, ["type"].into_iter()).is_some())
+            };
+            let slip = tree.pairs(node).map(|(key, _)| key).find(is_slip);
+            let slip = slip.map(|key| tree.span(key));
+            missing_keys("object", context.head(node), &["type"], slip, context);
             return None;
         };
         let span = context.tree.span(kind);

@@ -24,7 +24,11 @@ pub(super) fn syntax(
         tree.slice(span.start - tree.base..to_u32(at))
             .is_some_and(|text| text.contains('\n'))
     };
-    let unclosed = |bracket, runs_into| Mistake::Unclosed { bracket, runs_into };
+    let unclosed = |bracket: Span, runs_into| Mistake::Unclosed {
+        bracket,
+        runs_into,
+        comment: comment_after(tree, bracket),
+    };
     match bracket {
         _ if matches!(kind, ErrorKind::RecursionLimitExceeded) => Mistake::TooDeep { span: here },
         _ if matches!(kind, ErrorKind::UnclosedFlowCollection { .. }) => unclosed(here, None),
@@ -55,6 +59,17 @@ fn character_at(tree: &Tree<'_>, at: usize) -> Span {
         .filter(|next| *next != '\n');
     let end = at + next.map_or(0, char::len_utf8);
     Span::new(tree.file, to_u32(at) + tree.base, to_u32(end) + tree.base)
+}
+
+/// The comment that begins in the line of a bracket, if one does: it may hide the other bracket.
+fn comment_after(tree: &Tree<'_>, bracket: Span) -> Option<Span> {
+    let from = (bracket.start - tree.base) as usize;
+    let line = tree.source.get(from..)?.lines().next()?;
+    let hash = line.find(" #")? + 1;
+    let is_quoted = line[..hash].matches(['"', '\'']).count() % 2 == 1;
+    let start = bracket.start + to_u32(hash);
+    let end = bracket.start + to_u32(line.trim_end().len());
+    (!is_quoted).then(|| Span::new(tree.file, start, end))
 }
 
 fn ends_early(kind: &ErrorKind) -> bool {
@@ -98,6 +113,15 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
             "a line that is no `key: value`",
             "no colon follows this",
             "write a colon and a space after the key",
+        )
+    } else if matches!(
+        kind,
+        ErrorKind::ExpectedFlowMappingSeparator | ErrorKind::ExpectedFlowSequenceSeparator
+    ) {
+        say(
+            "a comma is missing",
+            "before this",
+            "what stands in brackets is separated by commas",
         )
     } else if matches!(kind, ErrorKind::MisplacedFlowCollectionEnd) {
         say(

@@ -62,6 +62,8 @@ pub enum Mistake<'t> {
         bracket: Span,
         /// What was taken to be inside.
         runs_into: Option<Span>,
+        /// A comment in its line, which may hide the other bracket.
+        comment: Option<Span>,
     },
     /// A key stands twice in its map.
     DuplicateKey {

@@ -15,10 +15,17 @@ pub(super) fn find(tree: &Tree<'_>, at: usize, kind: &ErrorKind) -> Option<Mista
     );
     if is_tab {
         text.tab(at)
+    } else if matches!(kind, ErrorKind::SimpleKeyExpected) {
+        text.colon(at)
+    } else if matches!(
+        kind,
+        ErrorKind::UnclosedQuotedScalar | ErrorKind::InvalidQuotedScalarIndent
+    ) {
+        text.quote(at)
     } else if text.after(at).starts_with('"') {
         text.backslash(at)
     } else {
-        text.indentation(at)
+        text.dash(at).or_else(|| text.indentation(at))
     }
 }
 
@@ -62,6 +69,81 @@ impl Text<'_, '_> {
         ))
     }
 
+    /// A line without a colon, or without the space after it.
+    fn colon(&self, at: usize) -> Option<Mistake<'static>> {
+        let line = self.line(at);
+        let words = self.after(line).lines().next()?;
+        let first = line + words.len() - words.trim_start_matches([' ', '-']).len();
+        let words = words.trim_start_matches([' ', '-']).trim_end();
+        let end = words.find(|c: char| !c.is_alphanumeric())?;
+        let (key, rest) = words.split_at(end);
+        let value = rest.trim_start_matches([' ', ':', '=']);
+        let between = &rest[..rest.len() - value.len()];
+        let message = match between.trim() {
+            ":" => "no space after a colon",
+            "=" => "`=` in place of a colon",
+            "" => "a line that is no `key: value`",
+            _ => return None,
+        };
+        let span = self.span(first, first + key.len() + between.len());
+        Some(slip(
+            message.to_owned(),
+            String::new(),
+            "write a colon and a space after the key",
+            span,
+            (span, format!("{key}: ")),
+        ))
+    }
+
+    /// A quote that is never closed: the last one before a place that opens and does not close in its
+    /// line.
+    fn quote(&self, at: usize) -> Option<Mistake<'static>> {
+        let mut end = self.line(at);
+        while end > 0 {
+            let start = self.line(end - 1);
+            let line = self.tree.source.get(start..end)?.trim_end();
+            for quote in ['"', '\''] {
+                let open = line
+                    .rfind(quote)
+                    .filter(|_| line.matches(quote).count() % 2 == 1);
+                if let Some(open) = open {
+                    let is_last = !line[open..].contains([',', '}', ']', '#']);
+                    let close = self.span(start + line.len(), start + line.len());
+                    return Some(Mistake::Syntax {
+                        message: "a quote is never closed".to_owned(),
+                        label: "opened here".to_owned(),
+                        hint: "close it with the same kind of quote",
+                        replacement: is_last.then(|| Box::new((close, quote.to_string()))),
+                        span: self.span(start + open, start + open + 1),
+                        bracket: None,
+                    });
+                }
+            }
+            end = start;
+        }
+        None
+    }
+
+    /// A dash without a space, in the line before.
+    fn dash(&self, at: usize) -> Option<Mistake<'static>> {
+        let line = self.line(at);
+        let start = self.line(line.checked_sub(1)?);
+        let before = self.tree.source.get(start..line)?;
+        let words = before.trim_start();
+        let is_dash = words.strip_prefix('-')?.starts_with(char::is_alphabetic);
+        let dash = start + before.len() - words.len();
+        let span = self.span(dash, dash + 1);
+        is_dash.then(|| {
+            slip(
+                "no space after a dash".to_owned(),
+                "begins no item".to_owned(),
+                "each item of a list begins with a dash and a space",
+                span,
+                (span, "- ".to_owned()),
+            )
+        })
+    }
+
     /// A line that is indented a little more or less than the one before, which it seems to belong to.
     fn indentation(&self, at: usize) -> Option<Mistake<'static>> {
         let line = self.line(at);
@@ -82,7 +164,10 @@ impl Text<'_, '_> {
             format!("{spaces} spaces before this"),
             "indent lines that belong together alike",
             self.span(first, first + key.len()),
-            (self.span(line, first), " ".repeat(wanted)),
+            (
+                self.span(line, first + key.len()),
+                format!("{}{key}", " ".repeat(wanted)),
+            ),
         ))
     }
 
