@@ -13,6 +13,7 @@ mod assets;
 mod corpus;
 #[path = "../small/laws.rs"]
 mod every;
+mod fates;
 mod figures;
 mod gltf;
 mod laws;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
     let suites = [
         assets::trials(),
         corpus::trials(),
+        fates::trials(),
         figures::trials(),
         gltf::trials(),
         laws::trials(),
