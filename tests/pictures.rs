@@ -69,6 +69,7 @@ fn earth() -> Scene {
             supersampling: 1,
             pattern: ir::Pattern::Grid,
             light_samples: 1,
+            toon: false,
         },
         lights: vec![ir::Light::Point(ir::PointLight {
             position: [0.0; 3],

@@ -1,5 +1,6 @@
 //! The settings: what a pixel shows and how much work goes into it.
 
+use super::standard::is_default;
 use arbitrary::Arbitrary;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,10 @@ pub struct Settings {
     #[serde(default = "one", skip_serializing_if = "is_one")]
     #[schemars(range(min = 1))]
     pub light_samples: u32,
+    /// Whether Phong's terms of the first hit fall in steps, and what the viewer grazes is dark, as
+    /// in a cartoon; of no meaning in other modes.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub toon: bool,
 }
 
 fn one() -> u32 {

@@ -4,13 +4,14 @@ use crate::diag::{clip, clip_words};
 use crate::ir::Settings;
 
 /// The names of the settings in the text form.
-const NAMES: [&str; 6] = [
+const NAMES: [&str; 7] = [
     "mode",
     "shadows",
     "maxDepth",
     "supersampling",
     "pattern",
     "lightSamples",
+    "toon",
 ];
 
 /// Replaces one value, by the name that the text form gives it: a field of the settings, or of the
@@ -75,6 +76,7 @@ mod tests {
             supersampling: 1,
             pattern: Pattern::Jitter,
             light_samples: 2,
+            toon: true,
         }
     }
 

@@ -38,7 +38,7 @@ impl Features {
     pub const LIGHT: Self = Self(1 << 2);
     /// The highlights of lights.
     pub const HIGHLIGHT: Self = Self(1 << 3);
-    /// Gooch's shading.
+    /// Gooch's shading, and cartoons.
     pub const GOOCH: Self = Self(1 << 4);
     /// Shadow rays.
     pub const SHADOW: Self = Self(1 << 5);

@@ -212,7 +212,8 @@ impl Findings<'_> {
         );
         add(Features::LIGHT, self.is_phong() && lit);
         add(Features::HIGHLIGHT, self.is_shaded() && self.any(shines));
-        add(Features::GOOCH, matches!(self.mode(), Mode::Gooch(_)));
+        let is_drawing = matches!(self.mode(), Mode::Gooch(_)) || self.facts.scene.settings().toon;
+        add(Features::GOOCH, is_drawing);
         add(Features::SHADOW, self.casts_shadows());
         add(Features::BOUNCE, self.max_depth > 0);
         add(Features::SAMPLED, self.is_soft() || self.is_glossy());

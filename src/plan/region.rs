@@ -146,6 +146,8 @@ impl Findings<'_> {
                     && !matches!(shape, Shape::Quad(_))
                     && self.visibility.sides[surface] != Sides::BOTH
             }
+            // The outlines of a cartoon lie within a surface.
+            Mode::Phong if self.facts.scene.settings().toon => false,
             Mode::Phong => {
                 let lights = self.facts.sources.iter().zip(&self.lights.plans);
                 let mut direct = lights.filter(|(_, plan)| plan.direct);

@@ -26,6 +26,8 @@ pub struct Settings {
     pub pattern: Pattern,
     /// Points of each soft light.
     pub light_samples: NonZeroU32,
+    /// Whether Phong's terms of the first hit fall in steps, as in a cartoon; only in his mode.
+    pub toon: bool,
 }
 
 /// The position of each sub-sample in its cell of the pixel.
@@ -96,6 +98,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
         supersampling,
         pattern,
         light_samples,
+        toon,
     } = settings;
     let mode = proven_mode(mode, check);
     let supersampling = check.count(
@@ -127,6 +130,7 @@ pub(super) fn settings(settings: &ir::Settings, check: &mut Check<'_>) -> Option
             ir::Pattern::Random => Pattern::Random,
         },
         light_samples: light_samples?,
+        toon: *toon && matches!(settings.mode, ir::Mode::Phong),
     })
 }
 
@@ -241,6 +245,7 @@ impl SampleCounts {
             shadows: _,
             pattern: _,
             light_samples,
+            toon: _,
         } = scene.settings;
         let ir::Lens { radius, samples } = scene.camera.lens;
         let is_soft = scene

@@ -164,6 +164,7 @@ fn settings() -> impl Strategy<Value = Settings> {
             supersampling,
             pattern,
             light_samples,
+            toon: false,
         },
     )
 }

@@ -40,6 +40,7 @@ pub(crate) fn scene(shapes: impl IntoIterator<Item = ir::Shape>) -> ir::Scene {
             supersampling: 1,
             pattern: ir::Pattern::Grid,
             light_samples: 1,
+            toon: false,
         },
         images: Vec::new(),
         textures: Vec::new(),

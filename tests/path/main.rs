@@ -36,6 +36,7 @@ fn scene(samples: u32) -> Scene {
         supersampling: 1,
         pattern: Pattern::Grid,
         light_samples: 1,
+        toon: false,
     };
     let camera = Camera {
         eye: [0.0, 0.0, 4.0],

@@ -96,6 +96,7 @@ impl Dice {
         for surface in &mut scene.surfaces {
             surface.casts_no_shadow = self.chance(5);
         }
+        scene.settings.toon = self.chance(6);
         scene
     }
 
@@ -161,6 +162,7 @@ impl Dice {
                 ir::Pattern::Random,
             ]),
             light_samples: self.pick(&[1, 1, 3]),
+            toon: false,
         }
     }
 

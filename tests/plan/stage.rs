@@ -49,6 +49,7 @@ pub(super) fn stage() -> Scene {
             supersampling: 1,
             pattern: ir::Pattern::Grid,
             light_samples: 1,
+            toon: false,
         },
         lights: vec![light([3.0, 4.0, 12.0])],
         images: Vec::new(),

@@ -134,6 +134,7 @@ impl Text {
             supersampling,
             pattern,
             light_samples,
+            toon,
         } = settings;
         match mode {
             Mode::Phong => self.line(0, "RenderMode: phong"),
@@ -147,6 +148,9 @@ impl Text {
                     self.number(key, *value, 2);
                 }
             }
+        }
+        if *toon {
+            self.line(0, "Toon: true");
         }
         self.line(0, &format!("Shadows: {shadows}"));
         self.line(0, &format!("MaxRecursionDepth: {max_depth}"));

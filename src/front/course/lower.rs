@@ -108,6 +108,7 @@ impl Lowering {
             supersampling: 1,
             pattern: ir::Pattern::Grid,
             light_samples: 1,
+            toon: false,
         };
         let scene = ir::Scene::new(camera::placeholder(), settings);
         let (shared, files, sizings) = (BTreeMap::new(), Files::default(), Vec::new());

@@ -55,8 +55,9 @@ record! {
         aspect_ratio: Spanned<Real>, optional, keys!["AspectRatio"];
         /// How many points of each soft light are asked; without it 16 if there is one.
         light_samples: Spanned<Count>, optional, keys!["LightSamples"];
-        /// Whether light falls in steps and outlines are dark, as in a cartoon; not followed, with a warning.
-        toon: Spanned<bool>, optional, keys!["Toon"], json "Toon";
+        /// Whether `phong` shows a cartoon: N·L in the steps 0, 0.25, 0.3 and 1, highlights whole where R·V is at least 0.9,
+        /// dark outlines; on what is seen directly.
+        toon: Spanned<bool>, default(false), keys!["Toon"], json "Toon";
         /// The colours of `RenderMode: gooch`.
         gooch: Spanned<Gooch>, optional, keys!["GoochParameters"];
         /// What surrounds the scene.
@@ -171,13 +172,8 @@ impl Lowering {
             light_samples,
             ..
         } = scene;
-        let light_samples = if let FieldOutcome::Read(count) = light_samples {
-            *count
-        } else {
-            Spanned::unwritten(Count(1))
-        };
+        let light_samples = light_samples.ok().unwrap_or(Spanned::unwritten(Count(1)));
         note_unused(scene, context);
-        note_toon(scene, context);
         self.scene.settings = ir::Settings {
             mode: self.mode(mode.value, gooch, context),
             shadows: shadows.value,
@@ -185,6 +181,7 @@ impl Lowering {
             supersampling: sampling.value.factor.0,
             pattern: sampling.value.pattern,
             light_samples: light_samples.value.0,
+            toon: scene.toon.value,
         };
         self.origin(Noun::Settings, 0, Field::Mode, mode.span);
         self.origin(Noun::Settings, 0, Field::MaxDepth, depth.span);
@@ -282,7 +279,8 @@ impl Lowering {
             color: [1.0; 3],
             radius: 0.0,
         })];
-        (self.scene.settings.shadows, self.scene.settings.max_depth) = (false, 0);
+        let settings = &mut self.scene.settings;
+        (settings.shadows, settings.toon, settings.max_depth) = (false, false, 0);
     }
 
     fn mode(
@@ -344,6 +342,7 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
     let rays = sampling.value.factor.0;
     for (is_asked, span, what) in [
         (shadows.value, shadows.span, "shadows"),
+        (scene.toon.value, scene.toon.span, "cartoon"),
         (depth.value.0 > 0, depth.span, "mirror images"),
         (
             reflections.is_some_and(|asked| asked.value),
@@ -362,20 +361,6 @@ fn note_unused(scene: &Scene, context: &mut Context<'_>) {
                 d.at(span, "no effect").also(mode.span, "the mode")
             });
         }
-    }
-}
-
-/// Says that there is no toon shading.
-fn note_toon(scene: &Scene, context: &mut Context<'_>) {
-    if let FieldOutcome::Read(Spanned {
-        value: true,
-        span: Some(span),
-    }) = scene.toon
-    {
-        let message = || "toon shading is not there: the picture has Phong's".to_owned();
-        context.report(&codes::NO_EFFECT, span, message, |d| {
-            d.at(span, "not followed").severity(Severity::Warning)
-        });
     }
 }
 

@@ -24,6 +24,7 @@ fn empty() -> Scene {
         supersampling: 1,
         pattern: Pattern::Grid,
         light_samples: 1,
+        toon: false,
     };
     Scene::new(camera, settings)
 }

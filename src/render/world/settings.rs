@@ -13,6 +13,8 @@ pub(in crate::render) struct Settings {
     pub(in crate::render) mode: Mode,
     /// Whether surfaces hide lights from each other.
     pub(in crate::render) shadows: bool,
+    /// Whether Phong's terms of the first hit fall in steps.
+    pub(in crate::render) toon: bool,
     /// Whether rough surfaces keep the light that bounces between their facets, where paths are
     /// traced.
     pub(in crate::render) multiple_scattering: bool,
@@ -104,6 +106,7 @@ pub(super) fn settings(scene: &Proof) -> Settings {
         supersampling,
         pattern,
         light_samples,
+        toon,
     } = *scene.settings();
     let pattern = match pattern {
         valid::Pattern::Grid => Pattern::Grid,
@@ -116,6 +119,7 @@ pub(super) fn settings(scene: &Proof) -> Settings {
     Settings {
         mode,
         shadows,
+        toon,
         multiple_scattering,
         light_samples: light_samples.get(),
         grid: match mode {

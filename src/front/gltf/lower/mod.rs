@@ -103,6 +103,7 @@ fn empty() -> Scene {
         supersampling: 1,
         pattern: ir::Pattern::Grid,
         light_samples: 1,
+        toon: false,
     };
     Scene::new(camera, settings)
 }

@@ -21,7 +21,7 @@ use crate::render::world::settings::Mode;
 use crate::render::world::{Hit, World};
 use branch::{Branch, BranchKind, Pending};
 use pixel::PixelState;
-use shade::ShadingPoint;
+use shade::{OUTLINE, ShadingPoint};
 
 /// Follows camera rays through a world with the [`Features`] `F`; reuse one for many rays, it keeps
 /// its memory.
@@ -33,6 +33,8 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
     /// Whether the path under way counts 0 times: then nothing it meets says anything about a
     /// plan.
     pub(in crate::render) weightless: bool,
+    /// Whether terms fall in steps: at the first hit of a cartoon.
+    steps: bool,
     /// Whether points of soft lights are spread without bias, however few they are.
     pub(in crate::render) spread: bool,
     grid: Grid,
@@ -54,6 +56,7 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             pending: Vec::new(),
             heartbeat,
             weightless: false,
+            steps: false,
             spread: false,
             grid: world.settings.grid,
             pixel: PixelState::default(),
@@ -120,6 +123,10 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             if let Some(shading_point) = self.shading_point(&path.ray, path.key) {
                 let bounces = depth - path.bounces_left;
                 self.counts.hits += u64::from(bounces == 0);
+                self.steps = self.is_cartoon() && bounces == 0;
+                if self.steps && shading_point.is_outline() {
+                    return OUTLINE;
+                }
                 let value = self.local(&shading_point) * path.beta;
                 self.verify_hit(bounces, &shading_point, value);
                 sum += value;
@@ -135,6 +142,12 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
                 None => return sum,
             }
         }
+    }
+
+    /// Whether the first hits are shown as in a cartoon.
+    #[inline]
+    fn is_cartoon(&self) -> bool {
+        Self::can(Features::GOOCH) && self.world.settings.toon
     }
 
     /// Looks whether a ray after so many bounces meets what the plan leaves out.

@@ -48,7 +48,31 @@ struct Incidence {
     r_dot_v: f64,
 }
 
+/// The colour of the outlines of a cartoon.
+pub(super) const OUTLINE: Vec3 = Vec3::splat(0.1);
+
+impl Incidence {
+    /// As in a cartoon: N·L falls in steps, and a highlight is there or not. The numbers are those of
+    /// a program for the course's JSON years.
+    fn stepped(self) -> Self {
+        let n_dot_l = match self.n_dot_l {
+            n if n < 0.1 => 0.0,
+            n if n < 0.25 => 0.25,
+            n if n < 0.3 => 0.3,
+            _ => 1.0,
+        };
+        let r_dot_v = if self.r_dot_v < 0.9 { 0.0 } else { 1.0 };
+        Self { n_dot_l, r_dot_v }
+    }
+}
+
 impl ShadingPoint<'_> {
+    /// Whether it lies on an outline of a cartoon: the viewer grazes the surface itself there,
+    /// whatever its maps and the normals of its corners, which a plan may leave out.
+    pub(super) fn is_outline(&self) -> bool {
+        self.geometric().dot(self.to_viewer) < 0.2
+    }
+
     /// The geometric unit normal on the side of the viewer: the shading normal, where nothing bends
     /// that.
     pub(in crate::render) fn geometric(&self) -> Vec3 {
@@ -155,6 +179,11 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         {
             return Vec3::ZERO;
         }
+        let incidence = if Self::can(Features::GOOCH) && self.steps {
+            incidence.stepped()
+        } else {
+            incidence
+        };
         let mut term =
             shading_point.color * (shading_point.material.kd.get() * incidence.n_dot_l.max(0.0));
         if shines {
