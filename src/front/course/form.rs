@@ -49,12 +49,8 @@ pub(super) fn check(
     if forms.iter().any(is_it) {
         return true;
     }
-    let without = |form: &&[&str]| {
-        let rest = given.clone().filter(|(_, field)| field.name != ROTATION);
-        rest.clone().count() == form.len()
-            && rest.clone().all(|(_, field)| form.contains(&field.name))
-    };
-    if context.options.lenient && forms.iter().any(without) {
+    let given: Vec<_> = given.map(|(_, field)| field.name).collect();
+    if context.options.lenient && is_only_turned(record, &given) {
         let message = || format!("a {word} given in this way is not turned");
         context.report(&codes::NO_EFFECT, head, message, |d| {
             d.at(head, "its `rotation` is left out")
@@ -62,8 +58,22 @@ pub(super) fn check(
         });
         return true;
     }
-    let given: Vec<_> = given.map(|(_, field)| field.name).collect();
-    let missing = missing(record, &given);
+    report(record, head, &given, slips, context);
+    false
+}
+
+/// Whether what is given is one of the forms but for a rotation.
+fn is_only_turned(record: &Record, given: &[&str]) -> bool {
+    let rest = || given.iter().filter(|name| **name != ROTATION);
+    let is_it =
+        |form: &&[&str]| rest().count() == form.len() && rest().all(|name| form.contains(name));
+    record.forms.iter().any(is_it)
+}
+
+/// Reports that what is given is none of the forms.
+fn report(record: &Record, head: Span, given: &[&str], slips: usize, context: &mut Context<'_>) {
+    let Record { word, forms, .. } = record;
+    let missing = missing(record, given);
     let (code, message) = match missing.as_slice() {
         [] => (
             &codes::CONFLICTING_KEYS,
@@ -74,7 +84,8 @@ pub(super) fn check(
             format!("the {word} has no {}", missing.join(" or ")),
         ),
     };
-    let meant = record.fields.iter().filter(|field| in_forms(field));
+    let in_forms = |field: &&Field| forms.iter().any(|form| form.contains(&field.name));
+    let meant = record.fields.iter().filter(in_forms);
     let meant = meant.flat_map(|field| field.rows.iter().copied().flatten().copied());
     let cause = context.slip_for(&meant.collect::<Vec<_>>(), slips);
     let ways: Vec<_> = forms.iter().map(|form| keys(record, form)).collect();
@@ -89,7 +100,6 @@ pub(super) fn check(
                 .hint(hint)
         },
     );
-    false
 }
 
 /// What each form that has all that is given and lacks the least has besides, in words.

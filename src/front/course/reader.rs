@@ -181,23 +181,8 @@ impl Reader {
             });
             return 0;
         }
-        let is_there = |key: &str| {
-            context.entries[self.from..]
-                .iter()
-                .any(|e| e.key == key && !e.claimed)
-        };
-        let absent = |row: &&[&'static str]| {
-            let absent = row.iter().copied().filter(|key| !is_there(key));
-            absent.collect::<Vec<_>>()
-        };
-        // Of the groups with this key the one is meant of which the fewest keys are missing.
-        let groups = fields.iter().enumerate().flat_map(|(at, field)| {
-            let rows = field.rows.iter().filter(|row| row.contains(&entry.key));
-            rows.map(move |row| (at, absent(row)))
-        });
-        if let Some((at, absent)) = groups.min_by_key(|(_, absent)| absent.len()) {
-            let others = list(absent.into_iter());
-            let message = || format!("the {word} has `{}` without {others}", entry.key);
+        if let Some((at, absent)) = self.nearest_group(entry.key, context) {
+            let message = || format!("the {word} has `{}` without {}", entry.key, list(absent));
             context.report(&codes::MISSING_KEY, span, message, |d| {
                 d.at(span, "one of a group").hint("give all of them")
             });
@@ -219,6 +204,29 @@ impl Reader {
         context.slips.extend(meant.map(|meant| (meant, span)));
         unknown_key(word, meant, entry, context);
         0
+    }
+
+    /// Of the groups with this key, by the index of the field, the one of which the fewest keys are
+    /// missing, and those.
+    fn nearest_group(
+        &self,
+        key: &str,
+        context: &Context<'_>,
+    ) -> Option<(usize, Vec<&'static str>)> {
+        let open = context.entries[self.from..]
+            .iter()
+            .filter(|entry| !entry.claimed);
+        let is_there = |key: &str| open.clone().any(|entry| entry.key == key);
+        let absent = |row: &&[&'static str]| {
+            let absent = row.iter().copied().filter(|key| !is_there(key));
+            absent.collect::<Vec<_>>()
+        };
+        let groups = self.record.fields.iter().enumerate();
+        let groups = groups.flat_map(|(at, field)| {
+            let rows = field.rows.iter().filter(|row| row.contains(&key));
+            rows.map(move |row| (at, absent(row)))
+        });
+        groups.min_by_key(|(_, absent)| absent.len())
     }
 }
 

@@ -9,16 +9,7 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
     match mistake {
         Mistake::Utf16 { span } => utf16(span),
         Mistake::NotUtf8 { byte, span } => not_utf8(byte, span),
-        Mistake::Control { character, span } => {
-            let message = format!("control character U+{character:04X}");
-            say(
-                &codes::CONTROL_CHARACTER,
-                message,
-                span,
-                "not allowed in YAML",
-            )
-            .replace("remove it", span, "")
-        }
+        Mistake::Control { character, span } => control(character, span),
         Mistake::TooLong { span } => {
             let message = "a word of more than a MiB";
             say(&codes::TOO_LONG, message, span, "it starts here").hint("is this a scene file?")
@@ -64,12 +55,31 @@ pub(super) fn finding(mistake: Mistake<'_>) -> Diagnostic {
         } => {
             let finding = say(&codes::SYNTAX, message, span, &label)
                 .also(bracket, "inside what this bracket opens");
-            match replacement {
-                Some(replacement) => finding.replace(hint, replacement.0, replacement.1),
-                None => finding.hint(hint),
-            }
+            with_hint(finding, hint, replacement)
         }
     }
+}
+
+fn with_hint(
+    finding: Diagnostic,
+    hint: &'static str,
+    replacement: Option<Box<(Span, String)>>,
+) -> Diagnostic {
+    match replacement {
+        Some(replacement) => finding.replace(hint, replacement.0, replacement.1),
+        None => finding.hint(hint),
+    }
+}
+
+fn control(character: u32, span: Span) -> Diagnostic {
+    let message = format!("control character U+{character:04X}");
+    say(
+        &codes::CONTROL_CHARACTER,
+        message,
+        span,
+        "not allowed in YAML",
+    )
+    .replace("remove it", span, "")
 }
 
 /// A file with nothing in it.

@@ -66,7 +66,8 @@ fn comment_after(tree: &Tree<'_>, bracket: Span) -> Option<Span> {
     let from = (bracket.start - tree.base) as usize;
     let line = tree.source.get(from..)?.lines().next()?;
     let hash = line.find(" #")? + 1;
-    let is_quoted = line[..hash].matches(['"', '\'']).count() % 2 == 1;
+    let before = line.get(..hash)?;
+    let is_quoted = before.matches(['"', '\'']).count() % 2 == 1;
     let start = bracket.start + to_u32(hash);
     let end = bracket.start + to_u32(line.trim_end().len());
     (!is_quoted).then(|| Span::new(tree.file, start, end))
@@ -138,7 +139,14 @@ fn words(kind: &ErrorKind) -> (String, &'static str, &'static str) {
             "still inside quotes here",
             "close it with the same kind of quote",
         )
-    } else if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
+    } else {
+        words_with_signs(kind)
+    }
+}
+
+/// Message, label and hint, of what is told with the characters at the place.
+fn words_with_signs(kind: &ErrorKind) -> (String, &'static str, &'static str) {
+    if let ErrorKind::MismatchedFlowCollectionEnd { open, close } = kind {
         (
             format!("`{open}` is closed by `{close}`"),
             "opened here",

@@ -78,7 +78,7 @@ impl Text<'_, '_> {
         let end = words.find(|c: char| !c.is_alphanumeric())?;
         let (key, rest) = words.split_at(end);
         let value = rest.trim_start_matches([' ', ':', '=']);
-        let between = &rest[..rest.len() - value.len()];
+        let between = rest.strip_suffix(value)?;
         let message = match between.trim() {
             ":" => "no space after a colon",
             "=" => "`=` in place of a colon",
@@ -107,7 +107,7 @@ impl Text<'_, '_> {
                     .rfind(quote)
                     .filter(|_| line.matches(quote).count() % 2 == 1);
                 if let Some(open) = open {
-                    let is_last = !line[open..].contains([',', '}', ']', '#']);
+                    let is_last = !line.get(open..)?.contains([',', '}', ']', '#']);
                     let close = self.span(start + line.len(), start + line.len());
                     return Some(Mistake::Syntax {
                         message: "a quote is never closed".to_owned(),
