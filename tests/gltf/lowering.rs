@@ -11,7 +11,7 @@ use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
 use rtc::plan::{Plan, Rules};
 use rtc::render::Job;
-use rtc::source::SourceMap;
+use rtc::source::{Loader, SourceMap};
 
 /// The scene that an asset shows; every asset here is sound, and some have lines or no tangents.
 fn lower(bytes: Vec<u8>, front: front::FrontOptions) -> Scene {
@@ -106,6 +106,55 @@ fn what_is_asked_for_and_not_there_is_an_error_with_its_code() {
             sink.kept().iter().any(|finding| finding.code.id == "GL048"),
             "{sink:?}"
         );
+    }
+}
+
+#[test]
+fn mended_assets_show_the_triangle_that_was_meant() {
+    let cases = [
+        "GL002/unaligned-lenient.glb",
+        "GL002/padded-lenient.glb",
+        "GL009/arrays-lenient.gltf",
+        "GL010/stride-lenient.gltf",
+        "GL012/channels-lenient.gltf",
+        "GL026/unaligned-lenient.gltf",
+        "GL028/unused-lenient.gltf",
+        "GL031/no-bounds-lenient.gltf",
+        "GL037/root-with-parent-lenient.gltf",
+        "GL042/jpg-lenient.gltf",
+    ];
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/diagnostics");
+    for case in cases {
+        let (mut map, mut sink) = (SourceMap::default(), Sink::default());
+        let file = Loader.file(&folder.join(case), &mut map).unwrap();
+        let front = front::FrontOptions {
+            lenient: true,
+            ..front::FrontOptions::default()
+        };
+        let options = Options {
+            front,
+            ..Options::default()
+        };
+        let lowered = pipeline::load(file, &mut map, &options, &mut sink);
+        let proof = lowered
+            .as_ref()
+            .and_then(|lowered| pipeline::prove(lowered, &options, &mut sink));
+        assert!(proof.is_some(), "{case}: {:?}", sink.kept());
+        let scene = &lowered.unwrap().scene;
+        let ([mesh], [surface]) = (&scene.meshes[..], &scene.surfaces[..]) else {
+            panic!("{case}: one surface of one mesh, and not {scene:?}");
+        };
+        let corners: Vec<[f64; 3]> = (0..mesh.positions.len())
+            .map(|at| mesh.positions.at(at))
+            .collect();
+        let meant = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(corners, meant, "{case}");
+        assert_eq!(mesh.triangles.len(), 1, "{case}");
+        let Shape::Instance(instance) = &surface.shape else {
+            panic!("{case}: an instance");
+        };
+        let moved = f64::from(u8::from(case.starts_with("GL037")));
+        assert_eq!(instance.world_from_object[3][0], moved, "{case}");
     }
 }
 

@@ -8,7 +8,8 @@ super::codes! { GL:
          "GLB_LENGTH_MISMATCH"];
     GLB_CHUNK = "GL002", Error, "the chunks of a .glb file are not sound",
         "After its header a .glb file holds chunks: first one of JSON, then at most one of binary data, each with its \
-         length, a multiple of four, in front. The file was cut off, or its exporter has a fault.",
+         length, a multiple of four, in front. The file was cut off, or its exporter has a fault. With `--lenient` lengths that are \
+         no multiple of four are a warning.",
         ["GLB_CHUNK_TOO_BIG", "GLB_CHUNK_LENGTH_UNALIGNED", "GLB_EMPTY_CHUNK", "GLB_DUPLICATE_CHUNK",
          "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", "GLB_UNEXPECTED_END_OF_CHUNK_DATA", "GLB_UNEXPECTED_FIRST_CHUNK",
          "GLB_UNEXPECTED_BIN_CHUNK"];
@@ -34,10 +35,12 @@ super::codes! { GL:
          `extras`. With `--strict` it is an error.",
         ["UNEXPECTED_PROPERTY"];
     GLTF_EMPTY = "GL009", Error, "a list or map of a glTF asset is empty",
-        "glTF leaves a property out rather than have it empty. Remove it.",
+        "glTF leaves a property out rather than have it empty. Remove it. With `--lenient` it is taken as absent, with a \
+         warning.",
         ["EMPTY_ENTITY"];
     GLTF_VALUE = "GL010", Error, "a value of a glTF asset is out of its range",
-        "The specification gives the range, the pattern or the length of the value; the message names it.",
+        "The specification gives the range, the pattern or the length of the value; the message names it. With `--lenient` \
+         strides that are no multiple of four are followed, with a warning.",
         ["VALUE_NOT_IN_RANGE", "PATTERN_MISMATCH", "VALUE_MULTIPLE_OF", "INVALID_GL_VALUE", "ARRAY_LENGTH_NOT_IN_LIST",
          "ROTATION_NON_UNIT", "CAMERA_XMAG_YMAG_ZERO", "CAMERA_ZFAR_LEQUAL_ZNEAR",
          "KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", "KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_INVALID"];
@@ -46,7 +49,8 @@ super::codes! { GL:
          version or an extension may define it.",
         ["VALUE_NOT_IN_LIST"];
     GLTF_DUPLICATE = "GL012", Error, "a list of a glTF asset holds an element twice",
-        "The elements of the list must differ: one thing can't be there, be moved or be named twice. Remove one of them.",
+        "The elements of the list must differ: one thing can't be there, be moved or be named twice. Remove one of them. \
+         With `--lenient` the last of two channels that move the same counts, with a warning.",
         ["DUPLICATE_ELEMENTS", "KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", "ANIMATION_DUPLICATE_TARGETS"];
     GLTF_TOGETHER = "GL013", Error, "properties of a glTF asset don't go together",
         "Some properties exclude each other, others need another one beside them; the message says which.",
@@ -91,14 +95,15 @@ super::codes! { GL:
         ["BUFFER_BYTE_LENGTH_MISMATCH", "BUFFER_MISSING_GLB_DATA"];
     GLTF_VIEW = "GL025", Error, "a buffer view of a glTF asset is not sound",
         "A buffer view is a stretch of a buffer. It must lie within, serve one purpose only, and has a stride only if \
-         it holds the attributes of vertices.",
+         it holds the attributes of vertices. With `--lenient` attributes that share a view without a stride are each \
+         taken as packed, with a warning.",
         ["BUFFER_VIEW_TOO_LONG", "BUFFER_VIEW_TOO_BIG_BYTE_STRIDE", "BUFFER_VIEW_INVALID_BYTE_STRIDE",
          "BUFFER_VIEW_TARGET_OVERRIDE", "IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", "SKIN_IBM_ACCESSOR_WITH_BYTESTRIDE",
          "MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
          "ANIMATION_SAMPLER_ACCESSOR_WITH_BYTESTRIDE"];
     GLTF_ACCESSOR = "GL026", Error, "an accessor of a glTF asset is not sound",
         "An accessor is a view of elements of one type. They must lie within their buffer view and be aligned to their \
-         components, vertices to four bytes.",
+         components, vertices to four bytes. With `--lenient` they are read wherever they lie, with a warning.",
         ["ACCESSOR_TOO_LONG", "ACCESSOR_SMALL_BYTESTRIDE", "ACCESSOR_OFFSET_ALIGNMENT",
          "ACCESSOR_TOTAL_OFFSET_ALIGNMENT", "ACCESSOR_MATRIX_ALIGNMENT", "ACCESSOR_NORMALIZED_INVALID",
          "MESH_PRIMITIVE_ACCESSOR_UNALIGNED", "ACCESSOR_USAGE_OVERRIDE"];
@@ -106,7 +111,8 @@ super::codes! { GL:
         "A small file can ask for much memory or time: accessors without data, or many over the same data. What an \
          asset claims must stay in proportion to its size.";
     GLTF_NOT_FINITE = "GL028", Error, "an accessor of a glTF asset holds a number that is not finite",
-        "NaN and infinity mean nothing as a position, direction, time or weight. The message names the first.",
+        "NaN and infinity mean nothing as a position, direction, time or weight. The message names the first. \
+         With `--lenient` it is a warning where no index names such an element.",
         ["ACCESSOR_INVALID_FLOAT"];
     GLTF_BOUNDS = "GL029", Error, "the bounds of an accessor of a glTF asset are wrong",
         "`min` and `max` are the least and the greatest value of each component, exactly. With `--lenient` the values \
@@ -117,7 +123,8 @@ super::codes! { GL:
         "Its indices rise strictly and are below the number of elements.",
         ["ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE", "ACCESSOR_SPARSE_INDICES_NON_INCREASING", "ACCESSOR_SPARSE_INDEX_OOB"];
     GLTF_FORMAT = "GL031", Error, "an accessor of a glTF asset has the wrong format for its use",
-        "The specification lists the element and component types for each use; the message names them.",
+        "The specification lists the element and component types for each use; the message names them. With \
+         `--lenient` bounds that are missing are computed, with a warning.",
         ["MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT",
          "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "SKIN_IBM_INVALID_FORMAT",
          "ANIMATION_SAMPLER_INPUT_ACCESSOR_INVALID_FORMAT", "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT",
@@ -152,7 +159,8 @@ super::codes! { GL:
         ["ACCESSOR_VECTOR3_NON_UNIT", "ACCESSOR_INVALID_SIGN", "ACCESSOR_NON_CLAMPED",
          "ACCESSOR_ANIMATION_SAMPLER_OUTPUT_NON_NORMALIZED_QUATERNION"];
     GLTF_NODES = "GL037", Error, "the nodes of a glTF asset form no tree",
-        "A node has at most one parent, is not below itself, and a scene lists roots only.",
+        "A node has at most one parent, is not below itself, and a scene lists roots only. With `--lenient` a root that \
+         has a parent is shown where its parent puts it, with a warning.",
         ["NODE_LOOP", "NODE_PARENT_OVERRIDE", "SCENE_NON_ROOT_NODE"];
     GLTF_MATRIX = "GL038", Error, "a matrix of a glTF asset is not allowed by glTF",
         "The matrix of a node keeps space three-dimensional, and its last row, like that of an inverse bind matrix, is \
@@ -175,7 +183,8 @@ super::codes! { GL:
          "ANIMATION_CHANNEL_TARGET_NODE_MATRIX", "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS"];
     GLTF_IMAGE = "GL042", Error, "an image of a glTF asset can't be read",
         "Images are PNG or JPEG, or WebP with its extension, and are what their media type says. A damaged image shows \
-         itself by the words of its decoder.",
+         itself by the words of its decoder. With `--lenient` its bytes count where they are not what the type says, with \
+         a warning.",
         ["IMAGE_DATA_INVALID", "IMAGE_UNEXPECTED_EOS", "IMAGE_MIME_TYPE_INVALID", "IMAGE_NON_ENABLED_MIME_TYPE",
          "TEXTURE_INVALID_IMAGE_MIME_TYPE"];
     GLTF_IMAGE_ODD = "GL043", Warning, "an image of a glTF asset has features that are not supported",

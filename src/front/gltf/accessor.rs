@@ -11,6 +11,9 @@ use crate::source::tree::{NodeId, NodeKind};
 /// The most bytes of all accessors together that have no data of their own and stand for zeros.
 const MAX_ZEROS: u64 = 1 << 24;
 
+/// What is done with elements that lie at odd addresses.
+pub(super) const UNALIGNED: &str = "they are read from where they lie";
+
 /// Elements.
 #[derive(Debug)]
 pub(super) struct Accessor {
@@ -175,12 +178,8 @@ fn alone(accessor: &Accessor, layout: ElementLayout, report: &mut AssetReport<'_
             "matrices start at multiples of 4 bytes, and the offset is {}",
             accessor.offset
         );
-        report.say(
-            &codes::GLTF_ACCESSOR,
-            "ACCESSOR_MATRIX_ALIGNMENT",
-            at,
-            message,
-        );
+        let alias = "ACCESSOR_MATRIX_ALIGNMENT";
+        report.mend(&codes::GLTF_ACCESSOR, alias, at, &message, UNALIGNED);
     }
     if layout.normalized && matches!(layout.component, Component::F32 | Component::U32) {
         let at = report.json.at_or(accessor.at, "normalized");
@@ -211,11 +210,12 @@ fn bound(list: NodeId, key: &str, layout: ElementLayout, report: &mut AssetRepor
     }
     let items: Vec<NodeId> = report.json.items(list).collect();
     if items.is_empty() && layout.component == Component::F32 {
-        return report.say(
+        return report.mend(
             &codes::GLTF_EMPTY,
             "EMPTY_ENTITY",
             list,
-            format!("`{key}` is empty"),
+            &format!("`{key}` is empty"),
+            "it is taken as absent",
         );
     }
     if items.len() != layout.components() {
@@ -281,14 +281,21 @@ fn fits(
     if !offset.is_multiple_of(size) {
         let message =
             format!("the offset {offset} is not a multiple of {size}, the size of a component");
-        report.say(code, "ACCESSOR_OFFSET_ALIGNMENT", place, message);
+        report.mend(
+            code,
+            "ACCESSOR_OFFSET_ALIGNMENT",
+            place,
+            &message,
+            UNALIGNED,
+        );
     }
     let total = holder.offset.saturating_add(offset);
     if !total.is_multiple_of(size) {
         let message = format!(
             "the offset in the buffer is {total}, not a multiple of {size}, the size of a component"
         );
-        report.say(code, "ACCESSOR_TOTAL_OFFSET_ALIGNMENT", at, message);
+        let alias = "ACCESSOR_TOTAL_OFFSET_ALIGNMENT";
+        report.mend(code, alias, at, &message, UNALIGNED);
     }
     let end = bytes.saturating_add(offset as u64);
     let length = holder.length.unwrap_or(0);

@@ -87,11 +87,12 @@ pub(super) fn check(
             if first != index {
                 let at = report.json.at_or(channel.at, "target");
                 let message = format!("channel {first} moves the same");
-                report.say(
+                report.mend(
                     &codes::GLTF_DUPLICATE,
                     "ANIMATION_DUPLICATE_TARGETS",
                     at,
-                    message,
+                    &message,
+                    "the last channel counts",
                 );
             }
         }
@@ -188,12 +189,12 @@ fn check_times(
         );
     }
     if !accessor.has_bounds() {
-        let message = "times come without `min` and `max`".to_owned();
-        report.say(
+        report.mend(
             &codes::GLTF_FORMAT,
             "ANIMATION_SAMPLER_INPUT_ACCESSOR_WITHOUT_BOUNDS",
             at,
-            message,
+            "times come without `min` and `max`",
+            "these are computed",
         );
     }
     if sampler.interpolation == Interpolation::Cubic && accessor.count == Some(1) {

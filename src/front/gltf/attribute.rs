@@ -1,6 +1,6 @@
 //! Attributes of vertices: their names, their formats, and where they lie.
 
-use super::accessor::Accessor;
+use super::accessor::{Accessor, UNALIGNED};
 use super::demand::{Demand, Demands};
 use super::document::Document;
 use super::field::Fields;
@@ -170,12 +170,12 @@ pub(super) fn check_format(
 ) {
     let semantic = Semantic::of(&attribute.name);
     if semantic == Semantic::Position && !accessor.has_bounds() {
-        let message = "positions come without `min` and `max`".to_owned();
-        report.say(
+        report.mend(
             &codes::GLTF_FORMAT,
             "MESH_PRIMITIVE_POSITION_ACCESSOR_WITHOUT_BOUNDS",
             attribute.at,
-            message,
+            "positions come without `min` and `max`",
+            "these are computed",
         );
     }
     let Some(layout) = accessor.layout else {
@@ -267,23 +267,24 @@ pub(super) fn check_place(
         return;
     }
     if !is_aligned(accessor, view.stride) {
-        let message = "vertices start at multiples of 4 bytes, and these don't".to_owned();
-        report.say(
+        report.mend(
             &codes::GLTF_ACCESSOR,
             "MESH_PRIMITIVE_ACCESSOR_UNALIGNED",
             attribute.at,
-            message,
+            "vertices start at multiples of 4 bytes, and these don't",
+            UNALIGNED,
         );
     }
     if view.stride.is_none()
         && *streams.entry(index).or_insert(attribute.accessor) != attribute.accessor
     {
         let message = format!("buffer view {index} holds several attributes and has no stride");
-        report.say(
+        report.mend(
             &codes::GLTF_VIEW,
             "MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE",
             attribute.at,
-            message,
+            &message,
+            "the elements of each are taken as lying close together",
         );
     }
 }

@@ -165,7 +165,8 @@ fn stride(view: &BufferView, report: &mut AssetReport<'_, '_>) {
     let at = report.json.at_or(view.at, "byteStride");
     if !stride.is_multiple_of(4) {
         let message = format!("the stride is {stride}, not a multiple of 4");
-        report.say(&codes::GLTF_VALUE, "VALUE_MULTIPLE_OF", at, message);
+        let (alias, mended) = ("VALUE_MULTIPLE_OF", "it is followed all the same");
+        report.mend(&codes::GLTF_VALUE, alias, at, &message, mended);
     }
     if let Some(length) = view.length.filter(|length| *length < stride) {
         let message =

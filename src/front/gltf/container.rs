@@ -1,7 +1,7 @@
 //! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and
 //! `.gltf` alike.
 
-use crate::diag::{Code, Diagnostic, Sink, codes};
+use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::source::{FileId, Span};
 use std::ops::Range;
 
@@ -33,10 +33,11 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
 }
 
 /// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
-pub(super) fn open(file: FileId, bytes: &[u8], sink: &mut Sink) -> Option<Parts> {
+pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
     let mut scan = Scan {
         file,
         bytes,
+        is_lenient,
         sink,
         json: None,
         bin: None,
@@ -56,6 +57,8 @@ pub(super) fn open(file: FileId, bytes: &[u8], sink: &mut Sink) -> Option<Parts>
 struct Scan<'a> {
     file: FileId,
     bytes: &'a [u8],
+    /// Chunks of odd lengths are mended.
+    is_lenient: bool,
     sink: &'a mut Sink,
     json: Option<Range<usize>>,
     bin: Option<Range<usize>>,
@@ -65,10 +68,46 @@ struct Scan<'a> {
 
 impl Scan<'_> {
     fn say(&mut self, code: &'static Code, alias: &'static str, at: Range<usize>, message: String) {
-        let offset = |at: usize| u32::try_from(at.min(self.bytes.len())).unwrap_or(u32::MAX);
-        let span = Span::new(self.file, offset(at.start), offset(at.end));
+        let span = self.span(at);
         self.sink
             .push(Diagnostic::new(code, message).at(span, "").alias(alias));
+    }
+
+    fn span(&self, at: Range<usize>) -> Span {
+        let offset = |at: usize| u32::try_from(at.min(self.bytes.len())).unwrap_or(u32::MAX);
+        Span::new(self.file, offset(at.start), offset(at.end))
+    }
+
+    /// Reports a chunk whose length is not a multiple of 4.
+    fn unaligned(&mut self, header: Range<usize>, name: &str) {
+        let message = format!("the length of the {name} chunk is not a multiple of 4");
+        let mended = "the next chunk is looked for behind it";
+        let finding = Diagnostic::new(&codes::GLB_CHUNK, &message);
+        let finding = if self.is_lenient {
+            Diagnostic::new(&codes::GLB_CHUNK, format!("{message}: {mended}"))
+                .severity(Severity::Warning)
+        } else {
+            finding.hint(format!("`--lenient` mends this: {mended}"))
+        };
+        let at = self.span(header);
+        self.sink
+            .push(finding.at(at, "").alias("GLB_CHUNK_LENGTH_UNALIGNED"));
+    }
+
+    /// Where the chunk after one that ends at `end` begins. After a length that is not a multiple of
+    /// 4 some programs write padding, and some don't.
+    fn next_chunk(&self, end: usize) -> usize {
+        let padded = end.next_multiple_of(4);
+        let is_chunk = |at: usize| {
+            let kind = self.bytes.get(at + 4..at + CHUNK_HEADER);
+            kind.is_some_and(|kind| kind == JSON || kind == BIN)
+        };
+        let is_padded = is_chunk(padded) || self.bytes.len() == padded;
+        if self.is_lenient && !is_chunk(end) && is_padded {
+            padded
+        } else {
+            end
+        }
     }
 
     fn word(&self, at: usize) -> Option<usize> {
@@ -154,7 +193,7 @@ impl Scan<'_> {
                 );
                 return false;
             }
-            at = end;
+            at = self.next_chunk(end);
         }
         if at != declared {
             let message =
@@ -177,8 +216,7 @@ impl Scan<'_> {
         let name = shown(kind);
         self.chunks += 1;
         if !(end - content.start).is_multiple_of(4) {
-            let message = format!("the length of the {name} chunk is not a multiple of 4");
-            self.say(code, "GLB_CHUNK_LENGTH_UNALIGNED", header.clone(), message);
+            self.unaligned(header.clone(), &name);
         }
         if end > declared {
             let message = format!(
@@ -248,7 +286,7 @@ mod tests {
         let mut map = SourceMap::default();
         let file = map.add("x.glb", bytes.to_vec());
         let mut sink = Sink::default();
-        let parts = open(file, map.bytes(file), &mut sink);
+        let parts = open(file, map.bytes(file), false, &mut sink);
         (
             parts,
             sink.kept()

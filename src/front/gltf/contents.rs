@@ -5,11 +5,15 @@ use super::demand::{Demand, Demands, meet};
 use super::document::Document;
 use super::elements::Elements;
 use super::report::AssetReport;
+use super::unused::Readers;
 use crate::diag::codes;
 
 /// Components that are looked at, for each byte of the buffers and beside that.
 const LOOKS: u64 = 16;
 const FREE_LOOKS: u64 = 1 << 24;
+
+/// What is done with bounds that are not true.
+const BOUNDS: &str = "the values count";
 
 /// Checks the elements of each accessor once, whatever uses it. What was compressed is no longer
 /// exact, so bounds and lengths don't count there.
@@ -23,6 +27,7 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
         .sum();
     let mut looks = held.saturating_mul(LOOKS).saturating_add(FREE_LOOKS);
     let mut rest = &demands[..];
+    let mut readers: Option<Readers> = None;
     for (index, accessor) in doc.accessors.iter().enumerate() {
         let own = rest.partition_point(|(of, _, _)| *of <= index);
         let (own, after) = rest.split_at(own);
@@ -30,7 +35,9 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
         if accessor.view.is_none() && accessor.sparse.is_none() {
             continue;
         }
-        let Some(elements) = Elements::of(doc, accessor) else {
+        let elements = Elements::of(doc, accessor);
+        let is_read = |_: &Elements<'_>| report.is_lenient() || is_aligned(doc, accessor);
+        let Some(elements) = elements.filter(is_read) else {
             continue;
         };
         let cost = (elements.count as u64).saturating_mul(elements.layout.components() as u64);
@@ -45,7 +52,18 @@ pub(super) fn check(doc: &Document<'_>, demands: Demands, report: &mut AssetRepo
             .view
             .and_then(|view| doc.views.get(view))
             .is_none_or(|view| view.decoded.is_none());
-        values(&elements, accessor, is_exact, report);
+        let bad = values(&elements, accessor, is_exact, report);
+        if let Some(first) = bad.first() {
+            let readers = readers.get_or_insert_with(|| Readers::new(doc));
+            let is_unused = match looks.checked_sub(readers.cost(doc, index)) {
+                Some(left) => {
+                    looks = left;
+                    !readers.names_any(doc, index, |at| bad.binary_search(&at).is_ok())
+                }
+                None => false,
+            };
+            not_finite((bad.len(), *first), is_unused, accessor, report);
+        }
         for (_, demand, at) in own
             .iter()
             .filter(|(_, demand, _)| is_exact || matches!(demand, Demand::Below(..)))
@@ -98,36 +116,58 @@ fn sparse(elements: &Elements<'_>, accessor: &Accessor, report: &mut AssetReport
     }
 }
 
-/// Finds numbers that are not finite, and the true bounds.
+/// True if the elements begin at a multiple of the size of their components. Of others the fault is
+/// told; what is in them is looked at where it is mended.
+fn is_aligned(doc: &Document<'_>, accessor: &Accessor) -> bool {
+    let view = accessor.view.and_then(|view| doc.views.get(view));
+    let start = view.map_or(0, |view| match view.decoded {
+        Some(_) => 0,
+        None => view.offset,
+    });
+    let size = accessor.layout.map_or(1, |layout| layout.component.size());
+    accessor.view.is_none() || (start.saturating_add(accessor.offset)).is_multiple_of(size)
+}
+
+/// Reports so many elements that are not finite, of which this is the first.
+fn not_finite(
+    (count, first): (usize, usize),
+    is_unused: bool,
+    accessor: &Accessor,
+    report: &mut AssetReport<'_, '_>,
+) {
+    let (code, alias) = (&codes::GLTF_NOT_FINITE, "ACCESSOR_INVALID_FLOAT");
+    let message = match count {
+        1 => format!("element {first} is not finite"),
+        count => format!("{count} elements are not finite, the first is element {first}"),
+    };
+    if is_unused {
+        let mended = "no index names them, so they are left out";
+        report.mend(code, alias, accessor.at, &message, mended);
+    } else {
+        report.say(code, alias, accessor.at, message);
+    }
+}
+
+/// Finds elements that are not finite, which come back, and the true bounds.
 fn values(
     elements: &Elements<'_>,
     accessor: &Accessor,
     is_exact: bool,
     report: &mut AssetReport<'_, '_>,
-) {
+) -> Vec<usize> {
     let components = elements.layout.components();
     let (mut least, mut most) = ([f64::INFINITY; 16], [f64::NEG_INFINITY; 16]);
-    let (mut bad, mut first) = (0_usize, 0);
+    let mut bad = Vec::new();
     elements.each(|at, element| {
         for (component, number) in element.iter().enumerate() {
             if number.is_finite() {
                 least[component] = least[component].min(*number);
                 most[component] = most[component].max(*number);
-            } else {
-                first = if bad == 0 { at } else { first };
-                bad += 1;
+            } else if bad.last() != Some(&at) {
+                bad.push(at);
             }
         }
     });
-    if bad > 0 {
-        let message = format!("{bad} numbers are not finite, the first in element {first}");
-        report.say(
-            &codes::GLTF_NOT_FINITE,
-            "ACCESSOR_INVALID_FLOAT",
-            accessor.at,
-            message,
-        );
-    }
     for (key, own, found) in [("min", &accessor.min, least), ("max", &accessor.max, most)] {
         let Some(own) = own
             .as_ref()
@@ -161,6 +201,7 @@ fn values(
             );
         }
     }
+    bad
 }
 
 /// How many elements are beyond a bound, for each component.
@@ -199,10 +240,10 @@ fn bound(
         "`{key}` is {own}, and the {} value is {found}",
         if is_min { "least" } else { "greatest" }
     );
-    report.say(&codes::GLTF_BOUNDS, mismatch, at, message);
+    report.mend(&codes::GLTF_BOUNDS, mismatch, at, &message, BOUNDS);
     if (is_min && found < own) || (!is_min && found > own) {
         let beyond = beyond.get_or_insert_with(|| count_beyond(elements, all, is_min))[component];
         let message = format!("{beyond} elements are beyond `{key}`, which is {own}");
-        report.say(&codes::GLTF_BOUNDS, out, at, message);
+        report.mend(&codes::GLTF_BOUNDS, out, at, &message, BOUNDS);
     }
 }

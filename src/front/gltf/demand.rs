@@ -1,6 +1,7 @@
 //! Demands: what each use of an accessor asks of its elements.
 
 use super::elements::Elements;
+use super::node::LAST_ROW;
 use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
@@ -145,7 +146,8 @@ fn tell(
             "{count} of {} elements {what}, the first at {first}",
             elements.count
         );
-        report.say(&codes::GLTF_VECTOR, alias, at, message);
+        let mended = "they are taken as they are";
+        report.mend(&codes::GLTF_VECTOR, alias, at, &message, mended);
     }
 }
 
@@ -247,6 +249,7 @@ fn affine(elements: &Elements<'_>, at: NodeId, report: &mut AssetReport<'_, '_>)
     });
     if let Some(index) = off {
         let message = format!("the last row of the matrix at {index} is not 0, 0, 0, 1");
-        report.say(&codes::GLTF_MATRIX, "ACCESSOR_INVALID_IBM", at, message);
+        let alias = "ACCESSOR_INVALID_IBM";
+        report.mend(&codes::GLTF_MATRIX, alias, at, &message, LAST_ROW);
     }
 }

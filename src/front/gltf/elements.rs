@@ -57,7 +57,7 @@ impl Integers<'_> {
 }
 
 impl<'d> Elements<'d> {
-    /// The elements of an accessor; none if some of them can't be had, or are not aligned.
+    /// The elements of an accessor; none if some of them can't be had.
     pub(super) fn of(doc: &'d Document<'_>, accessor: &Accessor) -> Option<Self> {
         let (layout, count) = (accessor.layout?, accessor.count?);
         let base = match accessor.view {
@@ -65,17 +65,6 @@ impl<'d> Elements<'d> {
             Some(view) => {
                 let holder = doc.views.get(view)?;
                 let stride = holder.stride.unwrap_or(layout.packed());
-                let start = if holder.decoded.is_some() {
-                    0
-                } else {
-                    holder.offset
-                };
-                if !start
-                    .checked_add(accessor.offset)?
-                    .is_multiple_of(layout.component.size())
-                {
-                    return None;
-                }
                 let end = stride.checked_mul(count - 1)?.checked_add(extent(layout))?;
                 let bytes = doc
                     .view_bytes(view)?

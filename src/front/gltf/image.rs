@@ -223,7 +223,8 @@ fn check_media(
             format.media(),
             super::report::shown(media)
         );
-        report.say(&codes::GLTF_IMAGE, "IMAGE_MIME_TYPE_INVALID", at, message);
+        let (alias, mended) = ("IMAGE_MIME_TYPE_INVALID", "its bytes count");
+        report.mend(&codes::GLTF_IMAGE, alias, at, &message, mended);
     }
     if format == ImageCoding::WebP && !doc.uses("EXT_texture_webp") {
         let message = "a WebP image needs the extension `EXT_texture_webp`".to_owned();

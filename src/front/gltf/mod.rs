@@ -22,7 +22,6 @@ mod field;
 mod header;
 mod image;
 mod influences;
-
 mod layout;
 mod light;
 mod lower;
@@ -36,6 +35,7 @@ mod resource;
 mod schema;
 mod skin;
 mod texture;
+mod unused;
 mod uri;
 mod usage;
 
@@ -90,7 +90,7 @@ pub fn lower(
     sink: &mut Sink,
 ) -> Option<Lowered> {
     let bytes = map.bytes(file);
-    let parts = parts(file, map, sink)?;
+    let parts = parts(file, map, options.lenient, sink)?;
     let (base, text) = text(file, bytes, &parts, sink)?;
     let tree = match json::parse(file, base, text) {
         Ok(tree) => tree,
@@ -119,10 +119,10 @@ pub fn lower(
     lowered.filter(|_| !report.has_errors())
 }
 
-fn parts(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<Parts> {
+fn parts(file: FileId, map: &SourceMap, is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
     let bytes = map.bytes(file);
     if container::is_glb(map.name(file), bytes) {
-        container::open(file, bytes, sink)
+        container::open(file, bytes, is_lenient, sink)
     } else {
         Some(Parts {
             json: 0..bytes.len(),

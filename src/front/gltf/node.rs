@@ -14,6 +14,9 @@ const IDENTITY: [f64; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
 ];
 
+/// What is done with a matrix that is not affine.
+pub(super) const LAST_ROW: &str = "its last row is taken as 0, 0, 0, 1";
+
 /// A node.
 #[derive(Debug)]
 pub(super) struct Node {
@@ -124,7 +127,13 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
             };
             if parents.get(node).is_some_and(Option::is_some) {
                 let message = format!("node {node} is a child, and a scene lists roots");
-                report.say(&codes::GLTF_NODES, "SCENE_NON_ROOT_NODE", at, message);
+                report.mend(
+                    &codes::GLTF_NODES,
+                    "SCENE_NON_ROOT_NODE",
+                    at,
+                    &message,
+                    "it is shown once, where its parents put it",
+                );
             }
         }
     }
@@ -201,9 +210,14 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 let message = "the matrix is the one that a node has anyway".to_owned();
                 report.say(&codes::GLTF_REMARK, "NODE_MATRIX_DEFAULT", at, message);
             } else if !is_invertible(&matrix) {
-                let message =
-                    "the matrix is not made of translation, rotation and scale".to_owned();
-                report.say(&codes::GLTF_MATRIX, "NODE_MATRIX_NON_TRS", at, message);
+                let message = "the matrix is not made of translation, rotation and scale";
+                report.mend(
+                    &codes::GLTF_MATRIX,
+                    "NODE_MATRIX_NON_TRS",
+                    at,
+                    message,
+                    LAST_ROW,
+                );
             } else if is_sheared(&matrix) {
                 let message = "the matrix shears, which not all readers of glTF follow".to_owned();
                 report.say(&codes::GLTF_REMARK, "", at, message);

@@ -42,10 +42,7 @@ impl<'r, 's> AssetReport<'r, 's> {
         at: NodeId,
         message: impl Into<String>,
     ) {
-        let (severity, json) = (self.severity(code), self.json);
-        self.sink.push_with(severity, || {
-            finding(json, (code, severity), alias, at, message.into())
-        });
+        self.told((code, self.severity(code)), alias, at, message.into(), None);
     }
 
     /// Reports that a limit would be passed by what stands at a node; `what` is its name, as `the
@@ -80,7 +77,36 @@ impl<'r, 's> AssetReport<'r, 's> {
             .is_ok()
     }
 
-    /// The same, with what to do.
+    /// Reports what importers mend: lenient, a warning that says what is done; else an error whose
+    /// hint says so. `mended` completes the message, as `they are computed`.
+    pub(super) fn mend(
+        &mut self,
+        code: &'static Code,
+        alias: &'static str,
+        at: NodeId,
+        message: &str,
+        mended: &str,
+    ) {
+        if self.is_lenient() {
+            let told = format!("{message}: {mended}");
+            return self.told((code, Severity::Warning), alias, at, told, None);
+        }
+        let hint = format!("`--lenient` mends this: {mended}");
+        self.told(
+            (code, code.severity),
+            alias,
+            at,
+            message.to_owned(),
+            Some(hint),
+        );
+    }
+
+    /// True if what importers mend is mended.
+    pub(super) fn is_lenient(&self) -> bool {
+        self.options.lenient
+    }
+
+    /// The same as `say`, with what to do.
     pub(super) fn advise(
         &mut self,
         code: &'static Code,
@@ -89,21 +115,29 @@ impl<'r, 's> AssetReport<'r, 's> {
         message: String,
         hint: String,
     ) {
-        let (severity, json) = (self.severity(code), self.json);
+        self.told((code, self.severity(code)), alias, at, message, Some(hint));
+    }
+
+    fn told(
+        &mut self,
+        (code, severity): (&'static Code, Severity),
+        alias: &'static str,
+        at: NodeId,
+        message: String,
+        hint: Option<String>,
+    ) {
+        let json = self.json;
         self.sink.push_with(severity, || {
-            finding(json, (code, severity), alias, at, message).hint(hint)
+            let finding = finding(json, (code, severity), alias, at, message);
+            match hint {
+                Some(hint) => finding.hint(hint),
+                None => finding,
+            }
         });
     }
 
     fn severity(&self, code: &'static Code) -> Severity {
-        let repaired = [
-            &codes::GLTF_BOUNDS,
-            &codes::GLTF_VECTOR,
-            &codes::GLTF_MATRIX,
-        ];
-        if self.options.lenient && repaired.contains(&code) {
-            Severity::Warning
-        } else if self.options.strict && *code == codes::GLTF_UNKNOWN {
+        if self.options.strict && *code == codes::GLTF_UNKNOWN {
             Severity::Error
         } else {
             code.severity

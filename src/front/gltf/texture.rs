@@ -56,11 +56,12 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for texture in &doc.textures {
         let faulty = |report: &mut AssetReport<'_, '_>, at, found: &str, wanted: &str| {
             let message = format!("the image is of the type {}, not {wanted}", shown(found));
-            report.say(
+            report.mend(
                 &codes::GLTF_IMAGE,
                 "TEXTURE_INVALID_IMAGE_MIME_TYPE",
                 at,
-                message,
+                &message,
+                "its bytes count",
             );
         };
         let core = [ImageCoding::Png.media(), ImageCoding::Jpeg.media()];

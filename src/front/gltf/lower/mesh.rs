@@ -73,7 +73,9 @@ impl<'d> Meshes<'d> {
         let known = self.made.get(&key).copied();
         let made = known.unwrap_or_else(|| {
             let is_small = charge(doc, wanted, report);
-            let mesh = is_small.then(|| read(doc, wanted)).flatten()?;
+            let mesh = is_small
+                .then(|| read(doc, wanted, report.is_lenient()))
+                .flatten()?;
             let id = MeshId(to_u32(scene.meshes.len()));
             origins.record(
                 Place::new(Noun::Mesh, scene.meshes.len(), Field::Whole),
@@ -192,8 +194,9 @@ fn charge(
         && report.charge(Resource::Memory, memory, primitive.at, "the mesh")
 }
 
-/// Reads a primitive, moves its vertices, and gives it tangents if it needs them.
-fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
+/// Reads a primitive, moves its vertices, and gives it tangents if it needs them. Lenient, vertices
+/// that no triangle uses may be anything.
+fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Option<Mesh> {
     let WantedMesh {
         primitive,
         name,
@@ -219,7 +222,8 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
         triangles: Shared::default(),
     };
     deform::deform(doc, primitive, *shape, &mut mesh);
-    if let Some(kept) = topology::compact(&mut triangles, count) {
+    let is_finite = !is_lenient || is_finite(&mesh);
+    if let Some(kept) = topology::compact(&mut triangles, count, !is_finite) {
         pick(&mut mesh, &kept);
     }
     mesh.triangles = triangles.into();
@@ -227,6 +231,19 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
         tangent::generate(&mut mesh);
     }
     Some(mesh)
+}
+
+/// True if all numbers of the vertices are finite.
+fn is_finite(mesh: &Mesh) -> bool {
+    fn all<const N: usize>(column: &Column<N>) -> bool {
+        (0..column.len()).all(|at| column.at(at).iter().all(|number| number.is_finite()))
+    }
+    all(&mesh.positions)
+        && all(&mesh.normals)
+        && all(&mesh.tangents)
+        && all(&mesh.uvs)
+        && all(&mesh.second_uvs)
+        && all(&mesh.colors)
 }
 
 /// Colours with alpha, each channel from 0 to 1.

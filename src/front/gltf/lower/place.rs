@@ -43,11 +43,16 @@ pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
             .collect();
     };
     let mut shown = Vec::new();
+    // A root that has a parent is met twice.
+    let mut is_met = vec![false; doc.nodes.len()];
     let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
     while let Some(index) = open.pop() {
         let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else {
             continue;
         };
+        if std::mem::replace(&mut is_met[index], true) {
+            continue;
+        }
         shown.push(index);
         open.extend(node.children.iter().rev());
     }

@@ -55,8 +55,13 @@ fn assemble(indices: &[u32], mode: u64) -> Option<Vec<[u32; 3]>> {
     }
 }
 
-/// Keeps the vertices that triangles use, if that saves much: the old index of each that is kept.
-pub(super) fn compact(triangles: &mut [[u32; 3]], vertices: usize) -> Option<Vec<u32>> {
+/// Keeps the vertices that triangles use, if that saves much or has to be: the old index of each that
+/// is kept.
+pub(super) fn compact(
+    triangles: &mut [[u32; 3]],
+    vertices: usize,
+    has_to_be: bool,
+) -> Option<Vec<u32>> {
     const UNUSED: u32 = u32::MAX;
     let mut renamed = vec![UNUSED; vertices];
     let mut kept = Vec::new();
@@ -67,7 +72,7 @@ pub(super) fn compact(triangles: &mut [[u32; 3]], vertices: usize) -> Option<Vec
             kept.push(*corner);
         }
     }
-    if 4 * kept.len() > 3 * vertices {
+    if !has_to_be && 4 * kept.len() > 3 * vertices {
         return None;
     }
     triangles
@@ -98,8 +103,9 @@ mod tests {
     #[test]
     fn unused_vertices_are_left_out() {
         let mut triangles = [[7, 5, 9], [9, 5, 2]];
-        assert_eq!(compact(&mut triangles, 10), Some(vec![7, 5, 9, 2]));
+        assert_eq!(compact(&mut triangles, 10, false), Some(vec![7, 5, 9, 2]));
         assert_eq!(triangles, [[0, 1, 2], [2, 1, 3]]);
-        assert_eq!(compact(&mut triangles, 4), None);
+        assert_eq!(compact(&mut triangles, 4, false), None);
+        assert_eq!(compact(&mut triangles, 4, true), Some(vec![0, 1, 2, 3]));
     }
 }

@@ -93,11 +93,12 @@ impl Walk<'_, '_, '_> {
 
     fn not_empty(&mut self, node: NodeId, count: usize, name: &str) {
         if count == 0 {
-            self.report.say(
+            self.report.mend(
                 &codes::GLTF_EMPTY,
                 "EMPTY_ENTITY",
                 node,
-                format!("`{name}` is empty"),
+                &format!("`{name}` is empty"),
+                "it is taken as absent",
             );
         }
     }
