@@ -60,7 +60,7 @@ super::codes! { GL:
         "Parts of a glTF asset refer to each other by their index, from 0. There is no part with this index.",
         ["UNRESOLVED_REFERENCE"];
     GLTF_VERSION = "GL015", Error, "a glTF asset has another version than 2",
-        "This rtc reads glTF 2.x. Convert the asset, for instance by importing it into Blender and exporting it again.",
+        "This rtc reads glTF 2.x. Export the asset again, or convert glTF 1.0 with `gltf-pipeline -i old.gltf -o new.glb`.",
         ["UNKNOWN_ASSET_MAJOR_VERSION", "ASSET_MIN_VERSION_GREATER_THAN_VERSION"];
     GLTF_MINOR_VERSION = "GL016", Warning, "a glTF asset has a newer minor version than is known",
         "Minor versions only add what readers may ignore, so the asset is read as glTF 2.0.",

@@ -1,6 +1,7 @@
 //! The container: which bytes are the JSON of an asset and which its binary chunk, for `.glb` and
 //! `.gltf` alike.
 
+use super::header::CONVERT;
 use crate::diag::{Code, Diagnostic, Severity, Sink, codes};
 use crate::source::{FileId, Span};
 use std::ops::Range;
@@ -137,6 +138,12 @@ impl Scan<'_> {
             self.say(code, "GLB_UNEXPECTED_END_OF_HEADER", size..size, message);
             return None;
         };
+        if version == 1 {
+            let finding = Diagnostic::new(code, "the file is a `.glb` of glTF 1.0");
+            let finding = finding.at(self.span(4..8), "the version").hint(CONVERT);
+            self.sink.push(finding.alias("GLB_INVALID_VERSION"));
+            return None;
+        }
         if version != 2 {
             self.say(
                 code,

@@ -4,7 +4,7 @@ use super::field::Fields;
 use super::report::{AssetReport, shown};
 use super::schema;
 use crate::diag::codes;
-use crate::source::tree::NodeId;
+use crate::source::tree::{NodeId, NodeKind, Tree};
 use std::collections::BTreeSet;
 
 /// Prefixes of extensions that the registry of Khronos knows, beside those of Khronos and of
@@ -64,6 +64,44 @@ const PREFIXES: &[&str] = &[
     "VRMC",
     "WEB3D",
 ];
+
+/// What to do with glTF 1.0.
+pub(super) const CONVERT: &str =
+    "convert it with `gltf-pipeline -i old.gltf -o new.glb`, or export it anew as glTF 2.0";
+
+/// Where an asset shows that it is glTF 1.0: its version, which may be a number there, a profile, or
+/// parts that have names in place of numbers.
+fn of_first_version(json: &Tree<'_>) -> Option<NodeId> {
+    let root = json.root();
+    let version = json.at(root, &["asset", "version"]);
+    let says_so = |at: &NodeId| match json.text(*at) {
+        Some(text) => text == "1" || text.starts_with("1."),
+        None => json.number(*at).is_some_and(|number| number == 1.0),
+    };
+    if let Some(at) = version.filter(says_so) {
+        return Some(at);
+    }
+    let parts = ["accessors", "bufferViews", "buffers", "meshes", "nodes"];
+    let named = parts.iter().filter_map(|key| json.get(root, key));
+    let mut named = named.filter(|at| json.kind(*at) == NodeKind::Map);
+    let profile = json.at(root, &["asset", "profile"]);
+    if version.is_none() {
+        profile.or(named.next())
+    } else {
+        None
+    }
+}
+
+/// Refuses glTF 1.0, and says how to convert it. True if the asset is that.
+pub(super) fn is_refused(report: &mut AssetReport<'_, '_>) -> bool {
+    let at = of_first_version(report.json);
+    if let Some(at) = at {
+        let message = "the asset is glTF 1.0, and this rtc reads 2.0".to_owned();
+        let (alias, hint) = ("UNKNOWN_ASSET_MAJOR_VERSION", CONVERT.to_owned());
+        report.advise(&codes::GLTF_VERSION, alias, at, message, hint);
+    }
+    at.is_some()
+}
 
 /// Checks the version. True if it is 2, whatever comes after the point.
 pub(super) fn check_version(report: &mut AssetReport<'_, '_>) -> bool {

@@ -189,6 +189,9 @@ fn shape<'s>(
     is_glb: bool,
     report: &mut AssetReport<'_, 's>,
 ) -> Option<Document<'s>> {
+    if header::is_refused(report) {
+        return None;
+    }
     let is_known = header::check_version(report);
     schema::walk(is_known, report);
     header::check_extensions(report);
