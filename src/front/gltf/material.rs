@@ -80,6 +80,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
                 message,
             );
         }
+        super::node::tell_levels(*material, report);
         check_models(fields, report);
         check_ior(doc, fields, report);
         check_iridescence(doc, fields, report);

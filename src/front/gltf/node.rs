@@ -14,6 +14,9 @@ const IDENTITY: [f64; 16] = [
     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0,
 ];
 
+/// The extension that names what shows the same in less detail.
+const LEVELS: &str = "MSFT_lod";
+
 /// What is done with a matrix that is not affine.
 pub(super) const LAST_ROW: &str = "its last row is taken as 0, 0, 0, 1";
 
@@ -32,6 +35,8 @@ pub(super) struct Node {
     pub(super) weights: Vec<f64>,
     /// What it shows does show.
     pub(super) visible: bool,
+    /// The nodes that show the same in less detail (`MSFT_lod`).
+    pub(super) coarser: Vec<usize>,
     /// Accessors that place many of its mesh: translation, rotation, scale.
     pub(super) instances: Option<[Option<usize>; 3]>,
 }
@@ -74,6 +79,9 @@ impl Node {
             visible: fields
                 .extension("KHR_node_visibility")
                 .is_none_or(|fields| !fields.has("visible") || fields.truth("visible")),
+            coarser: fields
+                .extension(LEVELS)
+                .map_or_else(Vec::new, |fields| fields.indices("ids")),
             instances: instancing
                 .map(|fields| ["TRANSLATION", "ROTATION", "SCALE"].map(|name| fields.index(name))),
         }
@@ -97,6 +105,7 @@ pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) -> For
     for (index, node) in doc.nodes.iter().enumerate() {
         check_transform(node, report);
         check_mesh(doc, node, report);
+        tell_levels(node.at, report);
         if !joints.contains(&index) && report.is_part(node.at) {
             check_empty(node, report);
         }
@@ -235,6 +244,16 @@ fn check_transform(node: &Node, report: &mut AssetReport<'_, '_>) {
                 report.say(&codes::GLTF_VALUE, "ROTATION_NON_UNIT", at, message);
             }
         }
+    }
+}
+
+/// Notes that of the levels of detail at a node or a material the finest is shown.
+pub(super) fn tell_levels(at: NodeId, report: &mut AssetReport<'_, '_>) {
+    let levels = Fields::new(report.json, at).extension(LEVELS);
+    if let Some(levels) = levels {
+        let count = 1 + levels.indices("ids").len();
+        let message = format!("the finest of {count} levels of detail is shown");
+        report.say(&codes::GLTF_IGNORES, "", levels.at, message);
     }
 }
 

@@ -37,14 +37,14 @@ pub(super) fn worlds(doc: &Document<'_>, pose: &Pose) -> Vec<DAffine3> {
 /// The nodes that the scene shows, parents before children, in the order of the file; if there is
 /// no scene, all.
 pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
+    // A node that is met is not shown again: a coarser level never, a root that has a parent once.
+    let mut is_met = coarser(doc);
     let Some(scene) = doc.scenes.get(doc.scene.unwrap_or(0)) else {
         return (0..doc.nodes.len())
-            .filter(|node| doc.nodes[*node].visible)
+            .filter(|node| doc.nodes[*node].visible && !is_met[*node])
             .collect();
     };
     let mut shown = Vec::new();
-    // A root that has a parent is met twice.
-    let mut is_met = vec![false; doc.nodes.len()];
     let mut open: Vec<usize> = scene.nodes.iter().rev().copied().collect();
     while let Some(index) = open.pop() {
         let Some(node) = doc.nodes.get(index).filter(|node| node.visible) else {
@@ -57,6 +57,25 @@ pub(super) fn shown(doc: &Document<'_>) -> Vec<usize> {
         open.extend(node.children.iter().rev());
     }
     shown
+}
+
+/// Which nodes show another one in less detail, or lie below such a node.
+fn coarser(doc: &Document<'_>) -> Vec<bool> {
+    let mut is_coarser = vec![false; doc.nodes.len()];
+    for (index, node) in doc.nodes.iter().enumerate() {
+        if is_coarser[index] {
+            continue;
+        }
+        let levels = node.coarser.iter().copied();
+        let mut open: Vec<usize> = levels.filter(|level| *level != index).collect();
+        while let Some(level) = open.pop() {
+            if let Some(slot @ false) = is_coarser.get_mut(level) {
+                *slot = true;
+                open.extend(&doc.nodes[level].children);
+            }
+        }
+    }
+    is_coarser
 }
 
 /// The places of a mesh at its node.

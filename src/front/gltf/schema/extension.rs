@@ -93,6 +93,10 @@ static EXTENSIONS: &[Extension] = &[
         "KHR_texture_transform",
         &[("texture info", &TEXTURE_TRANSFORM)],
     ),
+    known(
+        "MSFT_lod",
+        &[("node", &NODE_LEVELS), ("material", &MATERIAL_LEVELS)],
+    ),
 ];
 
 /// What a property takes that is a parameter of a kind of the table.
@@ -221,6 +225,8 @@ static MAPPING: Object = Object {
         optional("name", Text),
     ],
 };
+static NODE_LEVELS: Object = object(&[required("ids", Indices(Pool::Nodes))]);
+static MATERIAL_LEVELS: Object = object(&[required("ids", Indices(Pool::Materials))]);
 static VISIBILITY: Object = object(&[optional("visible", Truth)]);
 static TEXTURE_TRANSFORM: Object = object(&[
     optional("offset", Numbers(&[2], FREE)),
