@@ -5,7 +5,7 @@ use super::make;
 use rtc::codec::{self, Form};
 use rtc::diag::{Diagnostic, Severity, Sink};
 use rtc::front;
-use rtc::ir::{Environment, Lowered, Origins, Scene, Shape};
+use rtc::ir::{Environment, Lowered, Material, Origins, Scene, Shape};
 use rtc::math::Vec3;
 use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
@@ -155,6 +155,36 @@ fn mended_assets_show_the_triangle_that_was_meant() {
         };
         let moved = f64::from(u8::from(case.starts_with("GL037")));
         assert_eq!(instance.world_from_object[3][0], moved, "{case}");
+    }
+}
+
+#[test]
+fn of_levels_of_detail_the_finest_is_shown() {
+    for has_scene in [true, false] {
+        let scene = lower(make::levels(has_scene), front::FrontOptions::default());
+        assert_eq!(scene.names, ["fine"], "with a scene: {has_scene}");
+    }
+}
+
+#[test]
+fn a_mesh_has_the_sets_of_texture_coordinates_that_its_material_looks_at() {
+    for sets @ [color, emissive] in [[0, 1], [3, 2], [0, 3], [2, 2]] {
+        let scene = lower(make::sets(sets), front::FrontOptions::default());
+        for (surface, asked) in scene.surfaces.iter().zip([vec![color, emissive], vec![0]]) {
+            let Shape::Instance(instance) = &surface.shape else {
+                panic!("an instance");
+            };
+            let mesh = &scene.meshes[instance.mesh.0 as usize];
+            let Material::Standard(material) = &scene.materials[surface.material.0 as usize] else {
+                panic!("a material of glTF");
+            };
+            let found = material.maps().map(|map| match map.set {
+                0 => mesh.uvs.at(0)[0],
+                _ => mesh.second_uvs.at(0)[0],
+            });
+            let asked: Vec<f64> = asked.into_iter().map(f64::from).collect();
+            assert_eq!(found.collect::<Vec<_>>(), asked, "{sets:?}");
+        }
     }
 }
 

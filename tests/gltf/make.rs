@@ -215,9 +215,57 @@ pub(super) fn stage() -> Vec<u8> {
     }))
 }
 
-/// A normal map, turned and scaled, so that tangents are made; the picture is two by one pixels.
+/// A triangle in three levels of detail, each a root, the coarsest with a child; without scenes all
+/// nodes show.
+pub(super) fn levels(has_scene: bool) -> Vec<u8> {
+    let mut maker = Maker::default();
+    let triangle = maker.floats("VEC3", 3, &TRIANGLE);
+    let mut asset = json!({
+        "extensionsUsed": ["MSFT_lod"],
+        "nodes": [
+            {"mesh": 0, "name": "coarse", "children": [3]},
+            {"mesh": 0, "name": "middle"},
+            {"mesh": 0, "name": "fine", "extensions": {"MSFT_lod": {"ids": [1, 0]}}},
+            {"mesh": 0, "name": "below"},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": triangle}}]}],
+    });
+    if has_scene {
+        asset["scenes"] = json!([{"nodes": [0, 1, 2]}]);
+    }
+    maker.finish(asset)
+}
+
+/// A picture of two by one pixels.
+const PNG: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGNoaPj/v6EBAA4AA//GDX4UAAAAAElFTkSuQmCC";
+
+/// Four sets of texture coordinates, of which one material looks at those given, for its colour and
+/// its glow, and another one at the first.
+pub(super) fn sets([color, emissive]: [u32; 2]) -> Vec<u8> {
+    let mut maker = Maker::default();
+    let triangle = maker.floats("VEC3", 3, &TRIANGLE);
+    let mut attributes = json!({"POSITION": triangle});
+    for (set, corner) in [0.0_f32, 1.0, 2.0, 3.0].into_iter().enumerate() {
+        let uvs = [corner, 0.0, 1.0, 0.5, 0.0, 1.0];
+        attributes[format!("TEXCOORD_{set}")] = maker.floats("VEC2", 2, &uvs).into();
+    }
+    maker.finish(json!({
+        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [
+            {"attributes": attributes, "material": 0}, {"attributes": attributes, "material": 1},
+        ]}],
+        "materials": [
+            {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": color}},
+             "emissiveTexture": {"index": 0, "texCoord": emissive}, "emissiveFactor": [1, 1, 1]},
+            {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
+        ],
+        "textures": [{"source": 0}],
+        "images": [{"uri": format!("data:image/png;base64,{PNG}")}],
+    }))
+}
+
+/// A normal map, turned and scaled, so that tangents are made.
 pub(super) fn texture() -> Vec<u8> {
-    const PNG: &str = "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGNoaPj/v6EBAA4AA//GDX4UAAAAAElFTkSuQmCC";
     let mut maker = Maker::default();
     let triangle = maker.floats("VEC3", 3, &TRIANGLE);
     let normals = maker.floats("VEC3", 3, &[0.0, 0.0, 1.0].repeat(3));

@@ -5,6 +5,7 @@ use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::primitive::Primitive;
 use super::shape::Deformation;
+use super::uv::TexCoordSets;
 use crate::ir::{self, Column};
 use crate::math::Vec3;
 use glam::{DAffine3, DMat3};
@@ -13,7 +14,7 @@ use glam::{DAffine3, DMat3};
 pub(super) fn deform(
     doc: &Document<'_>,
     primitive: &Primitive,
-    shape: Deformation<'_>,
+    (shape, uv_sets): (Deformation<'_>, TexCoordSets),
     mesh: &mut ir::Mesh,
 ) {
     let targets = primitive
@@ -28,8 +29,9 @@ pub(super) fn deform(
     morph.add::<3, 3>("POSITION", &mut mesh.positions);
     morph.add::<3, 3>("NORMAL", &mut mesh.normals);
     morph.add::<4, 3>("TANGENT", &mut mesh.tangents);
-    morph.add::<2, 2>("TEXCOORD_0", &mut mesh.uvs);
-    morph.add::<2, 2>("TEXCOORD_1", &mut mesh.second_uvs);
+    let [first, second] = &uv_sets.names();
+    morph.add::<2, 2>(first, &mut mesh.uvs);
+    morph.add::<2, 2>(second, &mut mesh.second_uvs);
     if morph.add::<4, 4>("COLOR_0", &mut mesh.colors) {
         mesh.colors = super::mesh::clamped(mesh.colors.iter());
     }

@@ -6,8 +6,11 @@ use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
 use super::mesh::to_u32;
 use super::texture::LoweredTextures;
+use super::uv::TexCoordSets;
+use crate::diag::codes;
 use crate::ir::{self, Alpha, Field, Map, MaterialId, Noun, Origins, Place, Scene, Standard};
 use crate::source::tree::Tree;
+use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
 pub(super) struct Materials {
@@ -15,6 +18,8 @@ pub(super) struct Materials {
     /// That of primitives without one.
     default: Option<MaterialId>,
     textures: LoweredTextures,
+    /// The sets of texture coordinates that materials look at, where these are not the first two.
+    uv_sets: BTreeMap<u32, TexCoordSets>,
 }
 
 /// The material that a primitive has in a variant.
@@ -37,7 +42,13 @@ impl Materials {
             made: vec![None; doc.materials.len()],
             default: None,
             textures: LoweredTextures::new(doc),
+            uv_sets: BTreeMap::new(),
         }
+    }
+
+    /// The sets of texture coordinates that the material looks at.
+    pub(super) fn uv_sets(&self, material: MaterialId) -> TexCoordSets {
+        self.uv_sets.get(&material.0).copied().unwrap_or_default()
     }
 
     /// True if the material looks at tangents.
@@ -66,7 +77,7 @@ impl Materials {
         if let Some(known) = known {
             return known;
         }
-        let standard = match material {
+        let mut standard = match material {
             None => Standard::default(),
             Some(material) => {
                 let fields = Fields::new(report.json, doc.materials[material]);
@@ -81,6 +92,19 @@ impl Materials {
             }
         };
         let id = MaterialId(to_u32(scene.materials.len()));
+        let (sets, lost) = TexCoordSets::choose(&mut standard);
+        if sets != TexCoordSets::default() {
+            self.uv_sets.insert(id.0, sets);
+        }
+        if let (Some(lost), Some(material)) = (lost, material) {
+            let [first, second] = sets.names();
+            let message = format!(
+                "textures ask for more than two sets of texture coordinates: `{first}` and `{second}` are \
+                 kept, `TEXCOORD_{lost}` is not, and `{first}` is taken"
+            );
+            let at = doc.materials[material];
+            report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+        }
         if let Some(material) = material {
             let place = Place::new(Noun::Material, scene.materials.len(), Field::Whole);
             origins.record(place, report.json.span(doc.materials[material]));

@@ -6,6 +6,7 @@ use super::super::elements::Elements;
 use super::super::primitive::{Primitive, TRIANGLES};
 use super::super::report::AssetReport;
 use super::shape::{Deformation, ShapeId};
+use super::uv::TexCoordSets;
 use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
@@ -27,7 +28,7 @@ pub(super) struct Meshes<'d> {
     parts: BTreeMap<Parts<'d>, usize>,
     of_primitive: BTreeMap<NodeId, usize>,
     /// The mesh of each that was asked for; none if it has no surface.
-    made: BTreeMap<(usize, ShapeId, bool), Option<MeshId>>,
+    made: BTreeMap<(usize, ShapeId, bool, TexCoordSets), Option<MeshId>>,
 }
 
 /// Names and accessors.
@@ -48,6 +49,7 @@ pub(super) struct WantedMesh<'d, 'w> {
     pub(super) name: &'d str,
     pub(super) shape: (ShapeId, Deformation<'w>),
     pub(super) needs_tangents: bool,
+    pub(super) uv_sets: TexCoordSets,
 }
 
 impl<'d> Meshes<'d> {
@@ -69,7 +71,8 @@ impl<'d> Meshes<'d> {
         report: &mut AssetReport<'_, '_>,
     ) -> Option<MeshId> {
         let primitive = wanted.primitive;
-        let key = (self.parts(primitive), wanted.shape.0, wanted.needs_tangents);
+        let (tangents, uv_sets) = (wanted.needs_tangents, wanted.uv_sets);
+        let key = (self.parts(primitive), wanted.shape.0, tangents, uv_sets);
         let known = self.made.get(&key).copied();
         let made = known.unwrap_or_else(|| {
             let is_small = charge(doc, wanted, report);
@@ -137,6 +140,7 @@ fn charge(
         name,
         shape: (_, shape),
         needs_tangents,
+        uv_sets,
     } = wanted;
     let count = |accessor: usize| {
         doc.accessors
@@ -166,19 +170,7 @@ fn charge(
         .joints
         .map_or(0, |_| primitive.influences().count() as u64);
     let is_moved = targets + sets > 0;
-    let columns = [
-        ("POSITION", 12),
-        ("NORMAL", 12),
-        ("TANGENT", 16),
-        ("TEXCOORD_0", 8),
-        ("TEXCOORD_1", 8),
-        ("COLOR_0", 16),
-    ];
-    let columns = columns
-        .into_iter()
-        .filter(|(name, _)| primitive.find(name).is_some())
-        .map(|(_, size)| size);
-    let vertex = columns.sum::<u64>() + if is_moved { MOVED } else { 0 };
+    let vertex = vertex(primitive, *uv_sets) + if is_moved { MOVED } else { 0 };
     let work = vertices
         .saturating_mul(1 + targets + sets)
         .saturating_add(corners + TANGENT * tangents);
@@ -194,6 +186,22 @@ fn charge(
         && report.charge(Resource::Memory, memory, primitive.at, "the mesh")
 }
 
+/// Bytes of the attributes of a vertex.
+fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
+    let [first, second] = &sets.names();
+    let columns = [
+        ("POSITION", 12),
+        ("NORMAL", 12),
+        ("TANGENT", 16),
+        (first, 8),
+        (second, 8),
+        ("COLOR_0", 16),
+    ];
+    let columns = columns.into_iter();
+    let own = columns.filter(|(name, _)| primitive.find(name).is_some());
+    own.map(|(_, size)| size).sum()
+}
+
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them. Lenient, vertices
 /// that no triangle uses may be anything.
 fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Option<Mesh> {
@@ -202,6 +210,7 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Op
         name,
         shape: (_, shape),
         needs_tangents,
+        uv_sets,
     } = wanted;
     let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
@@ -210,18 +219,21 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Op
     let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
     // Without normals tangents mean nothing (glTF 2.0, section 3.7.2.1).
     let tangents = elements("TANGENT").filter(|_| !normals.is_empty());
-    let uvs = |name| elements(name).map_or_else(Column::default, |uvs| uvs.column());
+    let [first, second] = &uv_sets.names();
+    let uvs = |name: &str| elements(name).map_or_else(Column::default, |uvs| uvs.column());
     let mut mesh = ir::Mesh {
         name: (*name).to_owned(),
         positions,
         normals,
-        uvs: uvs("TEXCOORD_0"),
-        second_uvs: uvs("TEXCOORD_1"),
+        uvs: uvs(first),
+        second_uvs: Some(second)
+            .filter(|second| *second != first)
+            .map_or_else(Column::default, |second| uvs(second)),
         tangents: tangents.map_or_else(Column::default, |tangents| tangents.column()),
         colors: elements("COLOR_0").map_or_else(Column::default, |own| colors(&own)),
         triangles: Shared::default(),
     };
-    deform::deform(doc, primitive, *shape, &mut mesh);
+    deform::deform(doc, primitive, (*shape, *uv_sets), &mut mesh);
     let is_finite = !is_lenient || is_finite(&mesh);
     if let Some(kept) = topology::compact(&mut triangles, count, !is_finite) {
         pick(&mut mesh, &kept);

@@ -12,6 +12,7 @@ mod shape;
 mod tangent;
 mod texture;
 mod topology;
+mod uv;
 
 use super::document::Document;
 use super::field::Fields;
@@ -192,12 +193,14 @@ impl Lowering<'_, '_, '_> {
         for primitive in &mesh.primitives {
             let material = self.material(primitive);
             let needs_tangents = self.materials.needs_tangents(material, &self.scene);
+            let uv_sets = self.materials.uv_sets(material);
             let shape = (shape, self.shapes.get(shape));
             let made = mesh::WantedMesh {
                 primitive,
                 name: &mesh.name,
                 shape,
                 needs_tangents,
+                uv_sets,
             };
             let Some(id) =
                 self.meshes

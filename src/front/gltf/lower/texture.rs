@@ -30,8 +30,8 @@ impl LoweredTextures {
         }
     }
 
-    /// The map that a texture info of a material stands for; none if its texture has no image that
-    /// can be read.
+    /// The map that a texture info of a material stands for, with the set of texture coordinates as
+    /// glTF numbers it; none if its texture has no image that can be read.
     pub(super) fn map(
         &mut self,
         doc: &Document<'_>,
@@ -46,18 +46,9 @@ impl LoweredTextures {
             .and_then(|fields| fields.whole("texCoord"))
             .or(info.whole("texCoord"))
             .unwrap_or(0);
-        let set = u32::try_from(set)
-            .ok()
-            .filter(|set| *set < 2)
-            .unwrap_or_else(|| {
-                let message =
-                    format!("set {set} of texture coordinates is not kept, so set 0 is taken");
-                report.say(&codes::GLTF_MATERIAL_ODD, "", info.at, message);
-                0
-            });
         Some(Map {
             texture,
-            set,
+            set: u32::try_from(set).unwrap_or(u32::MAX),
             texture_from_surface: transform.map(texture_from_surface),
         })
     }
