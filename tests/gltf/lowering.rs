@@ -5,7 +5,7 @@ use super::make;
 use rtc::codec::{self, Form};
 use rtc::diag::{Diagnostic, Severity, Sink};
 use rtc::front;
-use rtc::ir::{Environment, Lowered, Material, Origins, Scene, Shape};
+use rtc::ir::{Emitter, Environment, Light, Lowered, Material, Origins, Scene, Shape};
 use rtc::math::Vec3;
 use rtc::passes::Overrides;
 use rtc::pipeline::{self, Options};
@@ -186,6 +186,46 @@ fn a_mesh_has_the_sets_of_texture_coordinates_that_its_material_looks_at() {
             assert_eq!(found.collect::<Vec<_>>(), asked, "{sets:?}");
         }
     }
+}
+
+#[test]
+fn pointers_move_materials_lights_cameras_and_nodes() {
+    let at = |time| {
+        let front = front::FrontOptions {
+            time,
+            ..front::FrontOptions::default()
+        };
+        let scene = lower(make::pointers(), front);
+        let Shape::Instance(instance) = &scene.surfaces[0].shape else {
+            panic!("an instance");
+        };
+        let Material::Standard(material) = &scene.materials[0] else {
+            panic!("a material of glTF");
+        };
+        let Light::Punctual(light) = &scene.lights[0] else {
+            panic!("a spot");
+        };
+        let Emitter::Spot { outer_angle, .. } = light.emitter else {
+            panic!("a spot");
+        };
+        let own = [instance.world_from_object[3][0], material.clearcoat];
+        let factors = [material.metallic, material.emissive[0], light.intensity[0]];
+        let opening = scene.camera.up[1] * f64::from(scene.camera.size[1]) / 2.0;
+        (own, factors, material.base_color, opening, outer_angle)
+    };
+    let (own, factors, color, opening, angle) = at(None);
+    assert_eq!(
+        (own, factors, color),
+        ([0.0, 0.0], [0.25, 0.0, 1.0], [1.0; 4])
+    );
+    assert!((opening - 0.5_f64.tan()).abs() < 1e-12, "{opening}");
+    assert!((angle - std::f64::consts::FRAC_PI_4).abs() < 1e-12);
+    // In the middle the clearcoat would be 1.5, which is kept in its range.
+    let (own, factors, color, opening, angle) = at(Some(1.0));
+    assert_eq!((own, factors), ([2.0, 1.0], [0.25, 0.5, 4.0]));
+    assert_eq!(color, [0.5, 0.25, 0.0, 1.0]);
+    assert!((opening - 0.75_f64.tan()).abs() < 1e-12, "{opening}");
+    assert!((angle - 0.6).abs() < 1e-7, "{angle}");
 }
 
 #[test]

@@ -215,6 +215,67 @@ pub(super) fn stage() -> Vec<u8> {
     }))
 }
 
+/// A material, two lights, a camera and a node, all moved by pointers.
+pub(super) fn pointers() -> Vec<u8> {
+    let mut maker = Maker::default();
+    let triangle = maker.floats("VEC3", 3, &TRIANGLE);
+    let times = maker.floats("SCALAR", 1, &[0.0, 2.0]);
+    let moved = [
+        (
+            "/nodes/1/translation",
+            maker.floats("VEC3", 3, &[0.0, 0.0, 0.0, 4.0, 0.0, 0.0]),
+        ),
+        (
+            "/materials/0/pbrMetallicRoughness/baseColorFactor",
+            maker.floats("VEC4", 4, &[0.0, 0.0, 0.0, 1.0, 1.0, 0.5, 0.0, 1.0]),
+        ),
+        (
+            "/materials/0/emissiveFactor",
+            maker.floats("VEC3", 3, &[0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
+        ),
+        (
+            "/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor",
+            maker.floats("SCALAR", 1, &[0.0, 3.0]),
+        ),
+        (
+            "/cameras/0/perspective/yfov",
+            maker.floats("SCALAR", 1, &[1.0, 2.0]),
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/intensity",
+            maker.floats("SCALAR", 1, &[0.0, 8.0]),
+        ),
+        (
+            "/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle",
+            maker.floats("SCALAR", 1, &[0.5, 0.7]),
+        ),
+    ];
+    let samplers: Vec<Value> = moved
+        .iter()
+        .map(|(_, output)| json!({"input": times, "output": output}))
+        .collect();
+    let target = |pointer: &str| json!({"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}});
+    let channels: Vec<Value> = moved
+        .iter()
+        .enumerate()
+        .map(|(at, (pointer, _))| json!({"sampler": at, "target": target(pointer)}))
+        .collect();
+    maker.finish(json!({
+        "extensionsUsed": ["KHR_animation_pointer", "KHR_lights_punctual", "KHR_materials_clearcoat"],
+        "extensionsRequired": ["KHR_animation_pointer"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}]}},
+        "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [
+            {"camera": 0, "translation": [0, 0, 4]}, {"mesh": 0},
+            {"extensions": {"KHR_lights_punctual": {"light": 0}}},
+        ],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": triangle}, "material": 0}]}],
+        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0.25}, "extensions": {"KHR_materials_clearcoat": {}}}],
+        "animations": [{"samplers": samplers, "channels": channels}],
+    }))
+}
+
 /// A triangle in three levels of detail, each a root, the coarsest with a child; without scenes all
 /// nodes show.
 pub(super) fn levels(has_scene: bool) -> Vec<u8> {

@@ -71,7 +71,7 @@ super::codes! { GL:
         ["UNSUPPORTED_EXTENSION"];
     GLTF_IGNORES = "GL018", Note, "an extension of a glTF asset has no effect",
         "The asset can do without the extension, and does.",
-        ["UNSUPPORTED_EXTENSION", "INCOMPLETE_EXTENSION_SUPPORT"];
+        ["UNSUPPORTED_EXTENSION"];
     GLTF_EXTENSION = "GL019", Error, "an extension of a glTF asset is misused",
         "Each extension that is used is listed in `extensionsUsed`, those that an asset can't do without also in \
          `extensionsRequired`, and each has the places where it may stand.",
@@ -197,7 +197,7 @@ super::codes! { GL:
     GLTF_MATERIAL_ODD = "GL045", Warning, "a value of a glTF asset has no effect where it stands",
         "An alpha cutoff needs the mode MASK, a volume needs light that enters it, dispersion a volume, an emissive \
          strength something that emits, and a camera opens less than half a turn. Extensions of materials that are not \
-         drawn have no effect either.",
+         drawn have no effect either, nor channels whose pointer names what is not followed.",
         ["MATERIAL_ALPHA_CUTOFF_INVALID_MODE", "KHR_MATERIALS_VOLUME_NO_TRANSMISSION",
          "KHR_MATERIALS_VOLUME_DOUBLE_SIDED", "KHR_MATERIALS_DISPERSION_NO_VOLUME",
          "KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR",

@@ -4,16 +4,8 @@ use super::document::Document;
 use super::field::Fields;
 use super::report::AssetReport;
 use crate::diag::codes;
-use crate::source::tree::NodeId;
 
-/// A camera; it looks along its negative z axis, y is up.
-#[derive(Debug)]
-pub(super) struct Camera {
-    pub(super) at: NodeId,
-    pub(super) projection: Option<Projection>,
-}
-
-/// How a camera makes a picture.
+/// How a camera makes a picture; it looks along its negative z axis, y is up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Projection {
     /// The vertical opening in radians, and width over height if the picture's own does not count.
@@ -22,53 +14,36 @@ pub(super) enum Projection {
     Orthographic { xmag: f64, ymag: f64 },
 }
 
-impl Camera {
-    pub(super) fn read(fields: Fields<'_, '_>) -> Self {
-        let perspective = fields
-            .object("perspective")
-            .filter(|_| fields.is("type", "perspective"));
-        let perspective = perspective.and_then(|fields| {
-            let yfov = fields.number("yfov").filter(|yfov| *yfov > 0.0)?;
-            Some(Projection::Perspective {
-                yfov,
-                aspect: fields.number("aspectRatio").filter(|ratio| *ratio > 0.0),
-            })
+/// The projection of a camera.
+pub(super) fn projection(fields: Fields<'_, '_>) -> Option<Projection> {
+    let own = |kind| fields.object(kind).filter(|_| fields.is("type", kind));
+    if let Some(own) = own("perspective") {
+        return Some(Projection::Perspective {
+            yfov: own.number("yfov").filter(|yfov| *yfov > 0.0)?,
+            aspect: own.number("aspectRatio").filter(|ratio| *ratio > 0.0),
         });
-        let orthographic = fields
-            .object("orthographic")
-            .filter(|_| fields.is("type", "orthographic"));
-        let orthographic = orthographic.and_then(|fields| {
-            Some(Projection::Orthographic {
-                xmag: fields.number("xmag")?,
-                ymag: fields.number("ymag")?,
-            })
-        });
-        Self {
-            at: fields.at,
-            projection: perspective.or(orthographic),
-        }
     }
+    let own = own("orthographic")?;
+    Some(Projection::Orthographic {
+        xmag: own.number("xmag")?,
+        ymag: own.number("ymag")?,
+    })
 }
 
 /// Checks all cameras.
 pub(super) fn check(doc: &Document<'_>, report: &mut AssetReport<'_, '_>) {
     for camera in &doc.cameras {
-        let fields = Fields::new(report.json, camera.at);
+        let fields = Fields::new(report.json, *camera);
         let (perspective, orthographic) =
             (fields.object("perspective"), fields.object("orthographic"));
         if fields.has("perspective") && fields.has("orthographic") {
             let message = "a camera is perspective or orthographic, not both".to_owned();
-            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", camera.at, message);
+            report.say(&codes::GLTF_TOGETHER, "ONE_OF_MISMATCH", *camera, message);
         }
         for kind in ["perspective", "orthographic"] {
             if fields.is("type", kind) && !fields.has(kind) {
                 let message = format!("the camera has no `{kind}`");
-                report.say(
-                    &codes::GLTF_MISSING,
-                    "UNDEFINED_PROPERTY",
-                    camera.at,
-                    message,
-                );
+                report.say(&codes::GLTF_MISSING, "UNDEFINED_PROPERTY", *camera, message);
             }
         }
         for part in [perspective, orthographic].into_iter().flatten() {

@@ -8,9 +8,13 @@ use super::field::Fields;
 use super::layout::{Component, ElementLayout};
 use super::mesh::Mesh;
 use super::node::Transform;
+use super::pointer;
 use super::report::AssetReport;
 use crate::diag::codes;
 use crate::source::tree::NodeId;
+
+/// The extension whose channels name what they move by a pointer.
+const POINTER: &str = "KHR_animation_pointer";
 
 /// What moves, and how.
 #[derive(Debug)]
@@ -19,6 +23,8 @@ pub(super) struct Channel {
     pub(super) sampler: Option<usize>,
     pub(super) node: Option<usize>,
     pub(super) path: Option<Path>,
+    /// What names the property that moves, if it is no property of a node.
+    pub(super) pointer: Option<String>,
 }
 
 /// The property that a channel moves.
@@ -30,22 +36,36 @@ pub(super) enum Path {
     Weights,
 }
 
+impl Path {
+    /// The path of a name.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        Some(match name {
+            "translation" => Self::Translation,
+            "rotation" => Self::Rotation,
+            "scale" => Self::Scale,
+            "weights" => Self::Weights,
+            _ => return None,
+        })
+    }
+}
+
 impl Channel {
     pub(super) fn read(fields: Fields<'_, '_>) -> Self {
         let target = fields.object("target");
-        let path = target.and_then(|target| match target.text("path")?.as_str() {
-            "translation" => Some(Path::Translation),
-            "rotation" => Some(Path::Rotation),
-            "scale" => Some(Path::Scale),
-            "weights" => Some(Path::Weights),
-            _ => None,
-        });
-        let node = target.and_then(|target| target.index("node"));
+        let pointer = target.filter(|target| target.is("path", "pointer"));
+        let pointer = pointer.and_then(|target| target.extension(POINTER)?.text("pointer"));
+        let own = || target.and_then(|target| Path::of(&target.text("path")?));
+        let node = || target.and_then(|target| target.index("node"));
+        let (node, path) = match pointer.as_deref().and_then(pointer::of_node) {
+            Some((node, path)) => (Some(node), Some(path)),
+            None => (node(), own()),
+        };
         Self {
             at: fields.at,
             sampler: fields.index("sampler"),
             node,
             path,
+            pointer: pointer.filter(|_| path.is_none()),
         }
     }
 }
@@ -56,8 +76,7 @@ pub(super) fn check_pointers(
     animation: &Animation,
     report: &mut AssetReport<'_, '_>,
 ) {
-    const NAME: &str = "KHR_animation_pointer";
-    let is_used = doc.uses(NAME);
+    let is_used = doc.uses(POINTER);
     for channel in &animation.channels {
         let Some(target) = Fields::new(report.json, channel.at).object("target") else {
             continue;
@@ -65,10 +84,10 @@ pub(super) fn check_pointers(
         let path = target.node("path");
         if let Some(at) = path.filter(|path| !is_used && report.json.is(*path, "pointer")) {
             let message =
-                format!("the path `pointer` is one of `{NAME}`, which the asset does not use");
+                format!("the path `pointer` is one of `{POINTER}`, which the asset does not use");
             report.say(&codes::GLTF_CHOICE, "VALUE_NOT_IN_LIST", at, message);
         }
-        let Some(pointer) = target.extension(NAME).filter(|_| is_used) else {
+        let Some(own) = target.extension(POINTER).filter(|_| is_used) else {
             continue;
         };
         if let Some(at) = path.filter(|path| !report.json.is(*path, "pointer")) {
@@ -79,17 +98,15 @@ pub(super) fn check_pointers(
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH";
             report.say(&codes::GLTF_TOGETHER, alias, at, message);
         }
-        let message = "what the pointer names does not move".to_owned();
-        report.say(
-            &codes::GLTF_IGNORES,
-            "INCOMPLETE_EXTENSION_SUPPORT",
-            pointer.at,
-            message,
-        );
+        let named = channel.pointer.as_deref();
+        if named.is_some_and(|named| pointer::resolve(doc, report.json, named).is_none()) {
+            let message = "what the pointer names is not followed, so it does not move".to_owned();
+            report.say(&codes::GLTF_MATERIAL_ODD, "", own.at, message);
+        }
         if target.has("node") {
             let message = "the channel has a pointer and a node".to_owned();
             let alias = "KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE";
-            report.say(&codes::GLTF_TOGETHER, alias, pointer.at, message);
+            report.say(&codes::GLTF_TOGETHER, alias, own.at, message);
         }
     }
 }

@@ -3,7 +3,6 @@
 use super::accessor::Accessor;
 use super::animation::{Animation, Keyframes};
 use super::buffer::{Buffer, BufferView};
-use super::camera::Camera;
 use super::channel::Channel;
 use super::field::Fields;
 use super::image::Image;
@@ -32,7 +31,8 @@ pub(super) struct Document<'s> {
     pub(super) nodes: Vec<Node>,
     pub(super) skins: Vec<Skin>,
     pub(super) animations: Vec<Animation>,
-    pub(super) cameras: Vec<Camera>,
+    /// Where each camera was written.
+    pub(super) cameras: Vec<NodeId>,
     /// Where each light was written.
     pub(super) lights: Vec<NodeId>,
     pub(super) scenes: Vec<Scene>,
@@ -113,7 +113,7 @@ impl Document<'_> {
             nodes: each(root, "nodes", Node::read),
             skins: each(root, "skins", Skin::read),
             animations: each(root, "animations", Animation::read),
-            cameras: each(root, "cameras", Camera::read),
+            cameras: each(root, "cameras", |fields| fields.at),
             lights: lights.map_or_else(Vec::new, |lights| {
                 each(lights, "lights", |fields| fields.at)
             }),

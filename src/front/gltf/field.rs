@@ -1,6 +1,7 @@
 //! The properties of an object as values, once its shape was checked: what is absent or wrong is
 //! simply not there.
 
+use super::pointer::Moved;
 use crate::source::tree::{NodeId, NodeKind, Tree};
 
 /// The object at a node.
@@ -8,11 +9,28 @@ use crate::source::tree::{NodeId, NodeKind, Tree};
 pub(super) struct Fields<'t, 's> {
     pub(super) json: &'t Tree<'s>,
     pub(super) at: NodeId,
+    /// What counts in place of numbers that are written.
+    moved: Option<&'t Moved>,
 }
 
 impl<'t, 's> Fields<'t, 's> {
     pub(super) fn new(json: &'t Tree<'s>, at: NodeId) -> Self {
-        Self { json, at }
+        let moved = None;
+        Self { json, at, moved }
+    }
+
+    /// The same, as an animation has moved it.
+    pub(super) fn moved(self, moved: &'t Moved) -> Self {
+        let moved = Some(moved).filter(|moved| !moved.is_empty());
+        Self { moved, ..self }
+    }
+
+    /// The numbers that `key` was moved to.
+    fn moved_to(&self, key: &str) -> Option<&'t [f64]> {
+        let mut own = self.moved?.range((self.at, "")..);
+        let own = own.by_ref().take_while(|((at, _), _)| *at == self.at);
+        let mut own = own.filter(|((_, name), _)| *name == key);
+        own.next().map(|(_, numbers)| numbers.as_slice())
     }
 
     pub(super) fn node(&self, key: &str) -> Option<NodeId> {
@@ -38,11 +56,11 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// The objects of the list that `key` holds.
     pub(super) fn objects(&self, key: &str) -> impl Iterator<Item = Self> + use<'t, 's> {
-        let (json, list) = (self.json, self.node(key));
+        let (json, list, moved) = (self.json, self.node(key), self.moved);
         let list = list.filter(|list| json.kind(*list) == NodeKind::List);
         list.into_iter()
             .flat_map(|list| json.items(list))
-            .map(|at| Self { json, at })
+            .map(move |at| Self { json, at, moved })
     }
 
     pub(super) fn whole(&self, key: &str) -> Option<u64> {
@@ -64,6 +82,9 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// A finite number.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
+        if let Some([number]) = self.moved_to(key) {
+            return Some(*number);
+        }
         self.json
             .number(self.node(key)?)
             .filter(|number| number.is_finite())
@@ -75,6 +96,9 @@ impl<'t, 's> Fields<'t, 's> {
 
     /// A list of finite numbers, whatever their number.
     pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        if let Some(numbers) = self.moved_to(key) {
+            return Some(numbers.to_vec());
+        }
         let list = self
             .node(key)
             .filter(|list| self.json.kind(*list) == NodeKind::List)?;

@@ -29,6 +29,7 @@ mod material;
 mod mesh;
 mod meshopt;
 mod node;
+mod pointer;
 mod primitive;
 mod report;
 mod resource;

@@ -1,7 +1,7 @@
 //! The camera: the one that is asked for or the first one that the scene shows, or else one that
 //! looks at all of it.
 
-use super::super::camera::Projection;
+use super::super::camera::{Projection, projection};
 use super::super::field::Fields;
 use super::Lowering;
 use crate::ir::{self, Ball, Camera, Field, Lens, Noun, Place};
@@ -65,8 +65,9 @@ impl Lowering<'_, '_, '_> {
     }
 
     fn own(&self, seen: &Seen) -> Option<(NodeId, Camera)> {
-        let camera = self.doc.cameras.get(seen.camera)?;
-        Some((camera.at, through(camera.projection?, seen.world)?))
+        let at = *self.doc.cameras.get(seen.camera)?;
+        let fields = Fields::new(self.report.json, at).moved(&self.materials.moved);
+        Some((at, through(projection(fields)?, seen.world)?))
     }
 
     fn find_camera(&self, name: &str) -> Option<&Seen> {
@@ -83,7 +84,7 @@ impl Lowering<'_, '_, '_> {
             .doc
             .cameras
             .get(seen.camera)
-            .map(|camera| Fields::new(self.report.json, camera.at).name());
+            .map(|camera| Fields::new(self.report.json, *camera).name());
         [
             own.unwrap_or_default(),
             self.doc.nodes[seen.node].name.clone(),

@@ -12,7 +12,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 impl Lowering<'_, '_, '_> {
     /// Lowers the light at a node that stands at `world`.
     pub(super) fn light(&mut self, light: NodeId, world: DAffine3) {
-        let fields = Fields::new(self.report.json, light);
+        let fields = Fields::new(self.report.json, light).moved(&self.materials.moved);
         let intensity = fields.number_or("intensity", 1.0);
         let position = world.translation.to_array();
         let backward = unit(world.z_axis).unwrap_or(Vec3::ZERO);

@@ -2,6 +2,7 @@
 
 use super::super::document::Document;
 use super::super::field::Fields;
+use super::super::pointer::Moved;
 use super::super::primitive::Primitive;
 use super::super::report::AssetReport;
 use super::mesh::to_u32;
@@ -14,6 +15,8 @@ use std::collections::BTreeMap;
 
 /// What became of the materials of the asset.
 pub(super) struct Materials {
+    /// The properties of all parts that an animation has moved.
+    pub(super) moved: Moved,
     made: Vec<Option<MaterialId>>,
     /// That of primitives without one.
     default: Option<MaterialId>,
@@ -37,8 +40,9 @@ pub(super) fn chosen(
 }
 
 impl Materials {
-    pub(super) fn new(doc: &Document<'_>) -> Self {
+    pub(super) fn new(doc: &Document<'_>, moved: Moved) -> Self {
         Self {
+            moved,
             made: vec![None; doc.materials.len()],
             default: None,
             textures: LoweredTextures::new(doc),
@@ -80,7 +84,7 @@ impl Materials {
         let mut standard = match material {
             None => Standard::default(),
             Some(material) => {
-                let fields = Fields::new(report.json, doc.materials[material]);
+                let fields = Fields::new(report.json, doc.materials[material]).moved(&self.moved);
                 Reader {
                     doc,
                     textures: &mut self.textures,

@@ -65,13 +65,13 @@ pub(super) fn lower<'s>(
         .variant
         .as_deref()
         .and_then(|name| find_variant(name, report));
-    let pose = pose::pose(doc, options, report);
+    let mut pose = pose::pose(doc, options, report);
     let mut lowering = Lowering {
         doc,
         report,
         scene: empty(),
         origins: Origins::default(),
-        materials: Materials::new(doc),
+        materials: Materials::new(doc, std::mem::take(&mut pose.moved)),
         meshes: Meshes::new(),
         shapes: Deformations::default(),
         chosen: BTreeMap::new(),

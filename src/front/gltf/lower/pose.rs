@@ -6,12 +6,14 @@ use super::super::channel::Path;
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::node::Transform;
+use super::super::pointer::{self, Moved, Property};
 use super::super::report::AssetReport;
 use super::place::compose;
 use crate::diag::codes;
 use crate::front::FrontOptions;
 use crate::math::{acos, sin};
 use crate::source::Resource;
+use crate::source::tree::NodeId;
 use glam::{DAffine3, DMat4};
 use std::collections::BTreeMap;
 
@@ -23,6 +25,8 @@ pub(super) struct Pose {
     transforms: Vec<Transform>,
     /// The weights of nodes, where they have their own.
     weights: BTreeMap<usize, Vec<f64>>,
+    /// The properties that moved by pointers.
+    pub(super) moved: Moved,
 }
 
 impl Pose {
@@ -57,17 +61,23 @@ pub(super) fn pose(
     let mut pose = Pose {
         transforms: doc.nodes.iter().map(|node| node.transform).collect(),
         weights: own.collect(),
+        moved: Moved::new(),
     };
     if let Some(animation) = chosen(doc, options, report) {
         let time = options.time.unwrap_or(0.0);
         for channel in &animation.channels {
-            let (Some(node), Some(path)) = (channel.node, channel.path) else {
-                continue;
-            };
             let sampler = channel
                 .sampler
                 .and_then(|sampler| animation.samplers.get(sampler));
             let Some(keys) = sampler.and_then(|sampler| Keys::of(doc, sampler)) else {
+                continue;
+            };
+            let pointer = channel.pointer.as_deref();
+            if let Some(property) = pointer.and_then(|own| pointer::resolve(doc, report.json, own))
+            {
+                pose.move_property(&property, (&keys, time), channel.at, report);
+            }
+            let (Some(node), Some(path)) = (channel.node, channel.path) else {
                 continue;
             };
             let memory = keys.width() as u64 * WEIGHT;
@@ -76,7 +86,7 @@ pub(super) fn pose(
             {
                 break;
             }
-            if let Some(value) = keys.sample(path, time) {
+            if let Some(value) = keys.sample(path == Path::Rotation, time) {
                 pose.set(node, path, value);
             }
         }
@@ -115,6 +125,30 @@ fn chosen<'d>(
 }
 
 impl Pose {
+    /// Moves a property to where it is at a time.
+    fn move_property(
+        &mut self,
+        property: &Property,
+        (keys, time): (&Keys<'_>, f64),
+        at: NodeId,
+        report: &mut AssetReport<'_, '_>,
+    ) {
+        let Property {
+            at: of, key, width, ..
+        } = *property;
+        if keys.width() != width {
+            let message = format!(
+                "the keyframes have {} numbers, and `{key}` takes {width}, so it does not move",
+                keys.width()
+            );
+            return report.say(&codes::GLTF_MATERIAL_ODD, "", at, message);
+        }
+        let numbers = keys.sample(false, time);
+        if let Some(numbers) = numbers.and_then(|numbers| property.kept(&numbers)) {
+            self.moved.insert((of, key), numbers);
+        }
+    }
+
     fn set(&mut self, node: usize, path: Path, value: Vec<f64>) {
         if path == Path::Weights {
             self.weights.insert(node, value);
@@ -201,7 +235,7 @@ impl<'d> Keys<'d> {
     }
 
     /// The value at a time; before the first and after the last keyframe it stands still.
-    fn sample(&self, path: Path, time: f64) -> Option<Vec<f64>> {
+    fn sample(&self, is_rotation: bool, time: f64) -> Option<Vec<f64>> {
         let next = self.until(time);
         let (a, b) = (next.saturating_sub(1), next.min(self.times.count - 1));
         let span = self.time(b) - self.time(a);
@@ -214,7 +248,7 @@ impl<'d> Keys<'d> {
         let (from, to) = (self.key(a, middle)?, self.key(b, middle)?);
         Some(match self.interpolation {
             Interpolation::Step => from,
-            Interpolation::Linear if path == Path::Rotation => slerp(&from, &to, share),
+            Interpolation::Linear if is_rotation => slerp(&from, &to, share),
             Interpolation::Linear => from
                 .iter()
                 .zip(&to)

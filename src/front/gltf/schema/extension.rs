@@ -1,5 +1,5 @@
-//! The extensions that are known: where their objects stand, what is in them, and whether they can
-//! be required.
+//! The extensions that are known: where their objects stand, and what is in them. An asset may require
+//! each of them.
 
 use super::Value::{
     Attributes, Index, Indices, Many, Number, Numbers, One, Pointer, Text, Truth, Whole, Word,
@@ -13,19 +13,12 @@ pub(in super::super) struct Extension {
     name: &'static str,
     /// The kinds of objects that carry it, and what they carry.
     pub(super) places: &'static [(&'static str, &'static Object)],
-    /// An asset that requires it can be read.
-    supported: bool,
 }
 
 /// The extension of this name.
 pub(in super::super) fn find(name: &str) -> Option<&'static Extension> {
     let mut all = EXTENSIONS.iter().chain(OF_MATERIALS);
     all.find(|extension| extension.name == name)
-}
-
-/// True if an asset may require the extension.
-pub(in super::super) fn is_supported(name: &str) -> bool {
-    find(name).is_some_and(|extension| extension.supported)
 }
 
 const RIGHT_ANGLE: Bounds = Bounds {
@@ -45,11 +38,7 @@ const fn known(
     name: &'static str,
     places: &'static [(&'static str, &'static Object)],
 ) -> Extension {
-    Extension {
-        name,
-        places,
-        supported: true,
-    }
+    Extension { name, places }
 }
 
 static EXTENSIONS: &[Extension] = &[
@@ -59,11 +48,10 @@ static EXTENSIONS: &[Extension] = &[
         &[("buffer view", &MESHOPT), ("buffer", &FALLBACK)],
     ),
     known("EXT_texture_webp", &[("texture", &SOURCE)]),
-    Extension {
-        name: "KHR_animation_pointer",
-        places: &[("channel target", &ANIMATION_POINTER)],
-        supported: false,
-    },
+    known(
+        "KHR_animation_pointer",
+        &[("channel target", &ANIMATION_POINTER)],
+    ),
     known("KHR_draco_mesh_compression", &[("primitive", &DRACO)]),
     known(
         "KHR_lights_punctual",
@@ -139,7 +127,6 @@ macro_rules! of_materials {
                     keys: &[$(optional($key, value!($kind))),*],
                 },
             )],
-            supported: true,
         }),*];
     };
 }

@@ -6,7 +6,7 @@ mod extension;
 mod value;
 mod walk;
 
-pub(super) use extension::{find, is_supported};
+pub(super) use extension::find;
 pub(super) use walk::walk;
 
 /// A kind of object.

@@ -1,0 +1,170 @@
+//! Pointers of animations (`KHR_animation_pointer`): which property of which object one names, and
+//! what an animation has made of it.
+
+use super::channel::Path;
+use super::document::Document;
+use crate::source::tree::{NodeId, NodeKind, Tree};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+
+/// What the numbers of properties were moved to, by the object and the key.
+pub(super) type Moved = BTreeMap<(NodeId, &'static str), Vec<f64>>;
+
+/// A property that an animation may move.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Property {
+    /// The object that has it.
+    pub(super) at: NodeId,
+    pub(super) key: &'static str,
+    /// How many numbers it takes.
+    pub(super) width: usize,
+    /// What each of them may be.
+    range: [f64; 2],
+}
+
+impl Property {
+    /// What the property becomes by the numbers of an animation, which a cubic may take out of its
+    /// range; none if they are not finite.
+    pub(super) fn kept(&self, numbers: &[f64]) -> Option<Vec<f64>> {
+        let [min, max] = self.range;
+        let is_finite = numbers.iter().all(|number| number.is_finite());
+        is_finite.then(|| numbers.iter().map(|own| own.clamp(min, max)).collect())
+    }
+}
+
+/// A row of the table: what the property lies in, its key, how many numbers it takes, their range.
+type Row = (&'static str, &'static str, usize, [f64; 2]);
+
+const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+const UNIT: [f64; 2] = [0.0, 1.0];
+const FACTOR: [f64; 2] = [0.0, f64::INFINITY];
+const POSITIVE: [f64; 2] = [f64::MIN_POSITIVE, f64::INFINITY];
+
+/// The most objects in each other on the way to a property that is followed.
+const STEPS: usize = 6;
+
+/// The properties that are followed, beside those of the table of extensions.
+const FOLLOWED: &[Row] = &[
+    ("pbrMetallicRoughness", "baseColorFactor", 4, UNIT),
+    ("pbrMetallicRoughness", "metallicFactor", 1, UNIT),
+    ("pbrMetallicRoughness", "roughnessFactor", 1, UNIT),
+    ("materials", "emissiveFactor", 3, UNIT),
+    ("materials", "alphaCutoff", 1, FACTOR),
+    ("normalTexture", "scale", 1, FREE),
+    ("clearcoatNormalTexture", "scale", 1, FREE),
+    (
+        "KHR_materials_emissive_strength",
+        "emissiveStrength",
+        1,
+        FACTOR,
+    ),
+    ("KHR_materials_iridescence", "iridescenceFactor", 1, UNIT),
+    (
+        "KHR_materials_iridescence",
+        "iridescenceIor",
+        1,
+        [1.0, f64::INFINITY],
+    ),
+    (
+        "KHR_materials_iridescence",
+        "iridescenceThicknessMinimum",
+        1,
+        FACTOR,
+    ),
+    (
+        "KHR_materials_iridescence",
+        "iridescenceThicknessMaximum",
+        1,
+        FACTOR,
+    ),
+    ("KHR_texture_transform", "offset", 2, FREE),
+    ("KHR_texture_transform", "rotation", 1, FREE),
+    ("KHR_texture_transform", "scale", 2, FREE),
+    ("perspective", "yfov", 1, POSITIVE),
+    ("perspective", "aspectRatio", 1, POSITIVE),
+    ("perspective", "znear", 1, FREE),
+    ("perspective", "zfar", 1, FREE),
+    ("orthographic", "xmag", 1, FREE),
+    ("orthographic", "ymag", 1, FREE),
+    ("orthographic", "znear", 1, FREE),
+    ("orthographic", "zfar", 1, FREE),
+    ("lights", "color", 3, UNIT),
+    ("lights", "intensity", 1, FACTOR),
+    ("lights", "range", 1, POSITIVE),
+    ("spot", "innerConeAngle", 1, [0.0, FRAC_PI_2]),
+    ("spot", "outerConeAngle", 1, [0.0, FRAC_PI_2]),
+];
+
+/// How many numbers a kind of the table of extensions takes, and their range; maps take none.
+macro_rules! numbers {
+    (fraction) => {
+        (1, UNIT)
+    };
+    (number) => {
+        (1, FREE)
+    };
+    (non_negative) => {
+        (1, FACTOR)
+    };
+    (distance) => {
+        (1, POSITIVE)
+    };
+    (color) => {
+        (3, FACTOR)
+    };
+    (fraction_color) => {
+        (3, UNIT)
+    };
+    ($map:ident) => {
+        (0, FREE)
+    };
+}
+
+/// The properties of the table of extensions.
+macro_rules! of_extensions {
+    ($($name:literal { $($field:ident: $kind:ident $key:literal;)* })*) => {
+        const OF_EXTENSIONS: &[Row] = &[
+            $($(($name, $key, numbers!($kind).0, numbers!($kind).1),)*)*
+        ];
+    };
+}
+
+crate::standard::extensions!(of_extensions);
+
+/// The node and the path that a pointer names, as channels without pointers do.
+pub(super) fn of_node(pointer: &str) -> Option<(usize, Path)> {
+    let (node, key) = pointer.strip_prefix("/nodes/")?.split_once('/')?;
+    Some((node.parse().ok()?, Path::of(key)?))
+}
+
+/// The property of a material, a camera or a light that a pointer names; none if it names another
+/// one, or an object that the asset has not.
+pub(super) fn resolve(doc: &Document<'_>, json: &Tree<'_>, pointer: &str) -> Option<Property> {
+    let part = |list: &[NodeId], at: usize| list.get(at).copied();
+    let split = |prefix: &str| pointer.strip_prefix(prefix)?.split_once('/');
+    let index = |(at, rest): (&'_ str, _)| Some((at.parse::<usize>().ok()?, rest));
+    let (part, rest, list) = if let Some((at, rest)) = split("/materials/").and_then(index) {
+        (part(&doc.materials, at)?, rest, "materials")
+    } else if let Some((at, rest)) = split("/cameras/").and_then(index) {
+        (part(&doc.cameras, at)?, rest, "cameras")
+    } else {
+        let (at, rest) = split("/extensions/KHR_lights_punctual/lights/").and_then(index)?;
+        (part(&doc.lights, at)?, rest, "lights")
+    };
+    let (way, key) = rest.rsplit_once('/').unwrap_or(("", rest));
+    let steps = way.split('/').filter(|step| !step.is_empty());
+    let holder = way.rsplit('/').next().filter(|step| !step.is_empty());
+    let at = steps
+        .take(STEPS)
+        .try_fold(part, |at, step| json.get(at, step))?;
+    let mut rows = FOLLOWED.iter().chain(OF_EXTENSIONS);
+    let is_row =
+        |(own, name, width, _): &&Row| *own == holder.unwrap_or(list) && *name == key && *width > 0;
+    let (_, key, width, range) = *rows.find(is_row)?;
+    (json.kind(at) == NodeKind::Map).then_some(Property {
+        at,
+        key,
+        width,
+        range,
+    })
+}
