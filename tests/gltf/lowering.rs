@@ -229,6 +229,27 @@ fn pointers_move_materials_lights_cameras_and_nodes() {
 }
 
 #[test]
+fn points_have_the_radius_of_a_pixel_whatever_their_node_does() {
+    // Half the opening of the camera that is chosen where an asset has none.
+    let half = 17.5_f64.to_radians();
+    for (count, corners) in [(4, 6), (u16::MAX, 4)] {
+        let scene = lower(make::cloud(count), front::FrontOptions::default());
+        let ([mesh], [surface]) = (&scene.meshes[..], &scene.surfaces[..]) else {
+            panic!("one mesh, and not {}", scene.meshes.len());
+        };
+        assert_eq!(mesh.positions.len(), corners * usize::from(count));
+        let Shape::Instance(instance) = &surface.shape else {
+            panic!("an instance");
+        };
+        assert_eq!(instance.world_from_object[3], [-3.0, 0.0, 0.0]);
+        // From the ball about -3 to 3, at 512 pixels.
+        let pixel = 2.0 * 3.0 / (512.0 * half.cos());
+        let first = Vec3::from_array(mesh.positions.at(0));
+        assert!((first.length() - pixel).abs() < 1e-6 * pixel, "{first}");
+    }
+}
+
+#[test]
 fn a_mesh_used_twice_is_made_once() {
     let scene = lower(make::hierarchy(), front::FrontOptions::default());
     assert_eq!(

@@ -276,6 +276,20 @@ pub(super) fn pointers() -> Vec<u8> {
     }))
 }
 
+/// So many points on a line from -1 to 1.
+pub(super) fn cloud(count: u16) -> Vec<u8> {
+    let mut maker = Maker::default();
+    let last = f32::from(count - 1);
+    let places: Vec<f32> = (0..count)
+        .flat_map(|at| [2.0 * f32::from(at) / last - 1.0, 0.0, 0.0])
+        .collect();
+    let points = maker.floats("VEC3", 3, &places);
+    maker.finish(json!({
+        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [3, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": points}, "mode": 0}]}],
+    }))
+}
+
 /// A triangle in three levels of detail, each a root, the coarsest with a child; without scenes all
 /// nodes show.
 pub(super) fn levels(has_scene: bool) -> Vec<u8> {

@@ -145,7 +145,7 @@ super::codes! { GL:
          "MESH_PRIMITIVE_NO_TANGENT_SPACE"];
     GLTF_PRIMITIVE_ODD = "GL034", Warning, "a primitive of a glTF asset shows less than it could",
         "Without positions nothing shows, without normals tangents mean nothing, vertices that fill no whole triangle \
-         are left over, points and lines are not drawn, and tangents that a normal map lacks are made up, which not \
+         are left over, and tangents that a normal map lacks are made up, which not \
          all readers do alike.",
         ["MESH_PRIMITIVE_NO_POSITION", "MESH_PRIMITIVE_TANGENT_WITHOUT_NORMAL", "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
          "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"];

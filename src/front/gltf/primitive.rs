@@ -27,7 +27,7 @@ pub(super) struct Primitive {
     sorted: Vec<usize>,
     pub(super) indices: Option<usize>,
     pub(super) material: Option<usize>,
-    /// 4 are triangles, 5 a strip, 6 a fan; the others have no surface.
+    /// 0 are points, 1 lines, 2 a loop, 3 a strip of them; 4 triangles, 5 a strip, 6 a fan.
     pub(super) mode: u64,
     /// What each morph target moves.
     pub(super) targets: Vec<Vec<Attribute>>,
@@ -85,10 +85,6 @@ pub(super) fn check(
     report: &mut AssetReport<'_, '_>,
 ) {
     attribute::check_names(primitive, report);
-    if primitive.mode < TRIANGLES {
-        let message = "the primitive has points or lines, which are not drawn".to_owned();
-        report.say(&codes::GLTF_PRIMITIVE_ODD, "", primitive.at, message);
-    }
     let mut vertices = None;
     for attribute in &primitive.attributes {
         let Some((_, accessor)) = accessor::find(doc, Some(attribute.accessor), report) else {

@@ -130,6 +130,32 @@ def _(a):
     a.camera()
 
 
+@case("asset/points", "Coloured points from near: left without normals and so unlit, right with normals, lit by a sun.",
+      "size=64x64 spp=16")
+def _(a):
+    # The first two are far off: they say how large the scene is, and so how thick the points are.
+    places = [(-1, -1, 0), (1, 1, 0)] + [(0.02 * (k % 3), 0.02 * (k // 3 - 2), 0) for k in range(15)]
+    own = {"POSITION": a.floats(places), "COLOR_0": a.floats([(k / 16, 1 - k / 16, 0.5) for k in range(17)])}
+    material = a.material(matt(1, 1, 1))
+    unlit = {"attributes": own, "mode": 0, "material": material}
+    lit = {**unlit, "attributes": {**own, "NORMAL": a.floats([(0, 0, 1)] * len(places))}}
+    a.node(mesh=a.mesh(unlit), translation=[-0.06, 0, 0])
+    a.node(mesh=a.mesh(lit), translation=[0.02, 0, 0])
+    a.sun()
+    a.camera(yfov=0.03, eye=(0, 0, 5))
+
+
+@case("asset/lines", "Six corners as lines, as a loop and as a strip, which its node flattens; all are as thick.",
+      "size=64x64 spp=16 env-color=0.1,0.1,0.1")
+def _(a):
+    ring = [(math.cos(k * math.pi / 3), math.sin(k * math.pi / 3), 0) for k in range(6)]
+    own = {"POSITION": a.floats(ring), "COLOR_0": a.floats([(k % 2, (k + 1) % 2, 0.25) for k in range(6)])}
+    for mode, place, scale in ((1, [-1.1, 1.0, 0], 1), (2, [1.1, 1.0, 0], 1), (3, [0, -1.2, 0], 0.3)):
+        mesh = a.mesh({"attributes": own, "mode": mode})
+        a.node(mesh=mesh, translation=place, scale=[1, scale, 1])
+    a.camera(yfov=0.8, eye=(0, 0, 5.5))
+
+
 @case("asset/sparse", "A grid of corners, three of which a sparse accessor moves.", LIT)
 def _(a):
     grid = [(x / 2 - 1, y / 2 - 1, 0) for y in range(5) for x in range(5)]

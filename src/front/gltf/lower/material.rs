@@ -23,6 +23,8 @@ pub(super) struct Materials {
     textures: LoweredTextures,
     /// The sets of texture coordinates that materials look at, where these are not the first two.
     uv_sets: BTreeMap<u32, TexCoordSets>,
+    /// The materials of points and lines, by that of their primitive and whether they have normals.
+    of_strokes: BTreeMap<(u32, bool), MaterialId>,
 }
 
 /// The material that a primitive has in a variant.
@@ -47,12 +49,43 @@ impl Materials {
             default: None,
             textures: LoweredTextures::new(doc),
             uv_sets: BTreeMap::new(),
+            of_strokes: BTreeMap::new(),
         }
     }
 
     /// The sets of texture coordinates that the material looks at.
     pub(super) fn uv_sets(&self, material: MaterialId) -> TexCoordSets {
         self.uv_sets.get(&material.0).copied().unwrap_or_default()
+    }
+
+    /// The material that points and lines of a material have, and whether it no longer emits what the
+    /// material does.
+    pub(super) fn of_strokes(
+        &mut self,
+        material: MaterialId,
+        is_lit: bool,
+        scene: &mut Scene,
+    ) -> (MaterialId, bool) {
+        let own = scene.materials.get(material.0 as usize);
+        let Some(ir::Material::Standard(own)) = own else {
+            return (material, false);
+        };
+        let loses_light = !is_lit && !own.unlit && own.emissive != [0.0; 3];
+        let next = MaterialId(to_u32(scene.materials.len()));
+        let id = *self.of_strokes.entry((material.0, is_lit)).or_insert(next);
+        if id == next {
+            let stroked = Standard {
+                double_sided: true,
+                unlit: own.unlit || !is_lit,
+                normal_map: None,
+                clearcoat_normal_map: None,
+                anisotropy: 0.0,
+                ..(**own).clone()
+            };
+            let stroked = ir::Material::Standard(Box::new(stroked));
+            scene.materials.push(stroked);
+        }
+        (id, loses_light)
     }
 
     /// True if the material looks at tangents.

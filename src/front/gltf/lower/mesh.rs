@@ -11,6 +11,7 @@ use super::{deform, tangent, topology};
 use crate::ir::{self, Column, Field, Mesh, MeshId, Noun, Origins, Place, Scene, Shared};
 use crate::source::Resource;
 use crate::source::tree::NodeId;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Bytes that a corner of a triangle takes, and a triangle until it is rendered.
@@ -128,9 +129,26 @@ impl<'d> Parts<'d> {
     }
 }
 
+/// How many elements an accessor has.
+fn count(doc: &Document<'_>, accessor: usize) -> u64 {
+    let own = doc.accessors.get(accessor).and_then(|own| own.count);
+    own.unwrap_or(0) as u64
+}
+
+/// How many vertices a primitive has.
+fn vertices_of(doc: &Document<'_>, primitive: &Primitive) -> u64 {
+    primitive.find("POSITION").map_or(0, |own| count(doc, own))
+}
+
+/// How many corners the parts of a primitive have.
+pub(super) fn corners(doc: &Document<'_>, primitive: &Primitive) -> u64 {
+    let own = primitive.indices.map(|indices| count(doc, indices));
+    own.unwrap_or_else(|| vertices_of(doc, primitive))
+}
+
 /// Charges a mesh: the vertices once for themselves and once for each attribute of a morph target
 /// and set of joints that moves them. False if that is too much.
-fn charge(
+pub(super) fn charge(
     doc: &Document<'_>,
     wanted: &WantedMesh<'_, '_>,
     report: &mut AssetReport<'_, '_>,
@@ -142,18 +160,11 @@ fn charge(
         needs_tangents,
         uv_sets,
     } = wanted;
-    let count = |accessor: usize| {
-        doc.accessors
-            .get(accessor)
-            .and_then(|own| own.count)
-            .unwrap_or(0) as u64
-    };
-    let vertices = primitive.find("POSITION").map_or(0, count);
-    let corners = primitive.indices.map_or(vertices, count);
-    let triangles = if primitive.mode == TRIANGLES {
-        corners / 3
-    } else {
-        corners
+    let (vertices, corners) = (vertices_of(doc, primitive), corners(doc, primitive));
+    let triangles = match primitive.mode.cmp(&TRIANGLES) {
+        Ordering::Less => 0,
+        Ordering::Equal => corners / 3,
+        Ordering::Greater => corners,
     };
     let tangents = if *needs_tangents && primitive.find("TANGENT").is_none() {
         3 * triangles
@@ -187,7 +198,7 @@ fn charge(
 }
 
 /// Bytes of the attributes of a vertex.
-fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
+pub(super) fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
     let [first, second] = &sets.names();
     let columns = [
         ("POSITION", 12),
@@ -205,17 +216,31 @@ fn vertex(primitive: &Primitive, sets: TexCoordSets) -> u64 {
 /// Reads a primitive, moves its vertices, and gives it tangents if it needs them. Lenient, vertices
 /// that no triangle uses may be anything.
 fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Option<Mesh> {
+    let count = usize::try_from(vertices_of(doc, wanted.primitive)).ok()?;
+    let mut triangles = topology::triangles(doc, wanted.primitive, count)?;
+    let mut mesh = vertices(doc, wanted)?;
+    let is_finite = !is_lenient || is_finite(&mesh);
+    if let Some(kept) = topology::compact(&mut triangles, count, !is_finite) {
+        pick(&mut mesh, &kept);
+    }
+    mesh.triangles = triangles.into();
+    if wanted.needs_tangents && mesh.tangents.is_empty() {
+        tangent::generate(&mut mesh);
+    }
+    Some(mesh)
+}
+
+/// Reads the vertices of a primitive, and moves them.
+pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Option<Mesh> {
     let WantedMesh {
         primitive,
         name,
         shape: (_, shape),
-        needs_tangents,
+        needs_tangents: _,
         uv_sets,
     } = wanted;
     let elements = |name: &str| Elements::of(doc, doc.accessors.get(primitive.find(name)?)?);
     let positions = elements("POSITION")?.column();
-    let count = positions.len();
-    let mut triangles = topology::triangles(doc, primitive, count)?;
     let normals = elements("NORMAL").map_or_else(Column::default, |normals| normals.column());
     // Without normals tangents mean nothing (glTF 2.0, section 3.7.2.1).
     let tangents = elements("TANGENT").filter(|_| !normals.is_empty());
@@ -234,19 +259,11 @@ fn read(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>, is_lenient: bool) -> Op
         triangles: Shared::default(),
     };
     deform::deform(doc, primitive, (*shape, *uv_sets), &mut mesh);
-    let is_finite = !is_lenient || is_finite(&mesh);
-    if let Some(kept) = topology::compact(&mut triangles, count, !is_finite) {
-        pick(&mut mesh, &kept);
-    }
-    mesh.triangles = triangles.into();
-    if *needs_tangents && mesh.tangents.is_empty() {
-        tangent::generate(&mut mesh);
-    }
     Some(mesh)
 }
 
 /// True if all numbers of the vertices are finite.
-fn is_finite(mesh: &Mesh) -> bool {
+pub(super) fn is_finite(mesh: &Mesh) -> bool {
     fn all<const N: usize>(column: &Column<N>) -> bool {
         (0..column.len()).all(|at| column.at(at).iter().all(|number| number.is_finite()))
     }

@@ -9,6 +9,7 @@ mod mesh;
 mod place;
 mod pose;
 mod shape;
+mod stroke;
 mod tangent;
 mod texture;
 mod topology;
@@ -16,6 +17,7 @@ mod uv;
 
 use super::document::Document;
 use super::field::Fields;
+use super::primitive::Primitive;
 use super::report::AssetReport;
 use crate::diag::codes;
 use crate::front::FrontOptions;
@@ -29,6 +31,7 @@ use mesh::Meshes;
 use place::Places;
 use shape::Deformations;
 use std::collections::BTreeMap;
+use stroke::{Strokes, is_stroked};
 
 /// Bounces of a path, paths a pixel.
 const DEPTH: u32 = 16;
@@ -46,6 +49,7 @@ struct Lowering<'l, 'r, 's> {
     origins: Origins,
     materials: Materials,
     meshes: Meshes<'l>,
+    strokes: Strokes,
     shapes: Deformations,
     /// The material of each primitive that was met, in the variant.
     chosen: BTreeMap<NodeId, MaterialId>,
@@ -73,6 +77,7 @@ pub(super) fn lower<'s>(
         origins: Origins::default(),
         materials: Materials::new(doc, std::mem::take(&mut pose.moved)),
         meshes: Meshes::new(),
+        strokes: Strokes::default(),
         shapes: Deformations::default(),
         chosen: BTreeMap::new(),
         variant,
@@ -159,9 +164,9 @@ impl Lowering<'_, '_, '_> {
                 .charge(Resource::Memory, memory, node.at, "the node")
     }
 
-    /// Lowers what one node shows.
-    fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
-        let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
+    /// Takes down the camera and lowers the light of a node that stands at `world`.
+    fn camera_and_light(&mut self, index: usize, world: DAffine3) {
+        let node = &self.doc.nodes[index];
         if let Some(camera) = node.camera {
             self.cameras.push(camera::Seen {
                 camera,
@@ -169,9 +174,15 @@ impl Lowering<'_, '_, '_> {
                 world,
             });
         }
-        if let Some(light) = node.light.and_then(|light| doc.lights.get(light)) {
+        if let Some(light) = node.light.and_then(|light| self.doc.lights.get(light)) {
             self.light(*light, world);
         }
+    }
+
+    /// Lowers what one node shows.
+    fn node(&mut self, index: usize, pose: &pose::Pose, worlds: &[DAffine3]) {
+        let (doc, node, world) = (self.doc, &self.doc.nodes[index], worlds[index]);
+        self.camera_and_light(index, world);
         let Some(mesh) = node.mesh.and_then(|mesh| doc.meshes.get(mesh)) else {
             return;
         };
@@ -192,7 +203,9 @@ impl Lowering<'_, '_, '_> {
         };
         for primitive in &mesh.primitives {
             let material = self.material(primitive);
-            let needs_tangents = self.materials.needs_tangents(material, &self.scene);
+            let is_stroked = is_stroked(primitive);
+            let needs_tangents =
+                !is_stroked && self.materials.needs_tangents(material, &self.scene);
             let uv_sets = self.materials.uv_sets(material);
             let shape = (shape, self.shapes.get(shape));
             let made = mesh::WantedMesh {
@@ -202,6 +215,15 @@ impl Lowering<'_, '_, '_> {
                 needs_tangents,
                 uv_sets,
             };
+            if is_stroked {
+                let target = (&mut self.scene, &mut self.origins);
+                let made = self.strokes.make(doc, &made, &places, target, self.report);
+                let material = self.material_of_strokes(primitive, material);
+                for (id, world) in made {
+                    self.surface(id, world, material, &node.name, node.at);
+                }
+                continue;
+            }
             let Some(id) =
                 self.meshes
                     .make(doc, &made, &mut self.scene, &mut self.origins, self.report)
@@ -242,7 +264,7 @@ impl Lowering<'_, '_, '_> {
         self.scene.names.push(name.to_owned());
     }
 
-    fn material(&mut self, primitive: &super::primitive::Primitive) -> MaterialId {
+    fn material(&mut self, primitive: &Primitive) -> MaterialId {
         if let Some(known) = self.chosen.get(&primitive.at) {
             return *known;
         }
@@ -260,7 +282,21 @@ impl Lowering<'_, '_, '_> {
         made
     }
 
+    /// The material of points or lines: seen from all sides, and without normals unlit (glTF 2.0,
+    /// section 3.9.6).
+    fn material_of_strokes(&mut self, primitive: &Primitive, material: MaterialId) -> MaterialId {
+        let is_lit = primitive.find("NORMAL").is_some();
+        let (id, loses_light) = self.materials.of_strokes(material, is_lit, &mut self.scene);
+        if loses_light {
+            let message = "points and lines without normals show their colour, not what they emit";
+            self.report
+                .say(&codes::GLTF_MATERIAL_ODD, "", primitive.at, message);
+        }
+        id
+    }
+
     fn finish(mut self, camera: Option<&str>) -> Lowered {
+        self.strokes.thicken(&mut self.scene);
         self.camera(camera);
         if self.scene.names.iter().all(String::is_empty) {
             self.scene.names.clear();

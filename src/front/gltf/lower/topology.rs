@@ -1,9 +1,14 @@
-//! The triangles of a primitive: from lists, strips and fans, with indices or without.
+//! The points, lines and triangles of a primitive: from lists, loops, strips and fans, with indices or
+//! without.
 
 use super::super::document::Document;
 use super::super::elements::Elements;
 use super::super::primitive::Primitive;
 
+const POINTS: u64 = 0;
+const LINES: u64 = 1;
+const LOOP: u64 = 2;
+const LINE_STRIP: u64 = 3;
 const TRIANGLES: u64 = 4;
 const STRIP: u64 = 5;
 const FAN: u64 = 6;
@@ -14,13 +19,46 @@ pub(super) fn triangles(
     primitive: &Primitive,
     vertices: usize,
 ) -> Option<Vec<[u32; 3]>> {
-    let indices = match primitive.indices {
-        Some(index) => Elements::of(doc, doc.accessors.get(index)?)?.integers(),
-        None => (0..super::mesh::to_u32(vertices)).collect(),
-    };
+    let indices = indices(doc, primitive, vertices)?;
     let mut triangles = assemble(&indices, primitive.mode)?;
     triangles.retain(|corners| corners.iter().all(|corner| (*corner as usize) < vertices));
     Some(triangles)
+}
+
+/// The ends of the lines; a point is a line from a vertex to itself. None if the indices can't be
+/// had.
+pub(super) fn strokes(
+    doc: &Document<'_>,
+    primitive: &Primitive,
+    vertices: usize,
+) -> Option<Vec<[u32; 2]>> {
+    let indices = indices(doc, primitive, vertices)?;
+    let mut strokes = join(&indices, primitive.mode)?;
+    strokes.retain(|ends| ends.iter().all(|end| (*end as usize) < vertices));
+    Some(strokes)
+}
+
+/// Points and lines of a list of corners (glTF 2.0, section 3.7.2.1).
+fn join(indices: &[u32], mode: u64) -> Option<Vec<[u32; 2]>> {
+    let pairs = || indices.windows(2).map(|ends| [ends[0], ends[1]]);
+    Some(match mode {
+        POINTS => indices.iter().map(|index| [*index; 2]).collect(),
+        LINES => indices.as_chunks::<2>().0.to_vec(),
+        LOOP => {
+            let closing = indices.last().zip(indices.first());
+            let closing = closing.map(|(last, first)| [*last, *first]);
+            pairs().chain(closing).collect()
+        }
+        LINE_STRIP => pairs().collect(),
+        _ => return None,
+    })
+}
+
+fn indices(doc: &Document<'_>, primitive: &Primitive, vertices: usize) -> Option<Vec<u32>> {
+    match primitive.indices {
+        Some(index) => Some(Elements::of(doc, doc.accessors.get(index)?)?.integers()),
+        None => Some((0..super::mesh::to_u32(vertices)).collect()),
+    }
 }
 
 /// Triangles of a list of corners (glTF 2.0, section 3.7.2.1): all turn the same way.
@@ -98,6 +136,16 @@ mod tests {
         );
         assert_eq!(assemble(&[0, 1, 2, 3], TRIANGLES).unwrap(), [[0, 1, 2]]);
         assert_eq!(assemble(&[0, 1], 1), None);
+    }
+
+    #[test]
+    fn points_and_lines_join_their_corners() {
+        let ends = |mode| join(&[4, 5, 7], mode).unwrap();
+        assert_eq!(ends(POINTS), [[4, 4], [5, 5], [7, 7]]);
+        assert_eq!(ends(LINES), [[4, 5]]);
+        assert_eq!(ends(LOOP), [[4, 5], [5, 7], [7, 4]]);
+        assert_eq!(ends(LINE_STRIP), [[4, 5], [5, 7]]);
+        assert_eq!(join(&[0, 1, 2], TRIANGLES), None);
     }
 
     #[test]
