@@ -214,7 +214,7 @@ fn charge(
     let memory = vertices
         .saturating_mul(vertex)
         .saturating_add(triangles.saturating_mul(TRIANGLE));
-    let (at, what) = (primitive.at, "the points or lines");
+    let (at, what) = (primitive.at, "the primitive");
     let is_small = mesh::charge(doc, wanted, report)
         && report.charge(Resource::Vertices, vertices, at, what)
         && report.charge(Resource::Memory, memory, at, what);
