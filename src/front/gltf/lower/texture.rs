@@ -73,8 +73,14 @@ impl LoweredTextures {
         });
         let image = image.and_then(|image| self.image(doc, image, scene, origins, report));
         if image.is_none() {
-            let message =
-                "the texture has no image that can be read, so it has no effect".to_owned();
+            let own = Fields::new(report.json, texture.at).extension("KHR_texture_basisu");
+            let message = match own {
+                Some(_) => {
+                    "the texture has an image of `KHR_texture_basisu` alone, which is not read"
+                }
+                None => "the texture has no image that can be read",
+            };
+            let message = format!("{message}, so it has no effect");
             report.say(&codes::GLTF_MATERIAL_ODD, "", texture.at, message);
         }
         let sampler = texture
