@@ -58,14 +58,13 @@ pub fn load(
             gltf::lower(file, map, &options.front, sink)
         }
         None => {
-            let mut draft = course::lower(file, map, &options.front, sink)?;
-            let wanted = std::mem::take(&mut draft.wanted);
-            let has_assets = wanted
+            let draft = course::lower(file, map, &options.front, sink)?;
+            let has_assets = draft
+                .wanted
                 .iter()
                 .any(|wanted| matches!(wanted.asset, Asset::Gltf(_)));
             refuse_choices(&options.front, has_assets, sink);
-            assets::bring(&mut draft.lowered, wanted, file, &options.front, map, sink);
-            Some(draft.finish(sink))
+            Some(assets::bring(draft, file, &options.front, map, sink))
         }
     }
 }

@@ -144,6 +144,7 @@ fn is_finite(mesh: &Mesh) -> bool {
     }
     let Mesh {
         name: _,
+        part: _,
         positions,
         normals,
         uvs,

@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 pub(super) struct StoredMesh {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     name: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    part: Option<String>,
     positions: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     normals: Option<usize>,
@@ -30,6 +32,7 @@ pub(super) struct StoredMesh {
 pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredMesh {
     let Mesh {
         name,
+        part,
         positions,
         normals,
         uvs,
@@ -40,6 +43,7 @@ pub(super) fn store<'s>(mesh: &'s Mesh, body: &mut SectionWriter<'s>) -> StoredM
     } = mesh;
     StoredMesh {
         name: name.clone(),
+        part: part.clone(),
         positions: put(positions, body),
         normals: put(normals, body),
         uvs: put(uvs, body),
@@ -72,6 +76,7 @@ impl StoredMesh {
         let triangles = stock.take(self.triangles)?;
         Some(Mesh {
             name: self.name.clone(),
+            part: self.part.clone(),
             positions: column(self.positions, stock)?,
             normals: column(self.normals, stock)?,
             uvs: column(self.uvs, stock)?,

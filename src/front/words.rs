@@ -11,11 +11,17 @@ pub(super) struct Word<'a> {
     start: usize,
 }
 
+/// A place of such a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WordSpan {
+    start: usize,
+    end: usize,
+}
+
 /// What is wrong with such a file, and where.
 #[derive(Debug)]
 pub struct WordFault {
-    start: usize,
-    end: usize,
+    at: WordSpan,
     /// What is wrong.
     pub message: String,
     /// What is here.
@@ -37,13 +43,21 @@ impl From<Exceeded> for Unread {
     }
 }
 
+impl WordSpan {
+    /// The span of it in its file.
+    #[must_use]
+    pub fn span(self, file: FileId) -> Span {
+        let offset =
+            |at: usize| u32::try_from(at).expect("the loader refuses files of 4 GiB and more");
+        Span::new(file, offset(self.start), offset(self.end))
+    }
+}
+
 impl WordFault {
     /// Where it is.
     #[must_use]
     pub fn span(&self, file: FileId) -> Span {
-        let offset =
-            |at: usize| u32::try_from(at).expect("the loader refuses files of 4 GiB and more");
-        Span::new(file, offset(self.start), offset(self.end))
+        self.at.span(file)
     }
 }
 
@@ -69,10 +83,27 @@ impl<'a> Word<'a> {
     /// A fault at this word.
     pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordFault {
         WordFault {
-            start: self.start,
-            end: self.start + self.bytes.len(),
+            at: self.place(),
             message: message.into(),
             label: label.into(),
+        }
+    }
+
+    /// Where it is.
+    pub(super) fn place(&self) -> WordSpan {
+        WordSpan {
+            start: self.start,
+            end: self.start + self.bytes.len(),
+        }
+    }
+
+    /// From this word to another one of its line, as one: a name with spaces. `file` is what both
+    /// are of.
+    pub(super) fn through(self, last: &Self, file: &'a [u8]) -> Self {
+        let end = last.place().end;
+        Self {
+            bytes: &file[self.start..end],
+            ..self
         }
     }
 

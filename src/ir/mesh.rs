@@ -17,6 +17,10 @@ pub struct Mesh {
     /// What its file was called, as the scene names it; empty if it has no name.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
+    /// The material of its file whose triangles it holds, by its name there, empty for those that have
+    /// none; absent if it holds all of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
     /// Where the corners are.
     pub positions: Column<3>,
     /// The shading normal at each corner, of any length; empty for flat shading.

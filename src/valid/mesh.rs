@@ -54,6 +54,7 @@ pub(super) fn mesh(mesh: &ir::Mesh, index: usize, check: &mut Check<'_>) -> Opti
     }
     let ir::Mesh {
         name: _,
+        part: _,
         positions,
         normals,
         uvs,
@@ -102,6 +103,7 @@ fn corners(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
 fn fault(mesh: &ir::Mesh) -> Option<String> {
     let ir::Mesh {
         name: _,
+        part: _,
         positions,
         normals,
         uvs,

@@ -7,6 +7,7 @@
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
 mod mesh;
+mod mtl;
 mod names;
 mod outside;
 mod picture;
@@ -15,6 +16,7 @@ mod search;
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use rtc::diag::{Severity, Sink};
 use rtc::front::FrontOptions;
+use rtc::front::course::UnfinishedScene;
 use rtc::front::course::assets::{self, Asset, Wanted};
 use rtc::ir::{Bump, Image, ImageId, Lowered, Mesh, MeshId, Pixels, Texture, TextureId};
 use rtc::source::{Loader, SourceMap, Span};
@@ -65,7 +67,7 @@ struct Outcome {
 
 fn bring(scene: &Path, asset: Asset, path: &str, options: &FrontOptions) -> Outcome {
     let mut map = SourceMap::default();
-    let mut lowered = lowered(&mut map);
+    let lowered = lowered(&mut map);
     let file = Loader.file(scene, &mut map).unwrap();
     let mut sink = Sink::default();
     let wanted = vec![Wanted {
@@ -73,7 +75,8 @@ fn bring(scene: &Path, asset: Asset, path: &str, options: &FrontOptions) -> Outc
         path: path.to_owned(),
         span: Some(Span::new(file, 2, 5)),
     }];
-    assets::bring(&mut lowered, wanted, file, options, &mut map, &mut sink);
+    let draft = UnfinishedScene::new(lowered, wanted);
+    let lowered = assets::bring(draft, file, options, &mut map, &mut sink);
     let mut findings = String::new();
     for finding in sink.kept() {
         let severity = match finding.severity {

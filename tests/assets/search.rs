@@ -3,6 +3,7 @@
 use super::{IMAGE, MESH, bring, folder, lowered, pixels, png, write};
 use rtc::diag::Sink;
 use rtc::front::FrontOptions;
+use rtc::front::course::UnfinishedScene;
 use rtc::front::course::assets::{self, Wanted};
 use rtc::ir::TextureId;
 use rtc::source::{SourceMap, Span};
@@ -127,7 +128,7 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
     write(&folder, "a.png", png([5; 3]));
     for (root, expected) in [(None, None), (Some(folder.path().to_owned()), Some(5))] {
         let (mut map, mut sink) = (SourceMap::default(), Sink::default());
-        let mut lowered = lowered(&mut map);
+        let lowered = lowered(&mut map);
         let file = map.add("<stdin>", b"x".to_vec());
         let wanted = vec![Wanted {
             asset: IMAGE,
@@ -138,7 +139,8 @@ fn a_scene_from_a_stream_has_only_the_folder_that_is_allowed() {
             asset_root: root,
             ..FrontOptions::default()
         };
-        assets::bring(&mut lowered, wanted, file, &options, &mut map, &mut sink);
+        let draft = UnfinishedScene::new(lowered, wanted);
+        let lowered = assets::bring(draft, file, &options, &mut map, &mut sink);
         let codes: Vec<_> = sink.kept().iter().map(|finding| finding.code.id).collect();
         assert_eq!(
             codes,

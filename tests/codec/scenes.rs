@@ -80,10 +80,12 @@ fn mesh() -> impl Strategy<Value = Mesh> {
                 Column::rounded(uvs.iter().map(small)),
                 Column::rounded(tangents.iter().map(small)),
             );
+            let has_part = positions.len() > 30;
             let (positions, normals) =
                 (positions.into(), Column::rounded(normals.iter().map(small)));
             let (uvs, tangents, triangles) = (uvs.into(), tangents.into(), triangles.into());
             Mesh {
+                part: has_part.then(|| name.clone()),
                 name,
                 positions,
                 normals,

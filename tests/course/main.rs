@@ -28,7 +28,7 @@ fn scene(text: &str) -> Option<Scene> {
     let lowered = course::lower(file, &map, &FrontOptions::default(), &mut sink);
     lowered
         .filter(|_| !sink.has_errors())
-        .map(|draft| draft.finish(&mut sink).scene)
+        .map(|draft| draft.lowered.scene)
 }
 
 fn texts() -> Vec<(PathBuf, String)> {
@@ -284,7 +284,7 @@ fn files_are_wanted_once_and_their_places_wait() {
             (mesh(0), "a.png")
         ]
     );
-    let scene = draft.finish(&mut Sink::default()).scene;
+    let scene = draft.lowered.scene;
     assert_eq!(scene.images[1].name, "b/b.png");
     assert_eq!(
         scene.textures,

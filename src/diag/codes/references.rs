@@ -36,4 +36,10 @@ super::codes! { RE:
         "Profiles are LM-63 files (`.ies`) of type C with `TILT=NONE`: after that line stand the counts of angles, the \
          angles in ascending order, and the candelas, none of them negative. The label is at the first place that can't \
          be. With `--lenient` the light is dark, with a warning.";
+    BAD_MTL = "RE010", Warning, "the materials of a mesh are not all as its MTL says",
+        "A mesh that has no material of its own, or `materials: mtl`, takes those that its OBJ names. Here the MTL file is \
+         not beside it, a statement in it can't be read or shows nothing, or it has no material that faces ask for. The mesh \
+         stays; the message says what is missing.";
+    MTL_UNUSED = "RE011", Note, "the materials of a mesh file are not used",
+        "The scene gives the mesh a material, and that counts. With `materials: mtl` those of the MTL do that the OBJ names.";
 }

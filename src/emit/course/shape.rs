@@ -146,6 +146,9 @@ impl Emit for Instance {
         }
         text.kind("mesh");
         text.line(4, &format!("file: {}", file_name(&mesh.name)?));
+        if let Some(part) = &mesh.part {
+            text.line(4, &format!("part: {}", serde_json::Value::from(&**part)));
+        }
         text.point("position", origin);
         match scale {
             [x, y, z] if x == y && y == z => text.number("scale", x, 4),

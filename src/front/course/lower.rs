@@ -1,10 +1,10 @@
 //! Lowering: the declaration, piece by piece as it is decoded, to the IR, with the place of every
 //! value.
 
-use super::assets::Wanted;
+use super::assets::{Dressing, Wanted};
 use super::camera;
 use super::decode::{Context, Value, ValueKey};
-use super::object::mesh::{self, Sizing};
+use super::object::mesh::Sizing;
 use super::record::FieldOutcome;
 use super::settings::Scene;
 use super::syntax;
@@ -66,22 +66,22 @@ pub struct UnfinishedScene {
     pub lowered: Lowered,
     /// The files, each once.
     pub wanted: Vec<Wanted>,
-    sizings: Vec<Sizing>,
+    /// What is to be done about the sizes of meshes.
+    pub(super) sizings: Vec<Sizing>,
+    /// Where the material of each mesh comes from.
+    pub(super) dressings: Vec<Dressing>,
 }
 
 impl UnfinishedScene {
-    /// The scene, with each mesh in its size; after its files were brought.
+    /// A scene that waits for these files alone.
     #[must_use]
-    pub fn finish(self, sink: &mut Sink) -> Lowered {
-        let Self {
-            mut lowered,
-            wanted: _,
-            sizings,
-        } = self;
-        sizings
-            .into_iter()
-            .for_each(|sizing| mesh::settle(sizing, &mut lowered, sink));
-        lowered
+    pub fn new(lowered: Lowered, wanted: Vec<Wanted>) -> Self {
+        Self {
+            lowered,
+            wanted,
+            sizings: Vec::new(),
+            dressings: Vec::new(),
+        }
     }
 }
 
@@ -96,6 +96,8 @@ pub(super) struct Lowering {
     pub(super) files: Files,
     /// What is to be done about the sizes of meshes.
     pub(super) sizings: Vec<Sizing>,
+    /// Where the material of each mesh comes from.
+    pub(super) dressings: Vec<Dressing>,
     origins: Origins,
 }
 
@@ -118,6 +120,7 @@ impl Lowering {
             grey: None,
             files,
             sizings,
+            dressings: Vec::new(),
             origins: Origins::default(),
         }
     }
@@ -212,6 +215,7 @@ impl Lowering {
             grey: _,
             files: Files { wanted, .. },
             sizings,
+            dressings,
             mut origins,
         } = self;
         for Wanted {
@@ -229,6 +233,7 @@ impl Lowering {
             lowered: Lowered { scene, origins },
             wanted,
             sizings,
+            dressings,
         }
     }
 }

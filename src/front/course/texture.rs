@@ -20,7 +20,7 @@ const DARK: [u8; 12] = [0; 12];
 #[derive(Default)]
 pub(super) struct Files {
     textures: BTreeMap<String, TextureId>,
-    meshes: BTreeMap<String, MeshId>,
+    meshes: BTreeMap<(String, Option<String>), MeshId>,
     uv: Option<TextureId>,
     pub(super) wanted: Vec<Wanted>,
 }
@@ -57,19 +57,26 @@ impl Files {
             .get_or_insert_with(|| add(&mut scene.textures, Texture::Uv, TextureId))
     }
 
-    /// The mesh of that name, empty until its file is there.
-    pub(super) fn mesh(&mut self, scene: &mut Scene, file: &Spanned<FileName>) -> MeshId {
+    /// The mesh of that name or a part of it, empty until its file is there.
+    pub(super) fn mesh(
+        &mut self,
+        scene: &mut Scene,
+        file: &Spanned<FileName>,
+        part: Option<&str>,
+    ) -> MeshId {
         let name = file.value.0.replace('\\', "/");
-        if let Some(id) = self.meshes.get(&name) {
+        let known = (name.clone(), part.map(str::to_owned));
+        if let Some(id) = self.meshes.get(&known) {
             return *id;
         }
         let empty = Mesh {
-            name: name.clone(),
+            name,
+            part: known.1.clone(),
             ..Mesh::default()
         };
         let id = add(&mut scene.meshes, empty, MeshId);
         self.want(Asset::Mesh(id), file);
-        self.meshes.insert(name, id);
+        self.meshes.insert(known, id);
         id
     }
 

@@ -3,10 +3,13 @@
 //! What a mesh takes is charged before it is there; every fault has its place in the file. Who asked
 //! for the file, and what is done without it, is the affair of others.
 
+mod material_use;
+pub mod mtl;
 mod obj;
 mod off;
 
-pub use crate::front::words::{Unread, WordFault};
+pub use crate::front::words::{Unread, WordFault, WordSpan};
+pub use material_use::{MaterialUse, Named};
 
 use crate::front::words::{Lines, Word};
 use crate::source::Budget;
@@ -21,6 +24,8 @@ pub struct Parsed {
     pub mesh: ParsedMesh,
     /// Elements that don't show: the first, and how many.
     pub not_drawn: Option<(WordFault, usize)>,
+    /// Which materials it asks for.
+    pub material_use: MaterialUse,
 }
 
 /// A mesh without a name.

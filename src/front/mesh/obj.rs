@@ -2,10 +2,10 @@
 //! and for the faces; so little is held beside what becomes the mesh, and what that takes is known
 //! before.
 //!
-//! Groups and materials make no difference. Corners without a normal, where others have one, are
-//! shaded flat.
+//! Groups make no difference; which material each face asks for is kept beside the mesh. Corners
+//! without a normal, where others have one, are shaded flat.
 
-use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
+use super::{MAX_FAULTS, MaterialUse, Parsed, ParsedMesh, Unread};
 use crate::front::words::{Lines, Word, WordFault, numbers};
 use crate::source::{Budget, Resource};
 
@@ -31,16 +31,19 @@ pub(super) fn is_keyword(word: &Word<'_>) -> bool {
 pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut check = Check::default();
     check.vertices(bytes);
+    budget.has(Resource::Memory, MaterialUse::at_most(check.switches))?;
     if check.faults.is_empty() {
         check.faces(bytes);
     }
     if !check.faults.is_empty() {
         return Err(Unread::Faults(check.faults));
     }
+    budget.charge(Resource::Memory, MaterialUse::at_most(check.switches))?;
     let mesh = check.mesh(bytes, budget)?;
     Ok(Parsed {
         mesh,
         not_drawn: check.not_drawn,
+        material_use: check.material_use,
     })
 }
 
@@ -54,6 +57,9 @@ struct Check {
     triangles: usize,
     /// Whether any corner has a texture coordinate, and a normal.
     used: [bool; 2],
+    /// How many lines ask for another material.
+    switches: usize,
+    material_use: MaterialUse,
     faults: Vec<WordFault>,
     not_drawn: Option<(WordFault, usize)>,
 }
@@ -92,6 +98,7 @@ impl Check {
                 let outcome = self.vertices.read(part, head, rest);
                 self.faults.extend(outcome.err());
             }
+            self.switches += usize::from(matches!(head.bytes, b"usemtl" | b"mtllib"));
         }
     }
 
@@ -109,6 +116,8 @@ impl Check {
                     self.faults.extend(outcome.err());
                 }
                 b"f" | b"fo" => self.skip(&head, "faces need three corners"),
+                b"usemtl" => self.material_use.switch(rest, bytes),
+                b"mtllib" => self.material_use.library(rest, bytes),
                 b"l" | b"p" => self.skip(&head, "lines and points have no surface"),
                 b"curv" | b"curv2" | b"surf" => {
                     self.skip(&head, "free-form curves and surfaces are not supported")
@@ -124,6 +133,7 @@ impl Check {
             self.used[0] |= uv.is_some();
             self.used[1] |= normal.is_some();
         }
+        self.material_use.face(self.triangles);
         self.corners += corners.len();
         self.triangles += corners.len() - 2;
         Ok(())

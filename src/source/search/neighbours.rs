@@ -1,6 +1,7 @@
-//! Files beside one that is not there, so that a slip in its name can be told.
+//! The places of files: what lies beside one that is not there, so that a slip in its name can be
+//! told, and how one that was found is called from the folders that are searched.
 
-use super::{FileKind, Search};
+use super::{FileKind, Folder, Found, Search};
 use std::fs;
 use std::path::{Component, Path};
 
@@ -36,5 +37,17 @@ impl Search {
         let mut names: Vec<String> = names.filter(is_of_kind).collect();
         names.sort_unstable();
         names
+    }
+
+    /// The path of a file that was found, from the first of the folders that it lies below, with `/`
+    /// between components.
+    #[must_use]
+    pub fn path_to(&self, found: &Found) -> Option<String> {
+        let below = |folder: &Folder| found.path.strip_prefix(&folder.resolved).ok();
+        let path = self.folders.iter().find_map(below)?;
+        let parts = path
+            .components()
+            .map(|part| part.as_os_str().to_string_lossy());
+        Some(parts.collect::<Vec<_>>().join("/"))
     }
 }

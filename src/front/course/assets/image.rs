@@ -1,6 +1,6 @@
 //! The images: pixel files as the IR holds them, and bump maps that turn out to hold normals.
 
-use super::{Known, Porter, Wanted, Without};
+use super::{Asset, Known, Porter, Wanted, Without};
 use crate::diag::{Diagnostic, Sink, clip_path, codes};
 use crate::front::pixels::{self, Refused};
 use crate::image::{Opacity, Pixels, is_picture};
@@ -27,7 +27,7 @@ pub(super) fn bring(
     known: &mut Known<ImageId>,
     porter: &mut Porter<'_>,
 ) -> Option<ImageId> {
-    let found = porter.find(wish, Without::Color)?;
+    let found = porter.find(wish, without(wish))?;
     let image = known.of(&found, || {
         let Pixels {
             width,
@@ -69,17 +69,26 @@ pub(super) fn settle(image_of: &BTreeMap<u32, Option<ImageId>>, scene: &mut Scen
     }
 }
 
+/// What is done without the file.
+fn without(wish: &Wanted) -> Without {
+    if let Asset::Map(_) = wish.asset {
+        Without::Map
+    } else {
+        Without::Color
+    }
+}
+
 fn read(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<Pixels> {
     match porter.loader.found(found, MAX_BYTES, porter.map) {
         Ok(bytes) => {
             porter.map.budget().read(bytes.len());
             let pixels = pixels::decode(&bytes, Opacity::Dropped, porter.map.budget());
             pixels
-                .map_err(|fault| porter.refuse(refusal(&fault, found, wish), Without::Color))
+                .map_err(|fault| porter.refuse(refusal(&fault, found, wish), without(wish)))
                 .ok()
         }
         Err(error) => {
-            porter.unreadable(found, &error.to_string(), wish.span, Without::Color);
+            porter.unreadable(found, &error.to_string(), wish.span, without(wish));
             None
         }
     }

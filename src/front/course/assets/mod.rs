@@ -3,17 +3,23 @@
 //! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
 //! is wrong there. A lenient run goes on without the file and says what is missing.
 
+mod dress;
 mod environment;
 mod gltf;
 mod image;
 mod mesh;
+mod mtl;
 mod photometry;
 mod text;
 
+pub use dress::{Dress, Dressing};
+
+use super::lower::UnfinishedScene;
+use super::object;
 use super::spelling::nearest;
 use crate::diag::{Diagnostic, Severity, Sink, clip_path, codes};
 use crate::front::FrontOptions;
-use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Place};
+use crate::ir::{Field, ImageId, Lowered, MeshId, Noun, Photometry, Place};
 use crate::source::{FileId, FileKind, Found, Identity, Loader, Missing, Search, SourceMap, Span};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -42,73 +48,112 @@ pub enum Asset {
     Gltf([[f64; 3]; 4]),
     /// The profile of the lamp of this index, dark until its file is there.
     Photometry(usize),
+    /// An image that a material of a mesh file names, of one pixel until its file is there.
+    Map(ImageId),
+    /// The materials of a mesh.
+    Materials,
 }
 
 impl Asset {
     /// The noun of the IR that the file becomes, if it is one.
     pub(super) fn place(&self) -> Option<Place> {
         match self {
-            Self::Image(id) | Self::Environment(id) => Some((Noun::Image, id.0)),
+            Self::Image(id) | Self::Environment(id) | Self::Map(id) => Some((Noun::Image, id.0)),
             Self::Mesh(id) => Some((Noun::Mesh, id.0)),
-            Self::Gltf(_) | Self::Photometry(_) => None,
+            Self::Gltf(_) | Self::Photometry(_) | Self::Materials => None,
         }
         .map(|(noun, index)| Place::new(noun, index as usize, Field::Whole))
     }
 }
 
-/// Reads each file wanted by the scene that was lowered from `scene`, and puts it in its place.
+/// Reads each file wanted by a scene that was lowered from `scene`, and puts it in its place; then
+/// sees to the sizes and the materials of its meshes.
 ///
 /// Mesh files come into the source map, so that findings can point into them.
 pub fn bring(
-    lowered: &mut Lowered,
-    wanted: Vec<Wanted>,
+    draft: UnfinishedScene,
     scene: FileId,
     options: &FrontOptions,
     map: &mut SourceMap,
     sink: &mut Sink,
-) {
+) -> Lowered {
+    let UnfinishedScene {
+        mut lowered,
+        wanted,
+        sizings,
+        dressings,
+    } = draft;
     if wanted.is_empty() {
-        return;
+        return lowered;
     }
     let folder = map.folder(scene);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
-    let mut porter = Porter {
+    let porter = Porter {
         search,
         options,
         loader: Loader,
         map,
         sink,
     };
-    let (mut images, mut meshes) = (Known::default(), Known::default());
-    let (mut assets, mut profiles) = (gltf::Assets::default(), Known::default());
-    // Which image and which mesh came of each that was wanted.
-    let (mut image_of, mut mesh_of) = (BTreeMap::new(), BTreeMap::new());
-    for wish in wanted {
-        match wish.asset {
-            Asset::Image(id) => {
-                image_of.insert(
-                    id.0,
-                    image::bring(id, &wish, lowered, &mut images, &mut porter),
-                );
-            }
-            Asset::Mesh(id) => {
-                mesh_of.insert(
-                    id.0,
-                    mesh::bring(id, &wish, lowered, &mut meshes, &mut porter),
-                );
-            }
-            Asset::Environment(id) => environment::bring(id, &wish, lowered, &mut porter),
-            Asset::Gltf(place) => assets.bring(place, &wish, lowered, &mut porter),
-            Asset::Photometry(light) => {
-                photometry::bring(light, &wish, lowered, &mut profiles, &mut porter);
+    let mut port = Port::new(porter);
+    port.unload(wanted, &mut lowered);
+    lowered.origins.finish();
+    port.meshes.settle(&mut lowered.scene);
+    for sizing in sizings {
+        object::mesh::settle(sizing, &mut lowered, port.porter.sink);
+    }
+    let wanted = dress::dress(&dressings, &port.meshes, &mut lowered, &mut port.porter);
+    port.unload(wanted, &mut lowered);
+    image::settle(&port.image_of, &mut lowered.scene);
+    image::find_normal_maps(&mut lowered, port.porter.sink);
+    lowered.origins.finish();
+    lowered
+}
+
+/// What was brought so far.
+struct Port<'run> {
+    porter: Porter<'run>,
+    images: Known<ImageId>,
+    /// Which image came of each that was wanted.
+    image_of: BTreeMap<u32, Option<ImageId>>,
+    meshes: mesh::MeshFiles,
+    assets: gltf::Assets,
+    profiles: Known<Photometry>,
+}
+
+impl<'run> Port<'run> {
+    fn new(porter: Porter<'run>) -> Self {
+        Self {
+            porter,
+            images: Known::default(),
+            image_of: BTreeMap::new(),
+            meshes: mesh::MeshFiles::default(),
+            assets: gltf::Assets::default(),
+            profiles: Known::default(),
+        }
+    }
+
+    /// Brings files.
+    fn unload(&mut self, wanted: Vec<Wanted>, lowered: &mut Lowered) {
+        let porter = &mut self.porter;
+        for wish in wanted {
+            match wish.asset {
+                Asset::Image(id) | Asset::Map(id) => {
+                    let image = image::bring(id, &wish, lowered, &mut self.images, porter);
+                    self.image_of.insert(id.0, image);
+                }
+                Asset::Mesh(id) => self.meshes.bring(id, &wish, lowered, porter),
+                Asset::Environment(id) => environment::bring(id, &wish, lowered, porter),
+                Asset::Gltf(place) => self.assets.bring(place, &wish, lowered, porter),
+                Asset::Photometry(light) => {
+                    photometry::bring(light, &wish, lowered, &mut self.profiles, porter);
+                }
+                // Who wants materials reads them.
+                Asset::Materials => {}
             }
         }
     }
-    image::settle(&image_of, &mut lowered.scene);
-    mesh::settle(&mesh_of, &mut lowered.scene);
-    image::find_normal_maps(lowered, porter.sink);
-    lowered.origins.finish();
 }
 
 /// What became of the files read so far, each read once, however it is named; `None` if it can't be
@@ -148,17 +193,27 @@ enum Without {
     Color,
     Environment,
     Light,
+    /// The picture of a material of a mesh file.
+    Map,
+    /// The materials of a mesh file.
+    Materials,
     Object,
 }
 
 impl Without {
     fn consequence(self) -> &'static str {
         match self {
-            Self::Color => "the texture is left out",
+            Self::Color | Self::Map => "the texture is left out",
             Self::Environment => "the environment is left out",
             Self::Light => "the light is dark",
+            Self::Materials => "the mesh goes without its materials",
             Self::Object => "the object is left out",
         }
+    }
+
+    /// Whether a scene is worth showing without it, lenient or not: what it names does not ask for it.
+    fn is_spare(self) -> bool {
+        matches!(self, Self::Map | Self::Materials)
     }
 }
 
@@ -167,7 +222,12 @@ impl Porter<'_> {
     fn find(&mut self, wish: &Wanted, without: Without) -> Option<Found> {
         let extensions: &[&str] = match without {
             Without::Object if !has_extension(&wish.path) => &["", ".obj", ".off"],
-            Without::Object | Without::Color | Without::Environment | Without::Light => &[""],
+            Without::Object
+            | Without::Color
+            | Without::Environment
+            | Without::Light
+            | Without::Map
+            | Without::Materials => &[""],
         };
         let mut first_fault = None;
         for extension in extensions {
@@ -220,7 +280,7 @@ impl Porter<'_> {
 
     /// Reports a file that can't be used; lenient, as a warning with what is done instead.
     fn refuse(&mut self, mut finding: Diagnostic, without: Without) {
-        if self.options.lenient {
+        if self.options.lenient || without.is_spare() {
             finding.message = format!("{}; {}", finding.message, without.consequence());
             finding.severity = Severity::Warning;
         }
@@ -240,11 +300,12 @@ impl Porter<'_> {
 /// The kind of file that an asset is in.
 fn kind_of(asset: &Asset) -> &'static FileKind {
     match asset {
-        Asset::Image(_) => &image::KIND,
+        Asset::Image(_) | Asset::Map(_) => &image::KIND,
         Asset::Mesh(_) => &mesh::TEXT.file,
         Asset::Environment(_) => &environment::KIND,
         Asset::Gltf(_) => &gltf::KIND,
         Asset::Photometry(_) => &photometry::TEXT.file,
+        Asset::Materials => &mtl::TEXT.file,
     }
 }
 

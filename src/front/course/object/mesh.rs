@@ -3,15 +3,19 @@
 use super::Lower;
 use super::sphere::Radius;
 use crate::diag::{Diagnostic, Severity, Sink, codes};
-use crate::front::course::decode::{Context, SharedValue, Spanned};
+use crate::front::course::assets::{Dress, Dressing};
+use crate::front::course::decode::{Context, SharedValue, Spanned, Value};
 use crate::front::course::lower::Lowering;
 use crate::front::course::material::Material;
 use crate::front::course::number::Real;
 use crate::front::course::record::{FieldOutcome, keys, record};
-use crate::front::course::value::{FileName, Point, Scale, Text};
+use crate::front::course::schema::Definitions;
+use crate::front::course::value::{FileName, Point, Scale, Text, word, word_schema};
 use crate::ir::{self, Field, Lowered, Noun, Place};
 use crate::math::{Vec3, shortest};
 use crate::source::Span;
+use crate::source::tree::{NodeContent, NodeId};
+use serde_json::{Value as Json, json};
 
 record! {
     /// A mesh from an OBJ or OFF file.
@@ -30,12 +34,59 @@ record! {
         size: Spanned<Real>, optional, keys!["size"];
         /// Half the longest side of the mesh in the scene, however large it is in its file; above 0.
         fit: Spanned<Radius>, optional, keys!["fit" "radius"];
-        /// What it is made of; grey if nothing is said.
+        /// What it is made of. If nothing is said, the materials that an OBJ asks for count, and grey where there are none.
         material: Spanned<SharedValue<Material>>, optional, keys!["material"], json "material";
+        /// `mtl`: the materials of the MTL file that an OBJ names count before `material`. `Kd` is the `color`, with a `kd` of
+        /// 1, `map_Kd` the `texture`, with the largest channel of `Kd` as `kd` if it is above 0; `ka` is the mean of `Ka`, at
+        /// most 0.2; `ks` is the mean of `Ks`, 0 under `illum` 0 and 1, `map_Ks` the `specularMap`, `Ns` the `n`, `map_Bump` the
+        /// `bump`, `norm` the `normalMap`. What `d` or `Tr` lets through is `kt`, and less of `ka` and `kd`; `Ni` is the `eta`
+        /// under `illum` 4, 6, 7 and 9, which are clear without `d` and `Tr`.
+        materials: Spanned<MaterialSource>, optional, keys!["materials"];
+        /// Of an OBJ: the faces alone that ask for the material of this name by `usemtl`; empty for those that ask for none.
+        part: Spanned<PartName>, optional, keys!["part"];
         /// Whether it casts shadows, where the scene has `Shadows`; paths know only surfaces that do.
         shadow: Spanned<bool>, default(true), keys!["shadow"], json "shadow";
     }
     forms { [file] [file scale] [file size] [file fit] }
+}
+
+/// Where materials come from.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::front::course) enum MaterialSource {
+    /// The file of materials that a mesh file names.
+    Mtl,
+}
+
+/// The words for it.
+const SOURCES: &[(&str, MaterialSource)] = &[("mtl", MaterialSource::Mtl)];
+
+impl Value for MaterialSource {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        word(node, SOURCES, context)
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        word_schema(SOURCES)
+    }
+}
+
+/// The name of a material in a mesh file, which may be empty.
+#[derive(Clone, Debug)]
+pub(in crate::front::course) struct PartName(String);
+
+impl Value for PartName {
+    fn decode(node: NodeId, context: &mut Context<'_>) -> Option<Self> {
+        match context.tree.shape(node) {
+            NodeContent::Word(text) | NodeContent::Text(text) => Some(Self(text.to_owned())),
+            NodeContent::List | NodeContent::Map => {
+                context.expected(node, "the name of a material")
+            }
+        }
+    }
+
+    fn schema(_: &mut Definitions) -> Json {
+        json!({ "type": ["string", "number"] })
+    }
 }
 
 /// What is done about the size of a mesh once its file is there.
@@ -57,14 +108,13 @@ impl Lower for Mesh {
             size,
             fit,
             material,
+            materials,
+            part,
             shadow,
         } = self;
         let clothes = match material {
             FieldOutcome::Read(material) => lowering.clothe(kind, material, shadow, context),
-            FieldOutcome::Absent => {
-                bare(kind, context);
-                Some(lowering.clothe_in_grey(kind, shadow))
-            }
+            FieldOutcome::Absent => Some(lowering.clothe_in_grey(kind, shadow)),
             FieldOutcome::Broken => None,
         };
         let index = lowering.scene.surfaces.len();
@@ -90,7 +140,15 @@ impl Lower for Mesh {
             _ => return,
         };
         let Some(clothes) = clothes else { return };
-        let mesh = lowering.files.mesh(&mut lowering.scene, file);
+        let part = match part {
+            FieldOutcome::Read(part) => Some(&*part.value.0),
+            FieldOutcome::Absent => None,
+            FieldOutcome::Broken => return,
+        };
+        let mesh = lowering.files.mesh(&mut lowering.scene, file, part);
+        lowering
+            .dressings
+            .push(dressing(index, kind.span, material, materials));
         lowering.sizings.extend(sizing);
         let shape = ir::Instance {
             mesh,
@@ -111,14 +169,22 @@ fn placed(scale: [f64; 3], position: [f64; 3]) -> [[f64; 3]; 4] {
     [x, y, z, position]
 }
 
-fn bare(kind: &Spanned<Text>, context: &mut Context<'_>) {
-    if let Some(span) = kind.span {
-        let message = || "the mesh has no `material`, so it is grey".to_owned();
-        context.report(&codes::ASSUMED, span, message, |d| {
-            d.at(span, "this mesh").hint(
-                "write `material: {color: [0.7, 0.7, 0.7], ka: 0.2, kd: 0.8, ks: 0, n: 1}`, or its own",
-            )
-        });
+/// Where the material of a mesh comes from.
+fn dressing(
+    surface: usize,
+    object: Option<Span>,
+    material: &FieldOutcome<Spanned<SharedValue<Material>>>,
+    materials: &FieldOutcome<Spanned<MaterialSource>>,
+) -> Dressing {
+    let (dress, span) = match (materials, material) {
+        (FieldOutcome::Read(source), _) => (Dress::Mtl, source.span),
+        (_, FieldOutcome::Absent) => (Dress::MtlOrGrey, object),
+        _ => (Dress::Scene, object),
+    };
+    Dressing {
+        surface,
+        dress,
+        span,
     }
 }
 

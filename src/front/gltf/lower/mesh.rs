@@ -248,6 +248,7 @@ pub(super) fn vertices(doc: &Document<'_>, wanted: &WantedMesh<'_, '_>) -> Optio
     let uvs = |name: &str| elements(name).map_or_else(Column::default, |uvs| uvs.column());
     let mut mesh = ir::Mesh {
         name: (*name).to_owned(),
+        part: None,
         positions,
         normals,
         uvs: uvs(first),
@@ -291,6 +292,7 @@ pub(super) fn clamped(colors: impl Iterator<Item = [f64; 4]>) -> Column<4> {
 pub(super) fn pick(mesh: &mut Mesh, vertices: &[u32]) {
     let Mesh {
         name: _,
+        part: _,
         positions,
         normals,
         uvs,
