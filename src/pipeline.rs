@@ -10,7 +10,7 @@ pub use meter::Meter;
 
 use crate::diag::{Diagnostic, Sink, clip, codes};
 use crate::front::course::assets::{self, Asset};
-use crate::front::{course, gltf};
+use crate::front::{course, gltf, mesh};
 use crate::image::Layers;
 use crate::ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use crate::math::BasisFault;
@@ -33,8 +33,8 @@ pub struct Options {
     pub valid: valid::ProofOptions,
 }
 
-/// Reads a scene in any form: the course's YAML, glTF, or the text or binary form of the IR, told
-/// apart by content. The files a YAML names come into the map.
+/// Reads a scene in any form: the course's YAML, glTF, a mesh, or the text or binary form of the IR,
+/// told apart by content. The files a YAML names come into the map.
 pub fn load(
     file: FileId,
     map: &mut SourceMap,
@@ -56,6 +56,10 @@ pub fn load(
         }
         None if gltf::recognise(map.name(file), map.bytes(file)) => {
             gltf::lower(file, map, &options.front, sink)
+        }
+        None if mesh::recognise(map.name(file), map.bytes(file)) => {
+            refuse_choices(&options.front, false, sink);
+            assets::alone(file, &options.front, map, sink)
         }
         None => {
             let draft = course::lower(file, map, &options.front, sink)?;

@@ -1,4 +1,4 @@
-//! A mesh file, OBJ or OFF, is read or refused.
+//! A mesh file of any format is read or refused.
 
 #![no_main]
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| rtc_fuzz::mesh(bytes));

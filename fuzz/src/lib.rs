@@ -13,7 +13,7 @@ const MARK: &[u8] = b"== ";
 /// No more files than these are written.
 const MAX_FILES: usize = 8;
 
-/// Shows a mesh, in OBJ or OFF.
+/// Shows a mesh, in any format.
 const MESH: &[u8] = b"
 Camera: {eye: [3, 2, 4], center: [0, 0, 0], up: [0, 1, 0], fov: 40, viewSize: [8, 8]}
 Shadows: true

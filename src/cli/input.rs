@@ -4,7 +4,7 @@ use super::Failure;
 use super::args::{self, GroundArg, Reading};
 use super::talk::Talk;
 use crate::diag::{Diagnostic, Sink, codes};
-use crate::front::{gltf, pixels};
+use crate::front::{gltf, mesh, pixels};
 use crate::ir::{Field, Light, Lowered, Noun, Place, Scene};
 use crate::passes::{self, EnvironmentOverride, FillLight, Framing, Stage, StudioChoice, View};
 use crate::pipeline::{self, Options};
@@ -40,7 +40,7 @@ pub(super) struct Proven {
 
 /// Where a scene comes from, and what was chosen for it.
 pub(super) struct Provenance {
-    /// It is a glTF asset.
+    /// It is an asset: glTF, or a mesh.
     pub(super) is_asset: bool,
     /// It is one with lights of its own, and they are not left out.
     pub(super) is_lit_asset: bool,
@@ -207,9 +207,12 @@ impl Input {
         Some(Proven { lowered, scene })
     }
 
-    /// Whether the input is a glTF asset by itself.
+    /// Whether the input is an asset by itself, glTF or a mesh.
     fn is_asset(&self) -> bool {
-        let recognise = |file| gltf::recognise(self.map.name(file), self.map.bytes(file));
+        let recognise = |file| {
+            let (name, bytes) = (self.map.name(file), self.map.bytes(file));
+            gltf::recognise(name, bytes) || mesh::recognise(name, bytes)
+        };
         self.file.is_some_and(recognise)
     }
 

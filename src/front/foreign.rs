@@ -1,7 +1,6 @@
 //! Files that are no scenes: what they are, by their first bytes, and what a scene has to do with
 //! them.
 
-use super::mesh::is_mesh;
 use crate::diag::{Diagnostic, clip_path, codes};
 
 /// A kind of file that is no scene: what it is, how it begins, and what to do with it.
@@ -9,7 +8,6 @@ type ForeignFile = (&'static str, fn(&[u8]) -> bool, &'static str);
 
 const TEXTURE: &str = "name it in a scene, as the `texture` of a material";
 const SKY: &str = "name it in a scene, as `Environment: {file: …}`, or light a scene by `--env`";
-const MESH: &str = "name it in a scene: `- {type: mesh, file: …}`";
 const EXPORT: &str = "export the scene as glTF 2.0 (`.glb`) from the program that made it";
 
 const FOREIGN: &[ForeignFile] = &[
@@ -61,12 +59,6 @@ const FOREIGN: &[ForeignFile] = &[
         |b| b.starts_with(b"#usda") || b.starts_with(b"PXR-USDC"),
         EXPORT,
     ),
-    (
-        "a PLY mesh",
-        |b| b.starts_with(b"ply\n") || b.starts_with(b"ply\r\n"),
-        EXPORT,
-    ),
-    ("a mesh", is_mesh, MESH),
 ];
 
 /// How much of a file is looked at, in bytes.
@@ -106,11 +98,6 @@ mod tests {
             told(b"\n <!DOCTYPE HTML>\n<p>"),
             "`x` is a page of HTML, and no scene"
         );
-        assert_eq!(
-            told(b"# made up\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
-            "`x` is a mesh, and no scene"
-        );
-        assert_eq!(told(b"OFF\n3 1 0\n"), "`x` is a mesh, and no scene");
         assert!(told(b"version https://git-lfs.github.com/spec/v1\n").contains("Git LFS"));
     }
 
@@ -123,6 +110,7 @@ mod tests {
             "{\"irVersion\": 4}",
             "MZ: 1\n",
             "version: 2\n",
+            "OFF\n3 1 0\n",
             "",
         ] {
             assert_eq!(told(scene.as_bytes()), "", "{scene}");

@@ -2,6 +2,7 @@
 //! comments gone, lines joined by `\`.
 
 use crate::source::{Exceeded, FileId, Span};
+use std::ops::Range;
 
 /// A word of a file.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +55,20 @@ impl WordSpan {
 }
 
 impl WordFault {
+    /// A fault in some bytes of a file.
+    pub(super) fn new(
+        bytes: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+    ) -> Self {
+        let Range { start, end } = bytes;
+        Self {
+            at: WordSpan { start, end },
+            message: message.into(),
+            label: label.into(),
+        }
+    }
+
     /// Where it is.
     #[must_use]
     pub fn span(&self, file: FileId) -> Span {
@@ -82,25 +97,24 @@ impl<'a> Word<'a> {
 
     /// A fault at this word.
     pub(super) fn fault(&self, message: impl Into<String>, label: impl Into<String>) -> WordFault {
-        WordFault {
-            at: self.place(),
-            message: message.into(),
-            label: label.into(),
-        }
+        WordFault::new(self.range(), message, label)
     }
 
     /// Where it is.
     pub(super) fn place(&self) -> WordSpan {
-        WordSpan {
-            start: self.start,
-            end: self.start + self.bytes.len(),
-        }
+        let Range { start, end } = self.range();
+        WordSpan { start, end }
+    }
+
+    /// The bytes of the file that it is.
+    pub(super) fn range(&self) -> Range<usize> {
+        self.start..self.start + self.bytes.len()
     }
 
     /// From this word to another one of its line, as one: a name with spaces. `file` is what both
     /// are of.
     pub(super) fn through(self, last: &Self, file: &'a [u8]) -> Self {
-        let end = last.place().end;
+        let end = last.range().end;
         Self {
             bytes: &file[self.start..end],
             ..self
@@ -178,6 +192,11 @@ impl<'a> Lines<'a> {
         } else {
             0
         };
+        Self { file, at }
+    }
+
+    /// The lines from a byte on.
+    pub(super) fn from(file: &'a [u8], at: usize) -> Self {
         Self { file, at }
     }
 

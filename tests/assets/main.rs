@@ -6,6 +6,7 @@
     clippy::disallowed_methods,
     reason = "a test stops at the first surprise and makes the files it reads"
 )]
+mod forms;
 mod mesh;
 mod mtl;
 mod names;

@@ -232,7 +232,7 @@ fn nothing_is_told_from_a_file_that_is_no_mesh() {
             "{findings}"
         );
         assert!(
-            findings.ends_with("/inner/m.obj` is neither OBJ nor OFF\n")
+            findings.ends_with("/inner/m.obj` is no OBJ, OFF, STL or PLY\n")
                 && !findings.contains("secret"),
             "{findings}"
         );

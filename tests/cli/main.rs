@@ -12,6 +12,7 @@
 mod exposure;
 mod framing;
 mod looks;
+mod mesh;
 mod numbers;
 #[cfg(unix)]
 mod outputs;

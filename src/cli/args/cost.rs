@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Cost {
-    /// The scene, as YAML, glTF or IR; `-` is standard input
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: PathBuf,
     /// Where to write; `-` is standard output

@@ -60,7 +60,7 @@ pub(super) enum Command {
 
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
-    /// Scenes, as YAML, glTF or IR; `-` is standard input
+    /// Scenes, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(required = true, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) files: Vec<PathBuf>,
     #[command(flatten)]
@@ -71,7 +71,7 @@ pub(super) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct Compile {
-    /// The scene, as YAML, glTF or IR; `-` is standard input
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(super) file: PathBuf,
     /// Where to write; `-` is standard output [default: `-`, or nowhere with `--explain`]

@@ -10,7 +10,7 @@ use std::time::Duration;
 
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Render {
-    /// The scene, as YAML, glTF or IR; `-` is standard input
+    /// The scene, as YAML, glTF, a mesh or IR; `-` is standard input
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(in crate::cli) file: PathBuf,
     /// Where to write, .png or .exr; `-` is PNG to standard output [default: the scene's name with

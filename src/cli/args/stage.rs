@@ -22,7 +22,7 @@ pub(in crate::cli) struct StageArgs {
     #[arg(long, value_name = "DEGREES", value_parser = degrees)]
     pub(in crate::cli) yfov: Option<f64>,
     /// All of the scene from an angle, in degrees: around from the front to the right, above the
-    /// horizon, and about the view [default of a glTF asset without a camera: 34,23]
+    /// horizon, and about the view [default of an asset without a camera: 34,23]
     #[arg(long, value_name = "AZIMUTH,ELEVATION[,ROLL]", value_parser = orbit, allow_hyphen_values = true,
         conflicts_with_all = ["eye", "center", "up"])]
     pub(in crate::cli) orbit: Option<passes::Orbit>,

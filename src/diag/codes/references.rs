@@ -23,8 +23,8 @@ super::codes! { RE:
         "A small file can ask for much memory, so the size is looked at before a texture is decoded: at most 16384 × \
          16384 pixels, unless `--limit pixels=…` allows more. Scale the picture down.";
     BAD_MESH_FILE = "RE006", Error, "a mesh file is faulty",
-        "Meshes are Wavefront OBJ or OFF; of a file that is neither, nothing is shown. The label is at the first place that can't be: a number that is missing or not \
-         finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \
+        "Meshes are Wavefront OBJ, OFF, STL or PLY; of another file nothing is shown. The label is at the first place that \
+         can't be: a number that is missing or not finite, a corner that refers to a vertex that is not there, a face of fewer than three corners. Export the mesh \
          again. With `--lenient` the object is left out, with a warning.";
     NOT_DRAWN = "RE007", Warning, "a mesh file holds elements that don't show",
         "Points and lines have no surface, and free-form curves and surfaces are not supported; only faces show. Convert \

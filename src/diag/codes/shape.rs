@@ -24,7 +24,7 @@ super::codes! { SC:
          it is clear which one counts.";
     NOT_A_SCENE = "SC009", Error, "the file is no scene",
         "A scene is a map of keys and values: `Camera:`, `Lights:`, `Objects:` and so on. The document is a single word \
-         or a list; or the file is something else by its first bytes, as a picture, a mesh, a page of HTML or a pointer of \
+         or a list; or the file is something else by its first bytes, as a picture, a page of HTML or a pointer of \
          Git LFS, and the message says what.";
     SPELLING = "SC010", Note, "the file uses other spellings than the canonical ones",
         "Scene files of this family differ in spelling. All are read; `rtc compile --emit yaml` writes the canonical \

@@ -40,7 +40,7 @@ mod unused;
 mod uri;
 mod usage;
 
-pub(super) use lower::SURFACE;
+pub(super) use lower::{SURFACE, empty, looking_at};
 
 use super::FrontOptions;
 use crate::diag::{Diagnostic, Sink, codes};

@@ -1,4 +1,4 @@
-//! Mesh files, OBJ or OFF, told apart by content: bytes to vertices and triangles.
+//! Mesh files, OBJ, OFF, STL or PLY, told apart by content: bytes to vertices and triangles.
 //!
 //! What a mesh takes is charged before it is there; every fault has its place in the file. Who asked
 //! for the file, and what is done without it, is the affair of others.
@@ -7,12 +7,14 @@ mod material_use;
 pub mod mtl;
 mod obj;
 mod off;
+mod ply;
+mod stl;
 
 pub use crate::front::words::{Unread, WordFault, WordSpan};
 pub use material_use::{MaterialUse, Named};
 
 use crate::front::words::{Lines, Word};
-use crate::source::Budget;
+use crate::source::{Budget, Exceeded, Resource};
 
 /// So many faults of one file are told.
 pub const MAX_FAULTS: usize = 10;
@@ -37,13 +39,49 @@ pub struct ParsedMesh {
     pub normals: Vec<[f64; 3]>,
     /// The texture coordinates of each vertex; none if no face has any.
     pub uvs: Vec<[f64; 2]>,
+    /// The colour of each vertex, linear, with alpha, each from 0 to 1; none if no vertex has any.
+    pub colors: Vec<[f64; 4]>,
     /// The vertices of each triangle, from 0, in range.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Whether a file that begins so is a mesh: it starts as OFF, or as OBJ and has a vertex.
+impl ParsedMesh {
+    /// Charges what it holds, and frees what it has no use for.
+    fn charge(&mut self, budget: &Budget) -> Result<(), Exceeded> {
+        let Self {
+            positions,
+            normals,
+            uvs,
+            colors,
+            triangles,
+        } = self;
+        triangles.shrink_to_fit();
+        budget.charge(Resource::Vertices, positions.len() as u64)?;
+        let bytes = size_of_val(&**positions)
+            + size_of_val(&**normals)
+            + size_of_val(&**uvs)
+            + size_of_val(&**colors)
+            + size_of_val(&**triangles);
+        budget.charge(Resource::Memory, bytes as u64)
+    }
+}
+
+/// What the names of such files end in, in lower case.
+pub const EXTENSIONS: &[&str] = &["obj", "off", "stl", "ply"];
+
+/// Whether a file of this name and these bytes is a mesh.
+#[must_use]
+pub fn recognise(name: &str, bytes: &[u8]) -> bool {
+    let extension = name.rsplit_once('.').map(|(_, last)| last.to_lowercase());
+    extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) || is_mesh(bytes)
+}
+
+/// Whether a file that begins so is a mesh: it starts as PLY, STL or OFF, or as OBJ and has a vertex.
 #[must_use]
 pub fn is_mesh(head: &[u8]) -> bool {
+    if ply::is_head(head) || stl::is_head(head) {
+        return true;
+    }
     let (mut lines, mut words) = (Lines::new(head), Vec::new());
     let has_words = lines.next(&mut words);
     if !has_words || !obj::is_keyword(&words[0]) {
@@ -58,7 +96,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
     true
 }
 
-/// Reads a mesh file of either format.
+/// Reads a mesh file of any format.
 ///
 /// # Errors
 /// If it has faults, or would take more than the budget has.
@@ -66,12 +104,14 @@ pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut words = Vec::new();
     Lines::new(bytes).next(&mut words);
     let parsed = match words.first() {
+        _ if ply::is_head(bytes) => ply::parse(bytes, budget)?,
+        _ if stl::is_head(bytes) => stl::parse(bytes, budget)?,
         Some(head) if off::is_head(head) => off::parse(bytes, budget)?,
         Some(_) | None => obj::parse(bytes, budget)?,
     };
     if parsed.mesh.triangles.is_empty() {
-        let fault = words
-            .first()
+        let head = words.first().filter(|head| head.bytes.len() < 80);
+        let fault = head
             .unwrap_or(&Word::START)
             .fault("the mesh has no faces", "nothing is drawn");
         return Err(Unread::Faults(vec![fault]));

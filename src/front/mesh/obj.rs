@@ -292,6 +292,7 @@ impl Check {
                 Vec::new()
             },
             triangles,
+            ..ParsedMesh::default()
         }
     }
 

@@ -28,16 +28,7 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     if !faults.is_empty() {
         return Err(Unread::Faults(faults));
     }
-    let ParsedMesh {
-        positions,
-        normals,
-        uvs: _,
-        triangles,
-    } = &mut parsed.mesh;
-    triangles.shrink_to_fit();
-    budget.charge(Resource::Vertices, positions.len() as u64)?;
-    let bytes = size_of_val(&**positions) + size_of_val(&**normals) + size_of_val(&**triangles);
-    budget.charge(Resource::Memory, bytes as u64)?;
+    parsed.mesh.charge(budget)?;
     Ok(parsed)
 }
 

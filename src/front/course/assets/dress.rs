@@ -18,6 +18,8 @@ pub enum Dress {
     Scene,
     /// From its file; without any there it keeps its own, which is grey.
     MtlOrGrey,
+    /// From its file, which is the scene; without any there it keeps its own.
+    Asset,
     /// From its file, as the scene asks for; without any there it keeps its own.
     Mtl,
 }
@@ -205,7 +207,7 @@ impl Dresser<'_, '_> {
     /// Says that nothing gives a mesh its material, where the scene leaves it to the file.
     fn bare(&mut self, dressing: &Dressing, grey: &str) {
         let finding = match dressing.dress {
-            Dress::Scene => return,
+            Dress::Scene | Dress::Asset => return,
             Dress::Mtl => {
                 let message = "the file of the mesh has no material for all its faces, so those have \
                                that of the scene";

@@ -2,24 +2,24 @@
 
 use super::text::TextKind;
 use super::{Known, Porter, Wanted, Without};
-use crate::diag::{Diagnostic, clip, codes};
-use crate::front::mesh::{MaterialUse, Parsed, ParsedMesh, is_mesh, parse};
+use crate::diag::{Diagnostic, Sink, clip, codes};
+use crate::front::mesh::{EXTENSIONS, MaterialUse, Parsed, ParsedMesh, is_mesh, parse};
 use crate::front::over_limit;
-use crate::ir::{Lowered, Mesh, MeshId, Scene, Shape};
-use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource};
+use crate::ir::{Column, Lowered, Mesh, MeshId, Mode, Scene, Shape};
+use crate::source::{Budget, Exceeded, FileId, FileKind, Found, Resource, Span};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Such files.
 pub(super) const TEXT: TextKind = TextKind {
     noun: "mesh",
-    is_not: "neither OBJ nor OFF",
+    is_not: "no OBJ, OFF, STL or PLY",
     code: &codes::BAD_MESH_FILE,
     without: Without::Object,
     // Some two million triangles.
     max_bytes: 1 << 28,
     file: FileKind {
-        extensions: &["obj", "off"],
+        extensions: EXTENSIONS,
         begins: is_mesh,
     },
 };
@@ -60,7 +60,16 @@ impl MeshFiles {
         };
         let files = &mut self.files;
         let at = self.known.of(&found, || {
-            files.push(load(&found, wish, porter)?);
+            let own = load(&found, wish, porter)?;
+            let is_traced = matches!(lowered.scene.settings.mode, Mode::Path(_));
+            if !own.whole.colors.is_empty() && !is_traced {
+                let message = "the colours of its vertices show in traced paths alone";
+                let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
+                porter
+                    .sink
+                    .push(finding.at(wish.span, "has the colour of its material"));
+            }
+            files.push(own);
             Some(files.len() - 1)
         });
         let Some(at) = at.copied() else { return };
@@ -93,6 +102,13 @@ impl MeshFiles {
         }
     }
 
+    /// Adds a file that was read, of which a mesh of the scene is all.
+    pub(super) fn put(&mut self, id: MeshId, mut file: MeshFile) {
+        file.home = Some(id);
+        self.file_of.insert(id.0, self.files.len());
+        self.files.push(file);
+    }
+
     /// The file that a mesh wanted is of; none if there is no sound one.
     pub(super) fn of(&self, id: MeshId) -> Option<usize> {
         self.file_of.get(&id.0).copied()
@@ -120,6 +136,41 @@ fn fill(place: &mut Mesh, mesh: Mesh) {
 }
 
 impl MeshFile {
+    pub(super) fn new(parsed: Parsed, file: FileId, path: String) -> Self {
+        let Parsed {
+            mesh,
+            not_drawn: _,
+            material_use,
+        } = parsed;
+        let ParsedMesh {
+            positions,
+            normals,
+            uvs,
+            colors,
+            triangles,
+        } = mesh;
+        let whole = Mesh {
+            positions: positions.into(),
+            normals: normals.into(),
+            uvs: uvs.into(),
+            colors: Column::rounded(colors),
+            triangles: triangles.into(),
+            ..Mesh::default()
+        };
+        Self {
+            whole,
+            home: None,
+            material_use,
+            file,
+            path,
+        }
+    }
+
+    /// All of it, without a name.
+    pub(super) fn whole(&self) -> Mesh {
+        self.whole.clone()
+    }
+
     /// The triangles whose faces ask for the material `name`, if there are any.
     fn part(&self, name: &str, budget: &Budget) -> Result<Option<Mesh>, Exceeded> {
         let Some(at) = self.material_use.index_of(name) else {
@@ -184,6 +235,7 @@ fn extract(
         positions: mesh.positions.pick(&used),
         normals: mesh.normals.pick(&used),
         uvs: mesh.uvs.pick(&used),
+        colors: mesh.colors.pick(&used),
         triangles: triangles()
             .map(|corners| corners.map(|corner| numbers[corner as usize]))
             .collect(),
@@ -197,40 +249,18 @@ fn extract(
 /// What is in a file, if it is a sound mesh.
 fn load(found: &Found, wish: &Wanted, porter: &mut Porter<'_>) -> Option<MeshFile> {
     let (file, parsed) = porter.read_text(found, wish, &TEXT, parse)?;
-    let Parsed {
-        mesh,
-        not_drawn,
-        material_use,
-    } = parsed;
-    if let Some((first, count)) = not_drawn {
-        let message = format!("{} show: {}", count_of(count), first.message);
-        let finding = Diagnostic::new(&codes::NOT_DRAWN, message).at(first.span(file), first.label);
-        porter
-            .sink
-            .push(finding.also(wish.span, "the file is named here"));
-    }
-    Some(MeshFile {
-        whole: whole(mesh),
-        home: None,
-        material_use,
-        file,
-        path: porter.search.path_to(found).unwrap_or_default(),
-    })
+    tell_not_drawn(&parsed, file, wish.span, porter.sink);
+    let path = porter.search.path_to(found).unwrap_or_default();
+    Some(MeshFile::new(parsed, file, path))
 }
 
-fn whole(mesh: ParsedMesh) -> Mesh {
-    let ParsedMesh {
-        positions,
-        normals,
-        uvs,
-        triangles,
-    } = mesh;
-    Mesh {
-        positions: positions.into(),
-        normals: normals.into(),
-        uvs: uvs.into(),
-        triangles: triangles.into(),
-        ..Mesh::default()
+/// Says what of a file does not show; `named` is where a scene names it.
+pub(super) fn tell_not_drawn(parsed: &Parsed, file: FileId, named: Option<Span>, sink: &mut Sink) {
+    if let Some((first, count)) = &parsed.not_drawn {
+        let message = format!("{} show: {}", count_of(*count), first.message);
+        let finding = Diagnostic::new(&codes::NOT_DRAWN, message);
+        let finding = finding.at(first.span(file), first.label.as_str());
+        sink.push(finding.also(named, "the file is named here"));
     }
 }
 

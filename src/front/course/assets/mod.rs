@@ -3,6 +3,7 @@
 //! Every fault has its place: in the scene for a file that can't be had, in the mesh file for what
 //! is wrong there. A lenient run goes on without the file and says what is missing.
 
+mod alone;
 mod dress;
 mod environment;
 mod gltf;
@@ -12,6 +13,7 @@ mod mtl;
 mod photometry;
 mod text;
 
+pub use alone::alone;
 pub use dress::{Dress, Dressing};
 
 use super::lower::UnfinishedScene;
@@ -89,25 +91,14 @@ pub fn bring(
     let folder = map.folder(scene);
     let search = Search::new(folder, options.asset_root.as_deref())
         .with_parent(folder, options.home.as_deref());
-    let porter = Porter {
-        search,
-        options,
-        loader: Loader,
-        map,
-        sink,
-    };
-    let mut port = Port::new(porter);
+    let mut port = Port::new(search, options, map, sink);
     port.unload(wanted, &mut lowered);
     lowered.origins.finish();
     port.meshes.settle(&mut lowered.scene);
     for sizing in sizings {
         object::mesh::settle(sizing, &mut lowered, port.porter.sink);
     }
-    let wanted = dress::dress(&dressings, &port.meshes, &mut lowered, &mut port.porter);
-    port.unload(wanted, &mut lowered);
-    image::settle(&port.image_of, &mut lowered.scene);
-    image::find_normal_maps(&mut lowered, port.porter.sink);
-    lowered.origins.finish();
+    port.finish(&dressings, &mut lowered);
     lowered
 }
 
@@ -123,15 +114,35 @@ struct Port<'run> {
 }
 
 impl<'run> Port<'run> {
-    fn new(porter: Porter<'run>) -> Self {
+    fn new(
+        search: Search,
+        options: &'run FrontOptions,
+        map: &'run mut SourceMap,
+        sink: &'run mut Sink,
+    ) -> Self {
         Self {
-            porter,
+            porter: Porter {
+                search,
+                options,
+                loader: Loader,
+                map,
+                sink,
+            },
             images: Known::default(),
             image_of: BTreeMap::new(),
             meshes: mesh::MeshFiles::default(),
             assets: gltf::Assets::default(),
             profiles: Known::default(),
         }
+    }
+
+    /// Dresses the meshes, and has textures look at the images that came.
+    fn finish(mut self, dressings: &[Dressing], lowered: &mut Lowered) {
+        let wanted = dress::dress(dressings, &self.meshes, lowered, &mut self.porter);
+        self.unload(wanted, lowered);
+        image::settle(&self.image_of, &mut lowered.scene);
+        image::find_normal_maps(lowered, self.porter.sink);
+        lowered.origins.finish();
     }
 
     /// Brings files.

@@ -18,7 +18,7 @@ use crate::source::tree::{NodeContent, NodeId};
 use serde_json::{Value as Json, json};
 
 record! {
-    /// A mesh from an OBJ or OFF file.
+    /// A mesh from an OBJ, OFF, STL or PLY file.
     struct Mesh, "mesh" {
         /// What kind of object this is.
         kind: Spanned<Text>, required, keys!["type"], json "type";

@@ -146,7 +146,7 @@ pub(super) fn pixel(ball: Ball) -> f64 {
 }
 
 /// A camera that sees the whole ball.
-pub(super) fn looking_at(Ball { center, radius }: Ball) -> Camera {
+pub(in crate::front) fn looking_at(Ball { center, radius }: Ball) -> Camera {
     let half = OPENING.to_radians() / 2.0;
     let z = Vec3::from_array(FROM).normalize();
     let x = Vec3::Y.cross(z).normalize();

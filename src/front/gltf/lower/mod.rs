@@ -15,6 +15,8 @@ mod texture;
 mod topology;
 mod uv;
 
+pub(in crate::front) use camera::looking_at;
+
 use super::document::Document;
 use super::field::Fields;
 use super::primitive::Primitive;
@@ -94,7 +96,7 @@ pub(super) fn lower<'s>(
 }
 
 /// A scene without anything, that is rendered as glTF means it.
-fn empty() -> Scene {
+pub(in crate::front) fn empty() -> Scene {
     let camera = camera::looking_at(ir::Ball {
         center: Vec3::ZERO,
         radius: 1.0,

@@ -1,0 +1,110 @@
+//! A mesh file given by itself, as an asset without camera and lights: grey, or in the colours of its
+//! vertices or the materials that it asks for.
+
+use super::Port;
+use super::dress::{Dress, Dressing};
+use super::mesh::{self, MeshFile};
+use crate::diag::{Diagnostic, Sink, codes};
+use crate::front::mesh::{is_mesh, parse};
+use crate::front::words::Unread;
+use crate::front::{FrontOptions, gltf, over_limit};
+use crate::ir::{
+    Field, Instance, Lowered, Material, MaterialId, Mesh, MeshId, Noun, Origins, Place, Shape,
+    Standard, Surface,
+};
+use crate::math::Vec3;
+use crate::source::{FileId, Search, SourceMap, Span};
+
+/// How rough a mesh without a material is.
+const ROUGHNESS: f64 = 0.6;
+
+/// The reflectance of a mesh without a material.
+const GREY: f64 = 0.7;
+
+/// Reads a mesh file and puts what it holds into a scene as of a glTF asset. `None` if it has
+/// errors; the sink says which.
+pub fn alone(
+    file: FileId,
+    options: &FrontOptions,
+    map: &mut SourceMap,
+    sink: &mut Sink,
+) -> Option<Lowered> {
+    let parsed = read(file, map, sink)?;
+    let name = map.name(file).rsplit(['/', '\\']).next();
+    let name = name.unwrap_or_default().to_owned();
+    let has_colors = !parsed.mesh.colors.is_empty();
+    mesh::tell_not_drawn(&parsed, file, None, sink);
+    let own = MeshFile::new(parsed, file, name.clone());
+    let mut scene = gltf::empty();
+    scene.meshes.push(Mesh {
+        name,
+        ..own.whole()
+    });
+    scene
+        .materials
+        .push(Material::Standard(Box::new(plain(has_colors))));
+    let [x, y, z] = Vec3::AXES.map(|axis| axis.to_array());
+    scene.surfaces.push(Surface {
+        shape: Shape::Instance(Instance {
+            mesh: MeshId(0),
+            world_from_object: [x, y, z, [0.0; 3]],
+        }),
+        material: MaterialId(0),
+        casts_no_shadow: false,
+    });
+    if let Some(ball) = scene.ball() {
+        scene.camera = gltf::looking_at(ball);
+    }
+    let mut origins = Origins::default();
+    for noun in [Noun::Mesh, Noun::Surface] {
+        origins.record(Place::new(noun, 0, Field::Whole), Span::new(file, 0, 0));
+    }
+    let mut lowered = Lowered { scene, origins };
+    let search = Search::new(map.folder(file), options.asset_root.as_deref());
+    let mut port = Port::new(search, options, map, sink);
+    port.meshes.put(MeshId(0), own);
+    let dressing = Dressing {
+        surface: 0,
+        dress: Dress::Asset,
+        span: None,
+    };
+    port.finish(&[dressing], &mut lowered);
+    Some(lowered)
+}
+
+/// The mesh in the file.
+fn read(file: FileId, map: &SourceMap, sink: &mut Sink) -> Option<crate::front::mesh::Parsed> {
+    let bytes = map.bytes(file);
+    if !is_mesh(bytes) {
+        let message = format!("`{}` is {}", map.name(file), mesh::TEXT.is_not);
+        let finding = Diagnostic::new(&codes::BAD_MESH_FILE, message);
+        sink.push(finding.at(Span::new(file, 0, 0), "at its start"));
+        return None;
+    }
+    match parse(bytes, map.budget()) {
+        Ok(parsed) => return Some(parsed),
+        Err(Unread::Limit(fault)) => {
+            let what = format!("the mesh `{}`", map.name(file));
+            sink.push(over_limit(&what, &fault).at(Span::new(file, 0, 0), "this file"));
+        }
+        Err(Unread::Faults(faults)) => {
+            for fault in faults {
+                let finding = Diagnostic::new(&codes::BAD_MESH_FILE, fault.message.as_str());
+                sink.push(finding.at(fault.span(file), fault.label));
+            }
+        }
+    }
+    None
+}
+
+/// What a mesh is made of that says nothing about it.
+fn plain(has_colors: bool) -> Standard {
+    let base = if has_colors { 1.0 } else { GREY };
+    Standard {
+        base_color: [base, base, base, 1.0],
+        metallic: 0.0,
+        roughness: ROUGHNESS,
+        double_sided: true,
+        ..Standard::default()
+    }
+}

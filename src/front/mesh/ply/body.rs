@@ -1,0 +1,147 @@
+//! The body of a PLY, number by number.
+
+use super::head::{NumberKind, PlyElement, PlyForm, PlyProperty};
+use crate::front::words::{Lines, Word, WordFault};
+use std::ops::Range;
+
+/// What is still to be read of a body.
+pub(super) struct PlyBody<'a> {
+    bytes: &'a [u8],
+    form: PlyForm,
+    /// Where the next number begins; of a text, the next line.
+    at: usize,
+    lines: Lines<'a>,
+    words: Vec<Word<'a>>,
+    /// How many words of the line were read.
+    used: usize,
+    /// The number that was read last.
+    last: Range<usize>,
+}
+
+impl<'a> PlyBody<'a> {
+    pub(super) fn new(bytes: &'a [u8], body: usize, form: PlyForm) -> Self {
+        Self {
+            bytes,
+            form,
+            at: body,
+            lines: Lines::from(bytes, body),
+            words: Vec::new(),
+            used: 0,
+            last: body..body,
+        }
+    }
+
+    /// The fewest bytes that a number takes.
+    pub(super) fn least(&self, kind: NumberKind) -> usize {
+        match self.form {
+            // A digit, and a space before the next one.
+            PlyForm::Text => 2,
+            PlyForm::LittleEndian | PlyForm::BigEndian => kind.size(),
+        }
+    }
+
+    /// How many bytes are left; of a text, at most.
+    pub(super) fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// Whether what is left is long enough for an element.
+    pub(super) fn has_room(&self, element: &PlyElement<'_>) -> bool {
+        let properties = element.properties.iter();
+        let row: usize = properties
+            .map(|property| self.least(property.length.unwrap_or(property.kind)))
+            .sum();
+        // The last number of a text has no space behind it.
+        row.checked_mul(element.count)
+            .is_some_and(|all| all <= self.left() + 1)
+    }
+
+    /// The next number, of a type; `element` is what promised it.
+    pub(super) fn number(
+        &mut self,
+        kind: NumberKind,
+        element: &PlyElement<'_>,
+    ) -> Result<f64, WordFault> {
+        match self.form {
+            PlyForm::Text => self.word(element),
+            PlyForm::LittleEndian => self.binary(kind, element, false),
+            PlyForm::BigEndian => self.binary(kind, element, true),
+        }
+    }
+
+    fn word(&mut self, element: &PlyElement<'_>) -> Result<f64, WordFault> {
+        if self.used == self.words.len() {
+            self.used = 0;
+            if !self.lines.next(&mut self.words) {
+                return Err(element.is_cut_off());
+            }
+        }
+        let word = self.words[self.used];
+        self.used += 1;
+        self.last = word.range();
+        self.at = self.last.end;
+        word.number()
+    }
+
+    fn binary(
+        &mut self,
+        kind: NumberKind,
+        element: &PlyElement<'_>,
+        is_big: bool,
+    ) -> Result<f64, WordFault> {
+        let size = kind.size();
+        let Some(bytes) = self.bytes.get(self.at..self.at + size) else {
+            return Err(element.is_cut_off());
+        };
+        self.last = self.at..self.at + size;
+        self.at += size;
+        let mut eight = [0; 8];
+        eight[..size].copy_from_slice(bytes);
+        if is_big {
+            eight[..size].reverse();
+        }
+        let [a, b, c, d, ..] = eight;
+        Ok(match kind {
+            NumberKind::I8 => f64::from(i8::from_le_bytes([a])),
+            NumberKind::U8 => f64::from(a),
+            NumberKind::I16 => f64::from(i16::from_le_bytes([a, b])),
+            NumberKind::U16 => f64::from(u16::from_le_bytes([a, b])),
+            NumberKind::I32 => f64::from(i32::from_le_bytes([a, b, c, d])),
+            NumberKind::U32 => f64::from(u32::from_le_bytes([a, b, c, d])),
+            NumberKind::F32 => f64::from(f32::from_le_bytes([a, b, c, d])),
+            NumberKind::F64 => f64::from_le_bytes(eight),
+        })
+    }
+
+    /// The length of a list.
+    pub(super) fn count(
+        &mut self,
+        kind: NumberKind,
+        element: &PlyElement<'_>,
+    ) -> Result<u32, WordFault> {
+        let number = self.number(kind, element)?;
+        super::whole(number)
+            .ok_or_else(|| self.fault("the length of a list is no whole number", "here"))
+    }
+
+    /// Passes over a property.
+    pub(super) fn skip(
+        &mut self,
+        property: &PlyProperty<'_>,
+        element: &PlyElement<'_>,
+    ) -> Result<(), WordFault> {
+        let count = match property.length {
+            Some(length) => self.count(length, element)?,
+            None => 1,
+        };
+        for _ in 0..count {
+            self.number(property.kind, element)?;
+        }
+        Ok(())
+    }
+
+    /// A fault at the number that was read last.
+    pub(super) fn fault(&self, message: &str, label: &str) -> WordFault {
+        WordFault::new(self.last.clone(), message, label)
+    }
+}

@@ -1,0 +1,179 @@
+//! The head of a PLY: its form, and the elements with their properties, in the order of the body.
+
+use super::super::material_use::name;
+use crate::front::words::{Lines, Word, WordFault};
+
+/// How the numbers of the body are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PlyForm {
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+/// The type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NumberKind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+/// A kind of thing in the body: so many rows of properties.
+#[derive(Debug)]
+pub(super) struct PlyElement<'a> {
+    pub(super) name: Word<'a>,
+    pub(super) count: usize,
+    /// Where the count is written.
+    promise: Word<'a>,
+    pub(super) properties: Vec<PlyProperty<'a>>,
+}
+
+/// A number, or a list of numbers, of each row.
+#[derive(Debug)]
+pub(super) struct PlyProperty<'a> {
+    pub(super) name: Word<'a>,
+    pub(super) kind: NumberKind,
+    /// The type of the length, if it is a list.
+    pub(super) length: Option<NumberKind>,
+}
+
+impl NumberKind {
+    fn of(word: &Word<'_>) -> Result<Self, WordFault> {
+        Ok(match word.bytes {
+            b"char" | b"int8" => Self::I8,
+            b"uchar" | b"uint8" => Self::U8,
+            b"short" | b"int16" => Self::I16,
+            b"ushort" | b"uint16" => Self::U16,
+            b"int" | b"int32" => Self::I32,
+            b"uint" | b"uint32" => Self::U32,
+            b"float" | b"float32" => Self::F32,
+            b"double" | b"float64" => Self::F64,
+            _ => {
+                let message = format!("there is no type `{}`", word.text());
+                return Err(word.fault(message, "char to double are there"));
+            }
+        })
+    }
+
+    /// In a binary file, in bytes.
+    pub(super) fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::I32 | Self::U32 | Self::F32 => 4,
+            Self::F64 => 8,
+        }
+    }
+
+    /// A number of this type as a part of the whole: that of whole numbers is their largest.
+    pub(super) fn fraction(self, number: f64) -> f64 {
+        let whole = match self {
+            Self::I8 | Self::U8 => 255.0,
+            Self::I16 | Self::U16 => 65_535.0,
+            Self::I32 | Self::U32 => f64::from(u32::MAX),
+            Self::F32 | Self::F64 => 1.0,
+        };
+        (number / whole).clamp(0.0, 1.0)
+    }
+}
+
+impl PlyProperty<'_> {
+    /// Whether it lists the corners of a face.
+    pub(super) fn is_corners(&self) -> bool {
+        let is_named = matches!(self.name.bytes, b"vertex_indices" | b"vertex_index");
+        is_named && self.length.is_some()
+    }
+}
+
+impl PlyElement<'_> {
+    /// The file has fewer than it says.
+    pub(super) fn is_cut_off(&self) -> WordFault {
+        let message = format!(
+            "the file ends before the last of {} of `{}`",
+            self.count,
+            self.name.text()
+        );
+        self.promise.fault(message, "promised here")
+    }
+}
+
+/// The elements, the form of the body, and where it begins.
+pub(super) fn read(bytes: &[u8]) -> Result<(Vec<PlyElement<'_>>, PlyForm, usize), WordFault> {
+    let (mut lines, mut words) = (Lines::new(bytes), Vec::new());
+    let (mut elements, mut form) = (Vec::new(), None);
+    while lines.next(&mut words) {
+        match (words[0].bytes, &words[1..]) {
+            (b"ply" | b"comment" | b"obj_info", _) => {}
+            (b"format", [word, ..]) => form = Some(form_of(word)?),
+            (b"element", [name, count, ..]) => elements.push(element(*name, *count)?),
+            (b"property", rest) => {
+                let Some(element) = elements.last_mut() else {
+                    return Err(words[0].fault("the property is of no element", "before the first"));
+                };
+                element.properties.push(property(&words[0], rest)?);
+            }
+            (b"end_header", _) => {
+                let form = form
+                    .ok_or_else(|| words[0].fault("the head says no `format`", "it ends here"))?;
+                return Ok((elements, form, end(&words[0], bytes)));
+            }
+            _ => {
+                let head = name(&words, bytes).map_or_else(String::new, |line| line.text);
+                let message = format!("`{}` is no line of a head", crate::diag::clip(&head));
+                return Err(words[0].fault(message, "before `end_header`"));
+            }
+        }
+    }
+    Err(Word::START.fault("the head has no `end_header`", "in this file"))
+}
+
+/// Where the line of a word ends.
+fn end(word: &Word<'_>, bytes: &[u8]) -> usize {
+    let end = word.range().end;
+    let rest = &bytes[end..];
+    let line = rest.iter().position(|byte| *byte == b'\n');
+    // Old systems end lines by `\r` alone.
+    let line = line.filter(|line| rest[..*line].iter().all(u8::is_ascii_whitespace));
+    end + line.map_or(1, |line| line + 1).min(rest.len())
+}
+
+fn form_of(word: &Word<'_>) -> Result<PlyForm, WordFault> {
+    match word.bytes {
+        b"ascii" => Ok(PlyForm::Text),
+        b"binary_little_endian" => Ok(PlyForm::LittleEndian),
+        b"binary_big_endian" => Ok(PlyForm::BigEndian),
+        _ => Err(word.fault(format!("there is no form `{}`", word.text()), "unknown")),
+    }
+}
+
+fn element<'a>(name: Word<'a>, promise: Word<'a>) -> Result<PlyElement<'a>, WordFault> {
+    let count = usize::try_from(promise.integer()?);
+    Ok(PlyElement {
+        name,
+        count: count.map_err(|_| promise.fault("a count is negative", "of this element"))?,
+        promise,
+        properties: Vec::new(),
+    })
+}
+
+fn property<'a>(head: &Word<'a>, rest: &[Word<'a>]) -> Result<PlyProperty<'a>, WordFault> {
+    match rest {
+        [list, length, kind, name, ..] if list.bytes == b"list" => Ok(PlyProperty {
+            name: *name,
+            kind: NumberKind::of(kind)?,
+            length: Some(NumberKind::of(length)?),
+        }),
+        [kind, name, ..] => Ok(PlyProperty {
+            name: *name,
+            kind: NumberKind::of(kind)?,
+            length: None,
+        }),
+        _ => Err(head.fault("a property has a type and a name", "this has not")),
+    }
+}
