@@ -227,6 +227,13 @@ fn faults_of_ply_have_their_places() {
         assert_eq!(own.0, message, "{to}");
         assert_eq!(own.1, place, "{to}");
     }
+    // Any number of faces of nothing is nothing, and soon told.
+    let none = text.replacen(
+        "element face 3",
+        "element face 4294967295\nelement edge 3",
+        1,
+    );
+    assert_eq!(fault(none.as_bytes()).0, "the mesh has no faces");
     let mut cut = ply(FORMS[1]);
     cut.pop();
     assert_eq!(

@@ -76,13 +76,22 @@ pub fn recognise(name: &str, bytes: &[u8]) -> bool {
     extension.is_some_and(|extension| EXTENSIONS.contains(&&*extension)) || is_mesh(bytes)
 }
 
+/// So much of a file is looked at, at most, to tell what it is: a line takes some twenty times its
+/// length.
+const LOOKED_AT: usize = 1 << 18;
+
+/// The lines of a file that tell what it is.
+fn first_lines(bytes: &[u8]) -> Lines<'_> {
+    Lines::new(&bytes[..bytes.len().min(LOOKED_AT)])
+}
+
 /// Whether a file that begins so is a mesh: it starts as PLY, STL or OFF, or as OBJ and has a vertex.
 #[must_use]
 pub fn is_mesh(head: &[u8]) -> bool {
     if ply::is_head(head) || stl::is_head(head) {
         return true;
     }
-    let (mut lines, mut words) = (Lines::new(head), Vec::new());
+    let (mut lines, mut words) = (first_lines(head), Vec::new());
     let has_words = lines.next(&mut words);
     if !has_words || !obj::is_keyword(&words[0]) {
         return has_words && off::is_head(&words[0]);
@@ -102,7 +111,7 @@ pub fn is_mesh(head: &[u8]) -> bool {
 /// If it has faults, or would take more than the budget has.
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
     let mut words = Vec::new();
-    Lines::new(bytes).next(&mut words);
+    first_lines(bytes).next(&mut words);
     let parsed = match words.first() {
         _ if ply::is_head(bytes) => ply::parse(bytes, budget)?,
         _ if stl::is_head(bytes) => stl::parse(bytes, budget)?,

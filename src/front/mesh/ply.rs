@@ -30,6 +30,8 @@ pub(super) fn parse(bytes: &[u8], budget: &Budget) -> Result<Parsed, Unread> {
         }
         match element.name.bytes {
             b"vertex" => vertices(element, &mut body, &mut parsed.mesh, budget)?,
+            // Any number of nothing.
+            _ if element.properties.is_empty() => {}
             b"face" => {
                 let corner = element.properties.iter().find(|own| own.is_corners());
                 let size = corner.map_or(1, |corner| body.least(corner.kind));
@@ -182,9 +184,6 @@ fn faces(
 }
 
 fn skip(element: &PlyElement<'_>, body: &mut PlyBody<'_>) -> Result<(), WordFault> {
-    if element.properties.is_empty() {
-        return Ok(());
-    }
     for _ in 0..element.count {
         for property in &element.properties {
             body.skip(property, element)?;

@@ -3,7 +3,7 @@
 //!
 //! The normals of the file are not read: the order of the corners says the same.
 
-use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread};
+use super::{MAX_FAULTS, Parsed, ParsedMesh, Unread, first_lines};
 use crate::front::words::{Lines, Word, WordFault, numbers};
 use crate::source::{Budget, Resource};
 
@@ -13,7 +13,7 @@ const HEAD: usize = 84;
 /// A binary triangle: its normal, its corners, and two bytes of any kind.
 const TRIANGLE: usize = 50;
 
-/// So much of a file is looked at, at most, to tell what it is.
+/// So much of a file is read, at most, to find one that fits a name.
 const LOOKED_AT: usize = 1 << 16;
 
 /// True if a file that begins so is an STL.
@@ -23,7 +23,7 @@ pub(super) fn is_head(head: &[u8]) -> bool {
 
 fn is_text(head: &[u8]) -> bool {
     let mut words = Vec::new();
-    Lines::new(head).next(&mut words)
+    first_lines(head).next(&mut words)
         && words[0].bytes.eq_ignore_ascii_case(b"solid")
         && memchr::memmem::find(head, b"facet").is_some()
 }
