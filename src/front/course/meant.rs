@@ -62,6 +62,7 @@ pub(super) fn listed(text: &str, count: usize) -> Option<String> {
     let parts: Vec<_> = text
         .split(is_between)
         .filter(|part| !part.is_empty())
+        .take(count + 1)
         .collect();
     let are_numbers = parts
         .iter()
@@ -95,6 +96,7 @@ fn color(text: &str) -> Option<String> {
     let digits = text.strip_prefix('#')?;
     let digits: Vec<u32> = digits
         .chars()
+        .take(7)
         .map(|digit| digit.to_digit(16))
         .collect::<Option<_>>()?;
     let [r, g, b] = match digits[..] {
