@@ -25,6 +25,24 @@ fn until_it_listens(child: &mut Child) {
     }
 }
 
+/// Waits until a process has computed for a while, which it does only once its output is looked at.
+fn until_it_renders(child: &mut Child) {
+    /// In hundredths of a second.
+    const WHILE: u64 = 30;
+    until_it_listens(child);
+    let stat = format!("/proc/{}/stat", child.id());
+    let computed = || {
+        let text = fs::read_to_string(&stat).unwrap_or_default();
+        let fields = text.rsplit(')').next().unwrap_or_default();
+        let time = fields.split_whitespace().nth(11);
+        time.map_or(0, |time| time.parse().unwrap())
+    };
+    while computed() < WHILE {
+        assert!(child.try_wait().unwrap().is_none(), "it ended");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+}
+
 fn kill(child: &Child, signal: &str) {
     assert!(
         Command::new("kill")
@@ -125,7 +143,7 @@ fn who_is_killed_while_rendering_leaves_no_draft() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        until_it_listens(&mut child);
+        until_it_renders(&mut child);
         kill(&child, "-KILL");
         child.wait().unwrap();
         assert_eq!(names(folder.path()), before);
