@@ -179,15 +179,12 @@ impl FilmLayout {
 
     /// The picture of all sums.
     pub(in crate::render) fn develop(&self, film: &Tiled<PixelSum>, counts: Counts) -> Film {
-        let pixels = match (self.summation, self.values) {
-            (Summation::Distance, _) => depths(film),
+        let (pixels, coverage) = match (self.summation, self.values) {
+            (Summation::Distance, _) => shown(film, depths(film)),
             (Summation::InBlocks(_), Values::Display) => {
-                let shown = |sum: &PixelSum| DISPLAY.display(sum.mean());
-                film.iter().map(shown).collect()
+                shown(film, |sum| DISPLAY.display(sum.mean()))
             }
-            (Summation::InBlocks(_) | Summation::InOrder, _) => {
-                film.iter().map(PixelSum::mean).collect()
-            }
+            (Summation::InBlocks(_) | Summation::InOrder, _) => shown(film, PixelSum::mean),
         };
         let Crop { width, height, .. } = self.crop;
         let image = Image {
@@ -195,7 +192,6 @@ impl FilmLayout {
             height,
             pixels,
         };
-        let coverage = film.iter().map(PixelSum::coverage).collect();
         Film {
             image,
             coverage,
@@ -204,18 +200,32 @@ impl FilmLayout {
     }
 }
 
+/// The pixels row by row as `show` has them, and what of each is covered, in one walk over the film.
+fn shown(
+    film: &Tiled<PixelSum>,
+    show: impl Fn(&PixelSum) -> [f64; 3],
+) -> (Vec<[f64; 3]>, Vec<f32>) {
+    let mut pixels = Vec::with_capacity(film.len());
+    let mut coverage = Vec::with_capacity(film.len());
+    film.iter().for_each(|sum| {
+        pixels.push(show(sum));
+        coverage.push(sum.coverage());
+    });
+    (pixels, coverage)
+}
+
 /// Distances as greys, the nearest of all white, the farthest black: `(t_max − t)/(t_max − t_min)`.
-fn depths(film: &Tiled<PixelSum>) -> Vec<[f64; 3]> {
+fn depths(film: &Tiled<PixelSum>) -> impl Fn(&PixelSum) -> [f64; 3] {
     let hits = film.iter().filter(|sum| sum.hits > 0);
     let (near, far) = hits.fold((f64::INFINITY, 0.0_f64), |(near, far), sum| {
         (near.min(sum.radiance.x), far.max(sum.radiance.x))
     });
-    let grey = |sum: &PixelSum| match far - near {
+    let grey = move |sum: &PixelSum| match far - near {
         _ if sum.hits == 0 => 0.0,
         range if range > 0.0 => (far - sum.radiance.x) / range,
         _ => 1.0,
     };
-    film.iter().map(|sum| [grey(sum); 3]).collect()
+    move |sum| [grey(sum); 3]
 }
 
 impl PartialFilm {

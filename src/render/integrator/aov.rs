@@ -46,6 +46,7 @@ impl Aov {
 }
 
 /// The first hit of a camera ray, in detail.
+#[derive(Clone, Copy)]
 pub(in crate::render) struct First {
     pub(in crate::render) albedo: Vec3,
     /// On either side.
@@ -57,6 +58,7 @@ pub(in crate::render) struct First {
 }
 
 /// The first hit of a camera ray.
+#[derive(Clone, Copy)]
 pub(in crate::render) struct CameraHit {
     /// The direction of the ray.
     pub(in crate::render) direction: Vec3,

@@ -14,13 +14,18 @@ use super::film::tile::Tile;
 /// pixel to pixel; what it finds depends on the world and the [`SampleId`] alone.
 pub(in crate::render) trait Integrator<'run>: Sized {
     /// What a sample is.
-    type Sample;
+    type Sample: Copy;
 
     /// Begins samples of a pixel: those of one stream, in order from `first` on.
     fn begin(&mut self, _first: &SampleId) {}
 
     /// What one sample shows.
     fn sample(&mut self, id: &SampleId) -> Self::Sample;
+
+    /// Whether all samples of the pixel and the stream begun are proven to be equal.
+    fn is_uniform(&self) -> bool {
+        false
+    }
 
     /// The rays traced so far.
     fn counts(&self) -> &Counts;
@@ -43,13 +48,20 @@ pub(in crate::render) trait Integrator<'run>: Sized {
                     index: samples.start,
                 };
                 self.begin(&id);
-                for index in samples {
+                let mut left = samples;
+                while let Some(index) = left.next() {
                     if !self.goes_on() {
                         return false;
                     }
                     id.index = index;
                     let sample = self.sample(&id);
                     pixel.sums.add(&id, sample);
+                    if self.is_uniform() {
+                        for index in left.by_ref() {
+                            id.index = index;
+                            pixel.sums.add(&id, sample);
+                        }
+                    }
                 }
             }
             tile.close(pixel);

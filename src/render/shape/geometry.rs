@@ -112,15 +112,6 @@ pub struct LocalRay {
 }
 
 impl LocalRay {
-    /// Of no ray.
-    pub(in crate::render) const UNKNOWN: Self = Self {
-        ray: Ray {
-            origin: Vec3::ZERO,
-            direction: Vec3::ZERO,
-        },
-        shear: Shear::NONE,
-    };
-
     /// That of a ray in the coordinates of the shape.
     #[must_use]
     #[inline]

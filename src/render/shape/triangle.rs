@@ -27,13 +27,6 @@ pub struct Shear {
 }
 
 impl Shear {
-    /// That of a ray along z.
-    pub(in crate::render) const NONE: Self = Self {
-        axes: [0, 1, 2],
-        x: 0.0,
-        y: 0.0,
-    };
-
     /// The shear of a ray.
     #[must_use]
     #[inline]

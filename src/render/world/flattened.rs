@@ -23,9 +23,8 @@ pub(super) struct FlattenedRay<'walk, S> {
     surfaces: &'walk [Surface<S>],
     prims: &'walk [[u32; 2]],
     ray: &'walk Ray,
-    /// The surface of the triangle before.
-    surface: usize,
-    local: LocalRay,
+    /// The surface of the triangle before, and the ray in its coordinates.
+    local: Option<(usize, LocalRay)>,
 }
 
 impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
@@ -40,8 +39,7 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
             surfaces,
             prims: &flattened.prims,
             ray,
-            surface: usize::MAX,
-            local: LocalRay::UNKNOWN,
+            local: None,
         }
     }
 
@@ -49,9 +47,9 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
     /// for the triangle that the ray starts at.
     #[inline(always)]
     pub(super) fn root(&mut self, item: u32, from: (usize, u32)) -> Option<(f64, (usize, u32))> {
-        let key = self.bring_to(item, from)?;
-        let shape = &self.surfaces[key.0].shape;
-        Some((shape.intersect_prim(&self.local, key.1)?, key))
+        let key = self.key(item, from)?;
+        let (shape, local) = self.brought_to(key.0);
+        Some((shape.intersect_prim(local, key.1)?, key))
     }
 
     /// As [`Self::root`], of a root below `t_max` alone.
@@ -62,21 +60,30 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
         item: u32,
         from: (usize, u32),
     ) -> Option<(f64, (usize, u32))> {
-        let key = self.bring_to(item, from)?;
-        let shape = &self.surfaces[key.0].shape;
-        Some((shape.intersect_prim_before(&self.local, key.1, t_max)?, key))
+        let key = self.key(item, from)?;
+        let (shape, local) = self.brought_to(key.0);
+        Some((shape.intersect_prim_before(local, key.1, t_max)?, key))
     }
 
-    /// Brings the ray to the surface of a triangle, unless it starts at that triangle.
+    /// The surface and the primitive of a triangle of the hierarchy, unless the ray starts there.
     #[inline(always)]
-    fn bring_to(&mut self, item: u32, from: (usize, u32)) -> Option<(usize, u32)> {
+    fn key(&self, item: u32, from: (usize, u32)) -> Option<(usize, u32)> {
         let [surface, prim_id] = self.prims[item as usize];
         let key = (surface as usize, prim_id);
-        if key != from && key.0 != self.surface {
-            let shape = &self.surfaces[key.0].shape;
-            (self.surface, self.local) = (key.0, shape.local(self.ray));
-        }
         (key != from).then_some(key)
+    }
+
+    /// The shape of a surface, and the ray in its coordinates.
+    #[inline(always)]
+    fn brought_to(&mut self, surface: usize) -> (&'walk S, &LocalRay) {
+        let shape = &self.surfaces[surface].shape;
+        if self.local.as_ref().is_some_and(|(of, _)| *of != surface) {
+            self.local = None;
+        }
+        let ray = self.ray;
+        let local = || (surface, shape.local(ray));
+        let (_, local) = self.local.get_or_insert_with(local);
+        (shape, local)
     }
 }
 

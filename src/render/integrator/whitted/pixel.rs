@@ -20,7 +20,7 @@ pub(super) struct PixelState {
     place: [u32; 3],
     /// The cell of the previous sample, where a cell has several points of the lens.
     cell: Option<Cell>,
-    /// The previous sample, if all samples of the pixel are proven to be equal, or checked for it.
+    /// The previous sample, if samples are checked for being equal.
     last: Option<Sample>,
     /// Whether all samples are proven to be equal.
     is_uniform: bool,
@@ -35,7 +35,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
             self.pixel = PixelState::default();
             return;
         }
-        let several = self.grid.samples() > 1;
+        let several = matches!(first.stream, Stream::Picture(_)) && self.grid.samples() > 1;
         let class = || self.world.plan.region.class_of(first.pixel);
         self.pixel = PixelState {
             place: self.grid.place_of(first.index),
@@ -47,14 +47,7 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
     #[inline(always)]
     fn sample(&mut self, id: &SampleId) -> Sample {
         let (ray, seed) = match id.stream {
-            Stream::Picture(seeds) => {
-                if let Some(last) = self.pixel.last
-                    && self.pixel.is_uniform
-                {
-                    return last;
-                }
-                (self.ray_of_picture(id.pixel, seeds), seeds.path)
-            }
+            Stream::Picture(seeds) => (self.ray_of_picture(id.pixel, seeds), seeds.path),
             Stream::Replicate { number, .. } => (self.ray_of_replicate(id, number), number),
         };
         let key = if Self::can(Features::SAMPLED) {
@@ -64,10 +57,15 @@ impl<'run, S: Geometry, const F: u32> Integrator<'run> for Tracer<'run, S, F> {
         };
         let sample = self.trace(ray, key);
         self.verify_sample(id.pixel, &sample);
-        if Self::can(Features::NAIVE) || self.pixel.is_uniform {
+        if Self::can(Features::NAIVE) {
             self.pixel.last = Some(sample);
         }
         sample
+    }
+
+    #[inline]
+    fn is_uniform(&self) -> bool {
+        self.pixel.is_uniform
     }
 
     fn counts(&self) -> &Counts {
