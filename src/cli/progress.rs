@@ -13,6 +13,9 @@ use std::time::Duration;
 /// Counts the pixels done and the rays they took; all threads may tell it.
 pub(super) struct RenderProgress {
     bar: ProgressBar,
+    /// Nobody sees the bar, so it need not know how far the render is: it would look at the clock
+    /// at every pixel.
+    is_hidden: bool,
     rays: Arc<AtomicU64>,
 }
 
@@ -28,11 +31,19 @@ impl RenderProgress {
         let rays = Arc::new(AtomicU64::new(0));
         let bar = ProgressBar::with_draw_target(Some(pixels), target)
             .with_style(style(Arc::clone(&rays)));
-        Self { bar, rays }
+        let is_hidden = !shown;
+        Self {
+            bar,
+            is_hidden,
+            rays,
+        }
     }
 
     /// A step of the work is done.
     pub(super) fn step(&self, step: Step) {
+        if self.is_hidden {
+            return;
+        }
         self.rays.fetch_add(step.rays, Ordering::Relaxed);
         self.bar.inc(u64::from(step.is_done));
     }
