@@ -4,7 +4,7 @@
 //! No fault makes a file worthless: what is not understood is left out, and told with its place.
 
 use super::material_use::name;
-use super::{MAX_FAULTS, Unread, WordSpan};
+use super::{MAX_FAULTS, Unread, WordSpan, first_lines};
 use crate::front::words::{Lines, Word, WordFault};
 use crate::source::{Budget, Resource};
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ pub struct MtlMaterial {
 #[must_use]
 pub fn is_mtl(head: &[u8]) -> bool {
     let mut words = Vec::new();
-    Lines::new(head).next(&mut words) && words[0].bytes.eq_ignore_ascii_case(b"newmtl")
+    first_lines(head).next(&mut words) && words[0].bytes.eq_ignore_ascii_case(b"newmtl")
 }
 
 /// Reads the materials of a file.
@@ -70,6 +70,8 @@ pub fn is_mtl(head: &[u8]) -> bool {
 /// # Errors
 /// If they would take more than the budget has.
 pub fn parse(bytes: &[u8], budget: &Budget) -> Result<Library, Unread> {
+    // A word of two bytes takes 24 while its line is read, in a list that grows by doubling.
+    budget.has(Resource::Memory, 24 * bytes.len() as u64)?;
     let mut reader = Reader {
         file: bytes,
         library: Library::default(),
