@@ -1,6 +1,7 @@
 //! The ground that an asset stands on in the studio: a grey disc that catches its shadow and fades
 //! out to all sides.
 
+use super::studio::smooth;
 use crate::ir::{
     Alpha, Instance, Material, MaterialId, Mesh, MeshId, Scene, Shape, Standard, Surface,
 };
@@ -93,9 +94,7 @@ fn disc() -> Mesh {
 /// How much the ground hides at a part of its radius: all in the middle, nothing at the edge, with
 /// the smoothstep between.
 fn alpha(radius: f64) -> f64 {
-    let solid = SOLID / RADIUS;
-    let x = ((1.0 - radius) / (1.0 - solid)).clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
+    smooth((1.0 - radius) / (1.0 - SOLID / RADIUS))
 }
 
 #[cfg(test)]

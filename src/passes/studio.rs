@@ -58,7 +58,7 @@ impl SoftBox {
 }
 
 /// The smoothstep from 0 to 1.
-fn smooth(x: f64) -> f64 {
+pub(super) fn smooth(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
 }
