@@ -51,7 +51,7 @@ pub(super) fn fitted(own: [u32; 2], asked: [u32; 2]) -> Option<Diagnostic> {
 /// Says that the studio fills in beside the light of a scene.
 pub(super) fn filled(seen: f64) -> Diagnostic {
     let message = format!(
-        "its own light shows {:.0} % of what is in the picture, so the studio fills in, dimmed",
+        "the scene's own light shows {:.0} % of what is in the picture, so the dimmed studio fills in",
         100.0 * seen
     );
     Diagnostic::new(&codes::FILLED, message).hint(

@@ -77,7 +77,7 @@ impl From<StudioArg> for passes::StudioChoice {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum GroundArg {
-    /// Always
+    /// Also in other light and for its own camera; not where it has a ground of its own
     On,
     /// Never
     Off,
