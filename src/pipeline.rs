@@ -16,7 +16,7 @@ use crate::ir::{Field, Lowered, Noun, Origins, Place, Scene};
 use crate::math::BasisFault;
 use crate::passes::{Stage, Staged};
 use crate::plan::{self, Plan};
-use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel};
+use crate::render::{self, AnyWorld, Aov, Crop, Film, Job, Mismatch, OnPixel, SimdLevel};
 use crate::source::{FileId, SourceMap};
 use crate::study::{self, Order, Reached, Stopped, Watch};
 use crate::valid::{self, Proof, Surface};
@@ -195,15 +195,27 @@ impl Renderer {
     /// # Errors
     /// If the system gives no threads.
     pub fn new(scene: &Proof, plan: &Plan, threads: usize) -> Result<Self, ThreadPoolBuildError> {
-        Ok(Self {
-            pool: pool(threads)?,
-            world: AnyWorld::prepare(scene, plan),
-        })
+        Self::at_level(scene, plan, threads, SimdLevel::best())
+    }
+
+    /// As [`Renderer::new`], with the vector instructions of a level: pictures are the same bytes.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn at_level(
+        scene: &Proof,
+        plan: &Plan,
+        threads: usize,
+        simd: SimdLevel,
+    ) -> Result<Self, ThreadPoolBuildError> {
+        let pool = pool(threads)?;
+        let world = pool.install(|| AnyWorld::prepare_at(scene, plan, simd));
+        Ok(Self { world, pool })
     }
 
     /// Shows another scene, which differs from the one before in its camera and settings alone.
     pub fn change(&mut self, scene: Proof) {
-        self.world.change(scene);
+        self.pool.install(|| self.world.change(scene));
     }
 
     /// Whether there is memory for so many bytes: they are asked for, and given back at once. A

@@ -145,7 +145,8 @@ proptest! {
         });
         let nearest = nearest.min_by(f64::total_cmp);
         let positions = corners.iter().map(|corner| corner.to_array()).collect();
-        let mesh = PreparedMesh::new(&positions, &triangles.into(), Attributes::default());
+        let level = rtc::render::SimdLevel::best();
+        let mesh = PreparedMesh::new(&positions, &triangles.into(), Attributes::default(), level);
         let instance = Instance::new(&Arc::new(mesh), [x, y, z, to]);
         let found = instance.intersect(&ray, &Shear::new(&ray), f64::INFINITY).map(|(t, _)| t);
         match (found, nearest) {

@@ -17,6 +17,7 @@ mod parse;
 mod progress;
 mod render;
 mod report;
+mod simd;
 mod talk;
 mod tell;
 pub mod trial;

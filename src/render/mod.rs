@@ -17,6 +17,7 @@ mod texture;
 mod world;
 
 pub use accel::bounds::Bounds;
+pub use accel::simd::SimdLevel;
 pub use bsdf::optics::{highlight, reflect, refract};
 pub use bsdf::standard::*;
 pub use bsdf::{Bsdf, BsdfSample, Evaluation, Lobes, dispersed};

@@ -10,6 +10,7 @@ use super::input::{self, Input, Proven, Provenance};
 use super::interrupt::Interrupt;
 use super::look::OutputLook;
 use super::output::{self, Output};
+use super::simd;
 use super::talk::{self, Talk};
 use super::turntable::{self, Turntable};
 use crate::diag::Diagnostic;
@@ -18,7 +19,7 @@ use crate::ir::{Mode, Scene};
 use crate::passes::{self, Framing, Overrides};
 use crate::pipeline::Renderer;
 use crate::plan::{self, Rule, Rules};
-use crate::render::Crop;
+use crate::render::{Crop, SimdLevel};
 use crate::study::Goal;
 use crate::valid::Proof;
 use light::FirstView;
@@ -34,6 +35,7 @@ struct RenderSetup {
     crop: Option<Crop>,
     goal: Goal,
     threads: usize,
+    simd: SimdLevel,
     rules: Rules,
     verify: bool,
     /// Views around the scene, if more than its own.
@@ -98,6 +100,7 @@ impl RenderSetup {
             crop: args.crop,
             goal,
             threads: args.threads.map_or(0, usize::from),
+            simd: simd::level()?,
             rules: rules(&args.pruning, goal),
             verify: args.pruning.verify_effects,
             turntable: args.turntable,
@@ -297,7 +300,10 @@ impl RenderSetup {
         let Subject { proven, renderer } = subject;
         let made = match renderer.take() {
             Some(made) => made,
-            None => Renderer::new(&proven.scene, &self.plan(&proven.scene), self.threads)?,
+            None => {
+                let plan = self.plan(&proven.scene);
+                Renderer::at_level(&proven.scene, &plan, self.threads, self.simd)?
+            }
         };
         Ok((proven, renderer.insert(made)))
     }

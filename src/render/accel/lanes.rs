@@ -1,260 +1,224 @@
-//! Four boxes or triangles against one ray at once, in single precision: what may be hit is never
-//! passed over.
+//! Eight boxes or four triangles against one ray at once, in single precision.
 //!
-//! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever
-//! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
-//! each widens every comparison. The hit itself is decided elsewhere, in f64.
+//! Each level of [`super::simd`] does the same operations in the same order, and none of them is a
+//! fused one: so all find the same.
 
-use crate::math::{Lanes, U, Vec3, ldexp};
-use crate::render::accel::bounds::Bounds;
-use crate::render::ray::Ray;
+use crate::render::accel::beam::Beam;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x4, f32x8};
 
-/// The unit round-off of f32, 2⁻²⁴.
-const ROUND: f64 = 0.5 * f32::EPSILON as f64;
+/// Children of a node.
+pub(in crate::render::accel) const WIDTH: usize = 8;
 
-/// Directions are at least this steep to every axis; within the cube that moves no ray by more than
-/// [`FLOOR`].
-const STEEP: f64 = 1.0 / 1_099_511_627_776.0;
+/// Triangles of a leaf.
+pub(in crate::render::accel) const TRIANGLES: usize = 4;
 
-/// The least distance that counts.
-const FLOOR: f64 = 1.0 / 68_719_476_736.0;
+/// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits of
+/// numbers; four cache lines.
+pub(in crate::render::accel) type Node = [f32; 64];
 
-/// Where the cube [−1, 1]³ lies in space.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct QuantizationFrame {
-    center: Vec3,
-    /// A power of two.
-    scale: f64,
-    /// How far rounding may have moved a corner, in the cube.
-    error_bound: f64,
+/// Where the links of a node are.
+pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
+
+/// A leaf: for each corner and axis the coordinates of four triangles, then their items as the bits
+/// of numbers.
+pub(in crate::render::accel) type Leaf = [f32; 40];
+
+/// Where the items of a leaf are.
+pub(in crate::render::accel) const ITEMS: usize = 9 * TRIANGLES;
+
+/// Where a coordinate of a corner of the first triangle of a leaf is.
+#[inline(always)]
+pub(in crate::render::accel) const fn place(corner: usize, axis: usize) -> usize {
+    (3 * corner + axis) * TRIANGLES
 }
 
-/// Four boxes: for each axis the lower and the upper ends.
-pub(in crate::render) type Boxes = [[Lanes; 2]; 3];
-
-/// Four triangles: for each corner its coordinates.
-pub(in crate::render) type Corners = [[Lanes; 3]; 3];
-
-impl QuantizationFrame {
-    /// The cube around some boxes, not far larger than needed and finest where most of them are;
-    /// `error_bound` bounds the error of the corners of what is in them.
-    pub(in crate::render) fn around(
-        boxes: impl Iterator<Item = Bounds> + Clone,
-        error_bound: f64,
-    ) -> Self {
-        let count = boxes.clone().count() as f64;
-        let center = boxes
-            .clone()
-            .map(|bounds| bounds.center() / count)
-            .sum::<Vec3>();
-        let largest = |bounds: Bounds| {
-            (bounds.min - center)
-                .abs()
-                .max((bounds.max - center).abs())
-                .max_element()
-        };
-        let extent = boxes.map(largest).fold(0.0, f64::max);
-        let exponent = if extent > 0.0 {
-            (libm::ilogb(extent) + 1).clamp(-900, 1000)
-        } else {
-            0
-        };
-        let scale = ldexp(1.0, -exponent);
-        Self {
-            center,
-            scale,
-            error_bound: error_bound * scale,
-        }
-    }
-
-    fn enter(&self, point: Vec3) -> Vec3 {
-        (point - self.center) * self.scale
-    }
-
-    /// Four boxes, rounded outward; those beyond the count given are met by no ray.
-    pub(in crate::render) fn boxes(&self, bounds: &[Bounds]) -> Boxes {
-        let mut ends = [[[f32::INFINITY; 4], [f32::NEG_INFINITY; 4]]; 3];
-        for (lane, bounds) in bounds.iter().enumerate() {
-            let (min, max) = (self.enter(bounds.min), self.enter(bounds.max));
-            for (axis, [low, high]) in ends.iter_mut().enumerate() {
-                (low[lane], high[lane]) = (rounded_down(min[axis]), -rounded_down(-max[axis]));
-            }
-        }
-        ends.map(|ends| ends.map(Lanes::from_array))
-    }
-
-    /// Four triangles, or fewer.
-    pub(in crate::render) fn corners(&self, triangles: &[[Vec3; 3]]) -> Corners {
-        let mut places = [[[0.0; 4]; 3]; 3];
-        for (lane, triangle) in triangles.iter().enumerate() {
-            for (places, corner) in places.iter_mut().zip(triangle) {
-                let corner = self.enter(*corner).as_vec3().to_array();
-                places
-                    .iter_mut()
-                    .zip(corner)
-                    .for_each(|(lanes, place)| lanes[lane] = place);
-            }
-        }
-        places.map(|places| places.map(Lanes::from_array))
-    }
+#[inline(always)]
+fn eights<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
+    [
+        f32x8::splat(simd, x),
+        f32x8::splat(simd, y),
+        f32x8::splat(simd, z),
+    ]
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "rounded down")]
-fn rounded_down(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x {
-        nearest.next_down()
-    } else {
-        nearest
-    }
+#[inline(always)]
+fn fours<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x4<S>; 3] {
+    [
+        f32x4::splat(simd, x),
+        f32x4::splat(simd, y),
+        f32x4::splat(simd, z),
+    ]
 }
 
-/// Why there is no beam.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::render) enum NoBeam {
-    /// The ray misses the cube.
-    Missed,
-    /// The arithmetic can't tell: anything may be hit.
-    Untold,
+/// What of a beam boxes are met by.
+#[derive(Clone, Copy)]
+pub(in crate::render::accel) struct BoxLanes<S: Simd> {
+    near_origin: [f32x8<S>; 3],
+    far_origin: [f32x8<S>; 3],
+    inverse: [f32x8<S>; 3],
+    /// Where the nearer ends of boxes are among those of an axis.
+    near: [usize; 3],
 }
 
-/// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves
-/// along its main axis as fast as t.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::render) struct Beam {
-    /// The axes with the main one last, and where it starts along them.
-    axes: [usize; 3],
-    origin: [Lanes; 3],
-    /// Shifted for the nearer and the farther ends of boxes.
-    near_origin: [Lanes; 3],
-    far_origin: [Lanes; 3],
-    inverse: [Lanes; 3],
-    /// 1 where the upper end of a box is the nearer one.
-    down: [usize; 3],
-    /// Its direction along the main axis, ±1, and the slopes of the others along it.
-    main: Lanes,
-    slopes: [Lanes; 2],
-    /// The error of a coordinate relative to the ray.
-    error: f32,
-    /// What 1 of the ray's t is in `self`, and where `self` starts.
-    rate: f64,
-    start: f64,
-}
-
-impl Beam {
-    /// The part of a ray that may be inside a cube.
+impl<S: Simd> BoxLanes<S> {
     #[inline(always)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "single precision is meant; errors are bounded"
-    )]
-    pub(in crate::render) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
-        let size = ray.direction.abs();
-        let speed = size.max_element();
-        let main = if size.x == speed {
-            0
-        } else {
-            2 - usize::from(size.y == speed)
-        };
-        let mut direction = ray.direction * speed.recip();
-        direction[main] = 1.0_f64.copysign(ray.direction[main]);
-        let far = frame.enter(ray.origin);
-        let distance = far.abs().max_element();
-        let rate = speed * frame.scale;
-        if !(direction.is_finite() && distance < 1e30 && rate.is_normal()) {
-            return Err(NoBeam::Untold);
+    pub(in crate::render::accel) fn new(simd: S, beam: &Beam) -> Self {
+        Self {
+            near_origin: eights(simd, beam.near_origin),
+            far_origin: eights(simd, beam.far_origin),
+            inverse: eights(simd, beam.inverse),
+            near: beam.down.map(|down| if down { WIDTH } else { 0 }),
         }
-        // Points of the cube have t between the distance ∓ 1.
-        let start = (distance - 2.0).max(0.0);
-        let origin = far + direction * start;
-        let largest = origin.abs().max_element();
-        let base = FLOOR + 64.0 * U * (1.0 + distance);
-        if largest > 5.0 + base {
-            return Err(NoBeam::Missed);
-        }
-        let steep = direction.abs().max(Vec3::splat(STEEP)).copysign(direction);
-        // Twice what rounding to f32 moves the origin by, once more for the sum.
-        let shift = (origin.abs() * (4.0 * ROUND) + 2.0 * base).copysign(direction);
-        let splat = |value: f64| Lanes::splat(value as f32);
-        let splats = |v: Vec3| [splat(v.x), splat(v.y), splat(v.z)];
-        let [x, y, z] = splats(steep);
-        let axes = [(main + 1) % 3, (main + 2) % 3, main];
-        let down = direction.is_negative_bitmask() as usize;
-        Ok(Self {
-            origin: axes.map(|axis| splat(origin[axis])),
-            near_origin: splats(origin + shift),
-            far_origin: splats(origin - shift),
-            inverse: [x.recip(), y.recip(), z.recip()],
-            down: [down & 1, down >> 1 & 1, down >> 2],
-            axes,
-            main: splat(direction[main]),
-            slopes: [splat(direction[axes[0]]), splat(direction[axes[1]])],
-            error: (10.0 * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
-            rate,
-            start,
-        })
     }
 
-    /// The end of the beam for a `t_max` of the ray, rounded up by more than a root may be wrong.
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
-    pub(in crate::render) fn limit(&self, t_max: f64) -> f32 {
-        const ROUNDED: f64 = 1.0 + 1.0 / 1_048_576.0;
-        (t_max * self.rate * ROUNDED - self.start) as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
+    /// Where the beam enters the slabs of an axis.
+    #[inline(always)]
+    fn enter<const AXIS: usize>(&self, simd: S, node: &Node) -> f32x8<S> {
+        let at = 2 * WIDTH * AXIS + (self.near[AXIS] & WIDTH);
+        let ends = f32x8::from_slice(simd, &node[at..at + WIDTH]);
+        (ends - self.near_origin[AXIS]) * self.inverse[AXIS]
     }
 
-    /// Which of four boxes the beam may meet before `limit`, as bits, and where.
+    /// Where the beam leaves the slabs of an axis.
+    #[inline(always)]
+    fn leave<const AXIS: usize>(&self, simd: S, node: &Node) -> f32x8<S> {
+        let at = 2 * WIDTH * AXIS + (!self.near[AXIS] & WIDTH);
+        let ends = f32x8::from_slice(simd, &node[at..at + WIDTH]);
+        (ends - self.far_origin[AXIS]) * self.inverse[AXIS]
+    }
+
+    /// Which boxes of a node the beam may meet before `limit`, as bits, and where.
     ///
     /// As in Ize, "Robust BVH ray traversal" (JCGT 2, 2013): the far end grows by more than the
     /// relative errors of both.
-    #[inline]
-    pub(in crate::render) fn meet(&self, boxes: &Boxes, limit: f32) -> (u32, Lanes) {
+    #[inline(always)]
+    pub(in crate::render::accel) fn meet(
+        &self,
+        simd: S,
+        node: &Node,
+        limit: f32,
+    ) -> (u32, [f32; WIDTH]) {
         const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
-        let near = |axis: usize| {
-            (boxes[axis][self.down[axis] & 1] - self.near_origin[axis]) * self.inverse[axis]
-        };
-        let far = |axis: usize| {
-            (boxes[axis][!self.down[axis] & 1] - self.far_origin[axis]) * self.inverse[axis]
-        };
-        let enter = near(0).max(near(1)).max(near(2).max(Lanes::ZERO));
-        let leave = far(0).min(far(1)).min(far(2)) * GROWN;
-        (enter.cmple(leave.min(Lanes::splat(limit))).bitmask(), enter)
+        let enter = self
+            .enter::<0>(simd, node)
+            .max(self.enter::<1>(simd, node))
+            .max(self.enter::<2>(simd, node).max(f32x8::splat(simd, 0.0)));
+        let leave = self
+            .leave::<0>(simd, node)
+            .min(self.leave::<1>(simd, node))
+            .min(self.leave::<2>(simd, node))
+            * f32x8::splat(simd, GROWN);
+        let met = enter.simd_le(leave.min(f32x8::splat(simd, limit)));
+        (bits(met.to_bitmask()), enter.into())
+    }
+}
+
+/// The bits of at most 32 lanes.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "there are 8 lanes at most")]
+fn bits(mask: u64) -> u32 {
+    mask as u32
+}
+
+/// Corners of four triangles after the shear that turns the beam into its main axis.
+type Sheared<S> = [f32x4<S>; 3];
+
+/// What of a beam triangles are hit by.
+#[derive(Clone, Copy)]
+pub(in crate::render::accel) struct TriangleLanes<S: Simd> {
+    axes: [usize; 3],
+    origin: [f32x4<S>; 3],
+    main: f32x4<S>,
+    slopes: [f32x4<S>; 2],
+    error: f32x4<S>,
+}
+
+/// Which triangles of a leaf a beam may hit, and which of them it hits for sure, as bits.
+#[derive(Clone, Copy)]
+pub(in crate::render::accel) struct Verdict {
+    pub(in crate::render::accel) may: u32,
+    pub(in crate::render::accel) sure: u32,
+}
+
+impl<S: Simd> TriangleLanes<S> {
+    #[inline(always)]
+    pub(in crate::render::accel) fn new(simd: S, beam: &Beam) -> Self {
+        let [x, y] = beam.slopes;
+        Self {
+            axes: beam.axes,
+            origin: fours(simd, beam.origin),
+            main: f32x4::splat(simd, beam.main),
+            slopes: [f32x4::splat(simd, x), f32x4::splat(simd, y)],
+            error: f32x4::splat(simd, beam.error),
+        }
     }
 
-    /// Which of four triangles the beam may hit before `limit`, as bits.
+    /// A corner as seen from the origin, along the k-th axis of the beam.
+    #[inline(always)]
+    fn seen<const CORNER: usize>(&self, simd: S, leaf: &Leaf, k: usize) -> f32x4<S> {
+        let at = place(CORNER, self.axes[k]);
+        f32x4::from_slice(simd, &leaf[at..at + TRIANGLES]) - self.origin[k]
+    }
+
+    #[inline(always)]
+    fn sheared<const CORNER: usize>(&self, simd: S, leaf: &Leaf) -> Sheared<S> {
+        let along = self.seen::<CORNER>(simd, leaf, 2) * self.main;
+        [
+            self.seen::<CORNER>(simd, leaf, 0) - along * self.slopes[0],
+            self.seen::<CORNER>(simd, leaf, 1) - along * self.slopes[1],
+            along,
+        ]
+    }
+
+    /// Which triangles of a leaf the beam may hit before `limit`; if `SURE`, also which it surely
+    /// hits before `sure_limit`.
     ///
-    /// The signs of the edge functions, after the shear that turns the ray into the main axis, are
-    /// those of exact arithmetic where they exceed a bound on their error: a triangle with two
-    /// sure signs that differ is missed.
-    #[inline]
-    pub(in crate::render) fn may_hit(&self, corners: &Corners, limit: f32) -> u32 {
-        let error = Lanes::splat(self.error);
-        let [x, y, z] = self.axes;
-        let sheared = |corner: &[Lanes; 3]| {
-            let along = (corner[z] - self.origin[2]) * self.main;
-            let across =
-                |axis: usize, k: usize| (corner[axis] - self.origin[k]) - along * self.slopes[k];
-            [across(x, 0), across(y, 1), along]
-        };
-        let [a, b, c] = [
-            sheared(&corners[0]),
-            sheared(&corners[1]),
-            sheared(&corners[2]),
-        ];
-        // The edge functions.
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
+    /// The signs of the edge functions are those of exact arithmetic where they exceed a bound on
+    /// their error: a triangle with two sure signs that differ is missed, one with three that agree
+    /// is hit.
+    #[inline(always)]
+    pub(in crate::render::accel) fn judge<const SURE: bool>(
+        &self,
+        simd: S,
+        leaf: &Leaf,
+        [limit, sure_limit]: [f32; 2],
+    ) -> Verdict {
+        let error = self.error;
+        let a = self.sheared::<0>(simd, leaf);
+        let b = self.sheared::<1>(simd, leaf);
+        let c = self.sheared::<2>(simd, leaf);
+        let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         // Products of coordinates of size m with errors e: 4·m·e + 2·e², and 3 roundings of each
         // product.
-        let size_of = |corner: [Lanes; 3]| corner[0].abs().max(corner[1].abs());
-        let size = size_of(a).max(size_of(b)).max(size_of(c)) + error;
-        let bound = size * (size * (8.0 * f32::EPSILON) + error * 6.0);
+        let size = size_of(&a).max(size_of(&b)).max(size_of(&c)) + error;
+        let relative = f32x4::splat(simd, 8.0 * f32::EPSILON);
+        let bound = size * (size * relative + error * f32x4::splat(simd, 6.0));
         let (min, max) = (u.min(v).min(w), u.max(v).max(w));
-        let outside = min.cmplt(-bound) & max.cmpgt(bound);
-        let (nearest, farthest) = (a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2]));
+        let outside = min.simd_lt(-bound) & max.simd_gt(bound);
+        let nearest = a[2].min(b[2]).min(c[2]) - error;
+        let farthest = a[2].max(b[2]).max(c[2]) + error;
         let beyond =
-            (nearest - error).cmpgt(Lanes::splat(limit)) | (farthest + error).cmplt(Lanes::ZERO);
-        !(outside | beyond).bitmask() & 0b1111
+            nearest.simd_gt(f32x4::splat(simd, limit)) | farthest.simd_lt(f32x4::splat(simd, 0.0));
+        let may = !bits((outside | beyond).to_bitmask()) & 0b1111;
+        if !SURE {
+            return Verdict { may, sure: 0 };
+        }
+        let inside = min.simd_gt(bound) | max.simd_lt(-bound);
+        let between = nearest.simd_gt(error) & farthest.simd_lt(f32x4::splat(simd, sure_limit));
+        let sure = bits((inside & between).to_bitmask()) & may;
+        Verdict { may, sure }
     }
+}
+
+/// The larger of the sizes of both coordinates across the beam.
+#[inline(always)]
+fn size_of<S: Simd>(corner: &Sheared<S>) -> f32x4<S> {
+    corner[0].abs().max(corner[1].abs())
+}
+
+/// The edge function of the edge between two corners.
+#[inline(always)]
+fn edge<S: Simd>(p: &Sheared<S>, q: &Sheared<S>) -> f32x4<S> {
+    p[0] * q[1] - p[1] * q[0]
 }

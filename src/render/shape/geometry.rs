@@ -90,11 +90,11 @@ pub trait Geometry: Sized + Send + Sync {
         None
     }
 
-    /// As [`Geometry::intersect_prim`], of a root below `t_max` alone.
+    /// Whether its triangles are those of an instance that is not moved: the coordinates of the shape
+    /// are those of the world.
     #[must_use]
-    #[inline]
-    fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
-        self.intersect_prim(ray, prim_id).filter(|t| *t < t_max)
+    fn is_in_place(&self) -> bool {
+        false
     }
 
     /// A box around it; `None` for unbounded shapes.

@@ -3,6 +3,7 @@
 
 use crate::math::{Column, Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
+use crate::render::accel::wide::{Candidate, Visitor};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::mesh::{PlainMesh, PreparedMesh};
@@ -10,7 +11,7 @@ use crate::render::shape::plain::ray::PlainRay;
 use crate::render::shape::plain::real::{Real, Vector};
 use crate::render::shape::plain::{Plain, Twin};
 use crate::render::shape::tie::{self, Nearest, Tie};
-use crate::render::shape::triangle::{Shear, Triangle};
+use crate::render::shape::triangle::{self, PlainTriangle, Shear, Triangle};
 use std::sync::Arc;
 
 /// A prepared instance of a mesh.
@@ -54,14 +55,10 @@ impl Instance {
             bounds: Bounds::EMPTY,
             error_bound: 0.0,
         };
-        let corners = mesh
-            .triangles()
-            .iter()
-            .flat_map(|triangle| triangle.vertices());
-        for corner in corners {
-            let point = instance.to_world(*corner);
+        for corner in mesh.all_vertices().flatten() {
+            let point = instance.to_world(corner);
             // Grow the box by the rounding error of the transform.
-            let rounding = instance.rounding(*corner);
+            let rounding = instance.rounding(corner);
             instance.bounds = instance.bounds.union(Bounds::around(point, rounding));
             instance.error_bound = instance.error_bound.max(rounding);
         }
@@ -102,6 +99,16 @@ impl Instance {
             origin: rows(ray.origin - self.origin),
             direction: rows(ray.direction),
         }
+    }
+
+    /// The root above 0 of a triangle found in the hierarchy of the mesh.
+    #[inline(always)]
+    fn root(&self, local: &LocalRay, candidate: &Candidate<'_>) -> Option<f64> {
+        let vertices = match candidate.corners() {
+            Some(corners) => corners,
+            None => self.mesh.vertices(candidate.item),
+        };
+        triangle::root(&vertices, &local.ray, &local.shear)
     }
 
     /// Breaks the tie between the roots as close as the one at `t`.
@@ -147,11 +154,11 @@ impl Geometry for Instance {
         let mut best = (t_max, u32::MAX);
         self.mesh
             .hierarchy()?
-            .walk::<true>(&local.ray, t_max, |item| {
-                if let Some(t) = self.intersect_prim(&local, item)
-                    && (t < best.0 || (t == best.0 && item < best.1))
+            .walk(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
+                if let Some(t) = self.root(&local, &candidate)
+                    && (t < best.0 || (t == best.0 && candidate.item < best.1))
                 {
-                    best = (t, item);
+                    best = (t, candidate.item);
                 }
                 best.0
             });
@@ -163,9 +170,9 @@ impl Geometry for Instance {
         let mut nearest = Nearest::up_to(t_max, u32::MAX);
         self.mesh
             .hierarchy()?
-            .walk::<true>(&local.ray, t_max, |item| {
-                if let Some(t) = self.intersect_prim(&local, item) {
-                    nearest.add(t, item);
+            .walk(&local.ray, t_max, &mut |candidate: Candidate<'_>| {
+                if let Some(t) = self.root(&local, &candidate) {
+                    nearest.add(t, candidate.item);
                 }
                 nearest.t
             });
@@ -178,20 +185,20 @@ impl Geometry for Instance {
 
     fn visit_roots(&self, ray: &Ray, _: &Shear, t_max: f64, visit: &mut dyn FnMut(f64, u32)) {
         let local = self.local(ray);
-        let visit = |item| {
-            if let Some(t) = self.intersect_prim(&local, item) {
-                visit(t, item);
+        let mut visit = |candidate: Candidate<'_>| {
+            if let Some(t) = self.root(&local, &candidate) {
+                visit(t, candidate.item);
             }
             t_max
         };
         if let Some(hierarchy) = self.mesh.hierarchy() {
-            hierarchy.walk::<true>(&local.ray, t_max, visit);
+            hierarchy.walk(&local.ray, t_max, &mut visit);
         }
     }
 
     fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
         let local_ray = self.to_object(ray);
-        let local = self.mesh.triangles()[prim_id as usize].interaction(&local_ray, t);
+        let local = self.mesh.triangle(prim_id).interaction(&local_ray, t);
         let point = self.to_world(local.point);
         let magnitude = local_ray.origin.abs() + local.point.abs();
         let extent = 2.0 * self.sizes.dot(magnitude);
@@ -213,7 +220,7 @@ impl Geometry for Instance {
     }
 
     fn details(&self, _: &Ray, at: &Interaction, prim_id: u32, asked: Asked) -> Details {
-        let triangle = &self.mesh.triangles()[prim_id as usize];
+        let triangle = self.mesh.triangle(prim_id);
         let mesh = &self.mesh.attributes;
         let corners = self.mesh.corners(prim_id);
         let normals = corner_values(&mesh.normals, corners);
@@ -243,7 +250,7 @@ impl Geometry for Instance {
             corner_values(&mesh.uvs, corners)
         };
         let (tangent, side) = if asked.tangent {
-            self.tangent(triangle, corners, uvs, weights)
+            self.tangent(&triangle, corners, uvs, weights)
         } else {
             (None, 1.0)
         };
@@ -263,11 +270,11 @@ impl Geometry for Instance {
     }
 
     fn triangles(&self) -> usize {
-        self.mesh.triangles().len()
+        self.mesh.count()
     }
 
     fn corners(&self, prim_id: u32) -> Option<[Vec3; 3]> {
-        let corners = self.mesh.triangles()[prim_id as usize].vertices();
+        let corners = self.mesh.vertices(prim_id);
         Some(corners.map(|corner| self.to_world(corner)))
     }
 
@@ -282,17 +289,11 @@ impl Geometry for Instance {
 
     #[inline(always)]
     fn intersect_prim(&self, local: &LocalRay, prim_id: u32) -> Option<f64> {
-        self.mesh.triangles()[prim_id as usize].intersect(&local.ray, &local.shear)
+        triangle::root(&self.mesh.vertices(prim_id), &local.ray, &local.shear)
     }
 
-    /// A shadow ray often ends on a triangle that is a light: its root is soon told to be no less.
-    #[inline(always)]
-    fn intersect_prim_before(&self, local: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
-        let triangle = &self.mesh.triangles()[prim_id as usize];
-        if t_max < f64::INFINITY && triangle.is_beyond(&local.ray, t_max) {
-            return None;
-        }
-        self.intersect_prim(local, prim_id).filter(|t| *t < t_max)
+    fn is_in_place(&self) -> bool {
+        self.axes == Vec3::AXES && self.origin == Vec3::ZERO
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -368,6 +369,28 @@ impl<R: Real> PlainInstance<R> {
     }
 }
 
+/// The nearest root of a ray, and its triangle; of equals the first.
+struct PlainNearest<'walk, R> {
+    triangles: &'walk [PlainTriangle<R>],
+    ray: &'walk PlainRay<R>,
+    best: (f64, u32),
+}
+
+impl<R: Real> Visitor for PlainNearest<'_, R> {
+    const CULLS: bool = false;
+
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        let item = candidate.item;
+        let root = self.triangles[item as usize].intersect(self.ray);
+        if let Some(t) = root.map(R::wide)
+            && (t < self.best.0 || (t == self.best.0 && item < self.best.1))
+        {
+            self.best = (t, item);
+        }
+        self.best.0
+    }
+}
+
 impl<R: Real> Plain<R> for PlainInstance<R> {
     fn intersect(&self, ray: &PlainRay<R>, t_max: f64) -> Option<(R, u32)> {
         let ray = self.to_object(ray);
@@ -375,20 +398,16 @@ impl<R: Real> Plain<R> for PlainInstance<R> {
             origin: ray.origin.wide(),
             direction: ray.direction.wide(),
         };
-        let mut best = (t_max, u32::MAX);
+        let mut nearest = PlainNearest {
+            triangles: &self.mesh.triangles,
+            ray: &ray,
+            best: (t_max, u32::MAX),
+        };
         self.mesh
             .robust
             .hierarchy()?
-            .walk::<false>(&robust_ray, t_max, |item| {
-                if let Some(t) = self.mesh.triangles[item as usize]
-                    .intersect(&ray)
-                    .map(R::wide)
-                    && (t < best.0 || (t == best.0 && item < best.1))
-                {
-                    best = (t, item);
-                }
-                best.0
-            });
+            .walk(&robust_ray, t_max, &mut nearest);
+        let best = nearest.best;
         (best.1 != u32::MAX).then_some((R::of(best.0), best.1))
     }
 

@@ -1,9 +1,12 @@
 //! A mesh in its own coordinates, prepared once for all its instances.
 
 use crate::math::{Column, Shared, Vec3};
-use crate::render::accel::bvh4::Bvh4;
+use crate::render::accel::simd::SimdLevel;
+use crate::render::accel::wide::Wide;
 use crate::render::shape::plain::real::Real;
+use crate::render::shape::plane::Normal;
 use crate::render::shape::triangle::{PlainTriangle, Triangle};
+use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 /// What a mesh says of its corners but for their places; an empty column says nothing. All is
@@ -27,12 +30,15 @@ pub struct Attributes {
 pub struct PreparedMesh {
     /// What is known of the corners.
     pub(in crate::render) attributes: Attributes,
-    triangles: Vec<Triangle>,
-    /// The corners of each triangle, by their numbers in the mesh.
+    /// The places of the corners, shared with the scene.
+    positions: Column<3>,
+    /// The corners of each triangle that has an area, by their numbers in the mesh.
     corners: Shared<[u32; 3]>,
+    /// What its hierarchy is searched with.
+    simd: SimdLevel,
     /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
     /// world.
-    hierarchy: OnceLock<Option<Bvh4>>,
+    hierarchy: OnceLock<Option<Wide>>,
 }
 
 impl PreparedMesh {
@@ -42,31 +48,27 @@ impl PreparedMesh {
         positions: &Column<3>,
         triangles: &Shared<[u32; 3]>,
         attributes: Attributes,
+        simd: SimdLevel,
     ) -> Self {
-        let position = |corner: u32| Vec3::from_array(positions.at(corner as usize));
-        // Written out: `map` of an array is a call here.
-        let prepared =
-            |[a, b, c]: &[u32; 3]| Triangle::new([position(*a), position(*b), position(*c)]);
-        let all = triangles;
-        let triangles = all.iter().filter_map(prepared).collect::<Vec<_>>();
-        let corners = if triangles.len() == all.len() {
-            all.clone()
+        let has_area = |corners: &[u32; 3]| Normal::of(places(positions, *corners)).is_some();
+        let corners = if triangles.par_iter().all(has_area) {
+            triangles.clone()
         } else {
-            let has_area = |corners: &[u32; 3]| prepared(corners).is_some();
-            all.iter().copied().filter(has_area).collect()
+            triangles.iter().copied().filter(has_area).collect()
         };
         Self {
             attributes,
-            triangles,
+            positions: positions.clone(),
             corners,
+            simd,
             hierarchy: OnceLock::new(),
         }
     }
 
-    /// The triangles that have an area.
+    /// How many triangles have an area.
     #[inline]
-    pub(in crate::render) fn triangles(&self) -> &[Triangle] {
-        &self.triangles
+    pub(in crate::render) fn count(&self) -> usize {
+        self.corners.len()
     }
 
     /// The numbers of the corners of one of them.
@@ -75,13 +77,39 @@ impl PreparedMesh {
         self.corners[triangle as usize]
     }
 
+    /// Where the corners of one of them are.
+    #[inline(always)]
+    pub(in crate::render) fn vertices(&self, triangle: u32) -> [Vec3; 3] {
+        places(&self.positions, self.corners(triangle))
+    }
+
+    /// Where all corners of all of them are.
+    pub(in crate::render) fn all_vertices(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        let corners = self.corners.iter();
+        corners.map(|corners| places(&self.positions, *corners))
+    }
+
+    /// One of them.
+    #[inline]
+    pub(in crate::render) fn triangle(&self, triangle: u32) -> Triangle {
+        Triangle::with_area(self.vertices(triangle))
+    }
+
     /// The hierarchy of the triangles, if there are any.
-    pub(in crate::render) fn hierarchy(&self) -> Option<&Bvh4> {
-        let corners = |item: u32| *self.triangles[item as usize].vertices();
+    pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
+        let vertices = |item: u32| self.vertices(item);
         self.hierarchy
-            .get_or_init(|| Bvh4::build(self.triangles.len(), 0.0, corners))
+            .get_or_init(|| Wide::build(self.simd, self.count(), 0.0, vertices))
             .as_ref()
     }
+}
+
+/// Where three corners are.
+#[inline(always)]
+fn places(positions: &Column<3>, [a, b, c]: [u32; 3]) -> [Vec3; 3] {
+    // Written out: `map` of an array is a call here.
+    let place = |corner: u32| Vec3::from_array(positions.at(corner as usize));
+    [place(a), place(b), place(c)]
 }
 
 /// A mesh ready to be hit by plain formulas, in object coordinates.
@@ -96,9 +124,8 @@ pub struct PlainMesh<R> {
 impl<R: Real> PlainMesh<R> {
     pub(in crate::render) fn new(robust: PreparedMesh) -> Self {
         let triangles = robust
-            .triangles()
-            .iter()
-            .map(|triangle| PlainTriangle::new(triangle.vertices()))
+            .all_vertices()
+            .map(|vertices| PlainTriangle::new(&vertices))
             .collect();
         Self {
             robust: Arc::new(robust),

@@ -81,15 +81,38 @@ fn meets(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> bool {
     !outside && u + v + w != 0.0
 }
 
-/// A prepared triangle, of the size of two cache lines.
+/// Whether a ray's line meets a triangle; edges and corners belong to it.
+#[inline(always)]
+fn is_met([a, b, c]: &[Vec3; 3], ray: &Ray, shear: &Shear) -> bool {
+    // Shear the vertices into the ray's frame.
+    let (a, b, c) = (
+        shear.apply(*a - ray.origin),
+        shear.apply(*b - ray.origin),
+        shear.apply(*c - ray.origin),
+    );
+    // Compare the signs of the edge functions; compute them exactly where one is uncertain.
+    match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
+        (Some(u), Some(v), Some(w)) if u == v && v == w => true,
+        (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => false,
+        _ => meets(a, b, c),
+    }
+}
+
+/// The root above 0 of the triangle of three corners, as [`Triangle::intersect`] has it.
+#[inline(always)]
+pub(in crate::render) fn root(vertices: &[Vec3; 3], ray: &Ray, shear: &Shear) -> Option<f64> {
+    if !is_met(vertices, ray, shear) {
+        return None;
+    }
+    Normal::of(*vertices)?.intersect(vertices[0], ray)
+}
+
+/// A prepared triangle.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(64))]
 pub struct Triangle {
     vertices: [Vec3; 3],
     normal: Normal,
 }
-
-const _: () = assert!(size_of::<Triangle>() == 128, "memory is what rays wait for");
 
 impl Triangle {
     /// The triangle, or `None` if its vertices are collinear.
@@ -99,6 +122,14 @@ impl Triangle {
             vertices,
             normal: Normal::of(vertices)?,
         })
+    }
+
+    /// The triangle of vertices that are known not to be collinear.
+    #[must_use]
+    #[inline]
+    pub(in crate::render) fn with_area(vertices: [Vec3; 3]) -> Self {
+        let normal = Normal::of(vertices).unwrap_or_else(|| Normal::new(Vec3::Z));
+        Self { vertices, normal }
     }
 
     /// The corners.
@@ -111,34 +142,11 @@ impl Triangle {
     #[must_use]
     #[inline]
     pub fn intersect(&self, ray: &Ray, shear: &Shear) -> Option<f64> {
-        let [a, b, c] = &self.vertices;
-        // Shear the vertices into the ray's frame.
-        let (a, b, c) = (
-            shear.apply(*a - ray.origin),
-            shear.apply(*b - ray.origin),
-            shear.apply(*c - ray.origin),
-        );
-        // Compare the signs of the edge functions; compute them exactly where one is uncertain.
-        let met = match (sure_sign(c, b), sure_sign(a, c), sure_sign(b, a)) {
-            (Some(u), Some(v), Some(w)) if u == v && v == w => true,
-            (Some(u), Some(v), _) | (Some(u), _, Some(v)) | (_, Some(u), Some(v)) if u != v => {
-                false
-            }
-            _ => meets(a, b, c),
-        };
-        // Intersect the plane of the triangle.
-        if met {
+        if is_met(&self.vertices, ray, shear) {
             self.normal.intersect(self.vertices[0], ray)
         } else {
             None
         }
-    }
-
-    /// Whether plain arithmetic can tell that [`Self::intersect`] finds no root below `t_max`.
-    #[must_use]
-    #[inline]
-    pub(in crate::render) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
-        self.normal.is_beyond(self.vertices[0], ray, t_max)
     }
 
     /// The barycentric coordinates of a point of the triangle; they sum to 1.

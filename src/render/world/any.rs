@@ -2,6 +2,7 @@
 
 use crate::image::Layers;
 use crate::plan::{Arithmetic, Plan, Rules, Shapes};
+use crate::render::accel::simd::SimdLevel;
 use crate::render::film::heartbeat::OnPixel;
 use crate::render::film::partial::{FilmError, PartialFilm};
 use crate::render::film::progressive::ProgressiveFilm;
@@ -42,11 +43,20 @@ impl AnyWorld {
     /// Prepares a scene.
     #[must_use]
     pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
+        Self::prepare_at(scene, plan, SimdLevel::best())
+    }
+
+    /// As [`AnyWorld::prepare`], for rays traced with the vector instructions of a level: pictures
+    /// are the same bytes.
+    #[must_use]
+    pub fn prepare_at(scene: &Proof, plan: &Plan, simd: SimdLevel) -> Self {
         match (plan.arithmetic, plan.shapes) {
-            (Arithmetic::Robust, Shapes::Basic) => Self::Basic(World::prepare(scene, plan)),
-            (Arithmetic::Robust, Shapes::All) => Self::All(World::prepare(scene, plan)),
-            (Arithmetic::Plain, _) => Self::Plain(World::prepare(scene, plan)),
-            (Arithmetic::F32, _) => Self::F32(World::prepare(scene, plan)),
+            (Arithmetic::Robust, Shapes::Basic) => {
+                Self::Basic(World::prepare_at(scene, plan, simd))
+            }
+            (Arithmetic::Robust, Shapes::All) => Self::All(World::prepare_at(scene, plan, simd)),
+            (Arithmetic::Plain, _) => Self::Plain(World::prepare_at(scene, plan, simd)),
+            (Arithmetic::F32, _) => Self::F32(World::prepare_at(scene, plan, simd)),
         }
     }
 
@@ -67,7 +77,8 @@ impl AnyWorld {
         if is_same {
             each!(self, world => world.show(scene, plan));
         } else {
-            *self = Self::prepare(&scene, &plan);
+            let simd = each!(self, world => world.simd);
+            *self = Self::prepare_at(&scene, &plan, simd);
         }
     }
 
@@ -106,7 +117,8 @@ impl AnyWorld {
             return each!(self, world => world.layers(wanted, crop, on_pixel));
         }
         // Rules keep the colours; only a plan without them keeps all that a layer may show.
-        Self::prepare(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE))
+        let simd = each!(self, world => world.simd);
+        Self::prepare_at(scene, &Plan::by(plan.arithmetic, scene, Rules::NONE), simd)
             .layers(wanted, crop, on_pixel)
     }
 

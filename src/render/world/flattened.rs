@@ -1,16 +1,18 @@
 //! Flattened instances: meshes whose triangles are in one world-space hierarchy.
 
 use super::Surface;
-use crate::render::accel::bvh4::Bvh4;
+use crate::render::accel::simd::SimdLevel;
+use crate::render::accel::wide::{Candidate, Wide};
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::{Geometry, LocalRay};
+use crate::render::shape::triangle::{self, Shear};
 use crate::valid::{self, Proof};
 
-/// The triangles of all flattened instances.
+/// The triangles of all flattened instances, numbered surface by surface.
 pub(super) struct Flattened {
-    /// The surface and the primitive id of each triangle.
-    pub(super) prims: Vec<[u32; 2]>,
-    pub(super) hierarchy: Bvh4,
+    /// The surfaces in their order, and the number of the first triangle of each.
+    starts: Vec<(u32, u32)>,
+    pub(super) hierarchy: Wide,
 }
 
 /// A mesh with several instances is flattened if its instances have at most this many triangles
@@ -21,8 +23,12 @@ const MAX_TRIANGLES: usize = 1 << 18;
 /// a run of its triangles.
 pub(super) struct FlattenedRay<'walk, S> {
     surfaces: &'walk [Surface<S>],
-    prims: &'walk [[u32; 2]],
-    ray: &'walk Ray,
+    flattened: &'walk Flattened,
+    ray: Ray,
+    /// The primitive that the ray starts at.
+    from: (usize, u32),
+    /// The shear of the ray, once it is asked for.
+    shear: Option<Shear>,
     /// The surface of the triangle before, and the ray in its coordinates.
     local: Option<(usize, LocalRay)>,
 }
@@ -31,46 +37,44 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
     /// Meets no triangle yet.
     #[inline]
     pub(super) fn new(
-        ray: &'walk Ray,
+        ray: &Ray,
+        from: (usize, u32),
         surfaces: &'walk [Surface<S>],
         flattened: &'walk Flattened,
     ) -> Self {
         Self {
             surfaces,
-            prims: &flattened.prims,
-            ray,
+            flattened,
+            ray: *ray,
+            from,
+            shear: None,
             local: None,
         }
     }
 
-    /// The surface and the primitive of a triangle of the hierarchy, and its root above 0; `None`
-    /// for the triangle that the ray starts at.
+    /// The root above 0 of a triangle of the hierarchy, and its surface and primitive; `None` for
+    /// the triangle that the ray starts at.
     #[inline(always)]
-    pub(super) fn root(&mut self, item: u32, from: (usize, u32)) -> Option<(f64, (usize, u32))> {
-        let key = self.key(item, from)?;
-        let (shape, local) = self.brought_to(key.0);
-        Some((shape.intersect_prim(local, key.1)?, key))
+    pub(super) fn root(&mut self, candidate: &Candidate<'_>) -> Option<(f64, (usize, u32))> {
+        let key = self.flattened.key(candidate.item);
+        if key == self.from {
+            return None;
+        }
+        let ray = self.ray;
+        let t = if let Some(corners) = candidate.corners() {
+            let shear = self.shear.get_or_insert_with(|| Shear::new(&ray));
+            triangle::root(&corners, &ray, shear)
+        } else {
+            let (shape, local) = self.brought_to(key.0);
+            shape.intersect_prim(local, key.1)
+        };
+        Some((t?, key))
     }
 
-    /// As [`Self::root`], of a root below `t_max` alone.
-    #[inline(always)]
-    pub(super) fn root_before(
-        &mut self,
-        t_max: f64,
-        item: u32,
-        from: (usize, u32),
-    ) -> Option<(f64, (usize, u32))> {
-        let key = self.key(item, from)?;
-        let (shape, local) = self.brought_to(key.0);
-        Some((shape.intersect_prim_before(local, key.1, t_max)?, key))
-    }
-
-    /// The surface and the primitive of a triangle of the hierarchy, unless the ray starts there.
-    #[inline(always)]
-    fn key(&self, item: u32, from: (usize, u32)) -> Option<(usize, u32)> {
-        let [surface, prim_id] = self.prims[item as usize];
-        let key = (surface as usize, prim_id);
-        (key != from).then_some(key)
+    /// Whether the ray starts at a triangle of the hierarchy.
+    #[inline]
+    pub(super) fn starts_at(&self, item: u32) -> bool {
+        self.flattened.key(item) == self.from
     }
 
     /// The shape of a surface, and the ray in its coordinates.
@@ -81,37 +85,59 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
             self.local = None;
         }
         let ray = self.ray;
-        let local = || (surface, shape.local(ray));
+        let local = || (surface, shape.local(&ray));
         let (_, local) = self.local.get_or_insert_with(local);
         (shape, local)
     }
 }
 
 impl Flattened {
-    /// Flattens the surfaces with these indices.
-    pub(super) fn new<S: Geometry>(surfaces: &[Surface<S>], indices: &[u32]) -> Option<Self> {
+    /// Flattens the surfaces with these indices, which ascend.
+    pub(super) fn new<S: Geometry>(
+        surfaces: &[Surface<S>],
+        indices: &[u32],
+        simd: SimdLevel,
+    ) -> Option<Self> {
         let shape = |surface: u32| &surfaces[surface as usize].shape;
-        let prims_of = |surface: u32| {
-            (0..)
-                .take(shape(surface).triangles())
-                .map(move |prim_id| [surface, prim_id])
+        let mut count = 0;
+        let start = |surface: &u32| {
+            let start = (*surface, u32::try_from(count).unwrap_or(u32::MAX));
+            count += shape(*surface).triangles();
+            start
         };
-        let prims = indices
-            .iter()
-            .copied()
-            .flat_map(prims_of)
-            .collect::<Vec<_>>();
+        let starts: Vec<_> = indices.iter().map(start).collect();
         let error_bound = indices
             .iter()
             .map(|surface| shape(*surface).error_bound())
             .fold(0.0, f64::max);
         let corners = |item: u32| {
-            let [surface, prim_id] = prims[item as usize];
-            shape(surface).corners(prim_id).unwrap_or_default()
+            let (surface, prim_id) = key(&starts, item);
+            surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
-        let hierarchy = Bvh4::build(prims.len(), error_bound, corners)?;
-        Some(Self { prims, hierarchy })
+        let mut hierarchy = Wide::build(simd, count, error_bound, corners)?;
+        // Corners in the world are those of a mesh that is not moved alone.
+        if !indices.iter().all(|surface| shape(*surface).is_in_place()) {
+            hierarchy.forget_corners();
+        }
+        Some(Self { starts, hierarchy })
     }
+
+    /// The surface and the primitive of a triangle.
+    #[inline(always)]
+    fn key(&self, item: u32) -> (usize, u32) {
+        key(&self.starts, item)
+    }
+}
+
+/// The surface and the primitive of a triangle, given where surfaces start.
+#[inline(always)]
+fn key(starts: &[(u32, u32)], item: u32) -> (usize, u32) {
+    let after = match starts.len() {
+        1 => 1,
+        _ => starts.partition_point(|(_, start)| *start <= item),
+    };
+    let (surface, start) = starts[after - 1];
+    (surface as usize, item - start)
 }
 
 /// For each surface of a scene, whether it is an instance to be flattened.

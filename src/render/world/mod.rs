@@ -3,10 +3,12 @@
 
 pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
+mod batch;
 mod flattened;
 mod light;
 mod material;
 mod prepare;
+mod search;
 pub(in crate::render) mod settings;
 pub(in crate::render) mod shape;
 mod texture;
@@ -15,6 +17,8 @@ pub(in crate::render) mod verify;
 use crate::math::Vec3;
 use crate::plan::Plan;
 use crate::render::accel::bvh::Bvh;
+use crate::render::accel::simd::SimdLevel;
+use crate::render::accel::wide::Candidate;
 use crate::render::camera::Camera;
 use crate::render::frame::verify::Verify;
 use crate::render::material::phong::PhongMaterial;
@@ -28,6 +32,7 @@ use crate::valid::Proof;
 use alpha::AlphaTested;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
+use search::{AnySearch, ClosestSearch};
 use settings::Settings;
 
 /// The first hit of a ray.
@@ -78,6 +83,8 @@ pub struct World<S = Shape> {
     /// The surfaces apart that cast shadows, if some of them don't.
     casters: Option<Apart>,
     flattened: Option<Flattened>,
+    /// The vector instructions that rays are traced with.
+    simd: SimdLevel,
 }
 
 /// The surfaces that are not flattened.
@@ -120,17 +127,26 @@ impl<S: Geometry> World<S> {
         let (ray, unit) = ray.rescaled();
         let mut nearest = self.closest_hit_apart(&ray);
         if let Some(flattened) = &self.flattened {
-            let mut triangles = FlattenedRay::new(&ray, &self.surfaces, flattened);
-            flattened.hierarchy.walk::<true>(&ray, nearest.t, |item| {
-                if let Some((t, key)) = triangles.root(item, from) {
-                    nearest.add(t, key);
-                }
-                nearest.t
-            });
+            let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
+            let mut search = ClosestSearch { triangles, nearest };
+            flattened.hierarchy.walk(&ray, nearest.t, &mut search);
+            nearest = search.nearest;
         }
+        self.hit(&ray, unit, from, &nearest)
+    }
+
+    /// The hit that is nearest, of a ray rescaled by `unit`.
+    #[inline(always)]
+    fn hit(
+        &self,
+        ray: &Ray,
+        unit: f64,
+        from: (usize, u32),
+        nearest: &Nearest<(usize, u32)>,
+    ) -> Option<Hit> {
         let (t, (surface, prim_id)) = match nearest.key {
             NOWHERE => return None,
-            _ if nearest.is_tied() => self.settle(&ray, from, nearest.t)?,
+            _ if nearest.is_tied() => self.settle(ray, from, nearest.t)?,
             key => (nearest.t, key),
         };
         Some(Hit {
@@ -195,13 +211,14 @@ impl<S: Geometry> World<S> {
             t
         });
         if let Some(flattened) = &self.flattened {
-            let mut triangles = FlattenedRay::new(ray, &self.surfaces, flattened);
-            flattened.hierarchy.walk::<true>(ray, t, |item| {
-                if let Some((t, (surface, prim_id))) = triangles.root(item, from) {
+            let mut triangles = FlattenedRay::new(ray, from, &self.surfaces, flattened);
+            let mut visit = |candidate: Candidate<'_>| {
+                if let Some((t, (surface, prim_id))) = triangles.root(&candidate) {
                     add(t, surface, prim_id);
                 }
                 t
-            });
+            };
+            flattened.hierarchy.walk(ray, t, &mut visit);
         }
         tie.first()
     }
@@ -218,18 +235,38 @@ impl<S: Geometry> World<S> {
 
     /// Whether anything that casts shadows is hit with 0 < t < `t_max`.
     pub(in crate::render) fn any_hit(&self, ray: &Ray, t_max: f64) -> bool {
-        self.transmittance(ray, t_max, NOWHERE, |_| 0.0) == 0.0
+        self.any_hit_from(ray, t_max, NOWHERE)
     }
 
-    /// The product of `pass` over all hits with 0 < t < `t_max`, in any order, until it is 0. Only
-    /// flattened triangles are asked; all other surfaces are opaque. The ray starts at the
-    /// primitive `from`.
+    /// As [`World::any_hit`], for a ray that starts at the primitive `from`.
+    pub(in crate::render) fn any_hit_from(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        from: (usize, u32),
+    ) -> bool {
+        let (ray, unit) = ray.rescaled();
+        let t_max = t_max / unit;
+        if self.any_hit_apart(&ray, t_max) {
+            return true;
+        }
+        let Some(flattened) = &self.flattened else {
+            return false;
+        };
+        let triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
+        let mut search = AnySearch::new(triangles, t_max);
+        flattened.hierarchy.walk(&ray, t_max, &mut search);
+        search.is_hit
+    }
+
+    /// The product of `pass` over all hits with 0 < t < `t_max`, until it is 0. Only flattened
+    /// triangles are asked; all other surfaces are opaque. The ray starts at the primitive `from`.
     pub(in crate::render) fn transmittance(
         &self,
         ray: &Ray,
         t_max: f64,
         from: (usize, u32),
-        mut pass: impl FnMut(Hit) -> f64,
+        pass: &mut dyn FnMut(Hit) -> f64,
     ) -> f64 {
         let (ray, unit) = ray.rescaled();
         let t_max = t_max / unit;
@@ -238,9 +275,10 @@ impl<S: Geometry> World<S> {
         }
         let mut transmittance = 1.0;
         if let Some(flattened) = &self.flattened {
-            let mut triangles = FlattenedRay::new(&ray, &self.surfaces, flattened);
-            flattened.hierarchy.walk::<true>(&ray, t_max, |item| {
-                if let Some((t, (surface, prim_id))) = triangles.root_before(t_max, item, from) {
+            let mut triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
+            let mut visit = |candidate: Candidate<'_>| {
+                let hit = triangles.root(&candidate).filter(|(t, _)| *t < t_max);
+                if let Some((t, (surface, prim_id))) = hit {
                     transmittance *= pass(Hit {
                         t: t * unit,
                         surface,
@@ -248,7 +286,8 @@ impl<S: Geometry> World<S> {
                     });
                 }
                 if transmittance > 0.0 { t_max } else { OVER }
-            });
+            };
+            flattened.hierarchy.walk(&ray, t_max, &mut visit);
         }
         transmittance
     }

@@ -10,6 +10,7 @@ use super::{Apart, Surface, World, light};
 use crate::plan::Plan;
 use crate::plan::facts::material;
 use crate::render::accel::bvh::Bvh;
+use crate::render::accel::simd::SimdLevel;
 use crate::render::shape::geometry::Geometry;
 use crate::valid::{self, Proof};
 use std::sync::Arc;
@@ -19,20 +20,29 @@ impl<S: Prepare> World<S> {
     /// the hierarchies of those.
     #[must_use]
     pub fn prepare(scene: &Proof, plan: &Plan) -> Self {
+        Self::prepare_at(scene, plan, SimdLevel::best())
+    }
+
+    /// As [`World::prepare`], for rays traced with the vector instructions of a level: the hits are
+    /// the same.
+    #[must_use]
+    pub fn prepare_at(scene: &Proof, plan: &Plan, simd: SimdLevel) -> Self {
         let textures = Textures::new(scene);
         let lights = light::lights_for(scene, plan, &textures);
         let (surfaces, phongs, standards) = match &plan.paths {
             None => {
                 let materials = scene.materials().iter().map(material::phong).collect();
                 let mut list = PhongList::new(materials, plan);
-                let surfaces = surfaces(scene, plan, |material, has_uv| list.of(material, has_uv));
+                let surfaces = surfaces(scene, plan, simd, |material, has_uv| {
+                    list.of(material, has_uv)
+                });
                 (surfaces, list.prepared(&textures), Vec::new())
             }
             Some(paths) => {
                 let materials = paths.materials.iter().enumerate();
                 let prepared =
                     materials.map(|(index, material)| standard(index, material, &textures, paths));
-                let surfaces = surfaces(scene, plan, |material, _| material);
+                let surfaces = surfaces(scene, plan, simd, |material, _| material);
                 (surfaces, Vec::new(), prepared.collect())
             }
         };
@@ -40,7 +50,7 @@ impl<S: Prepare> World<S> {
             apart,
             casters,
             flattened,
-        } = Lookup::of(scene, &surfaces);
+        } = Lookup::of(scene, &surfaces, simd);
         Self {
             scene: scene.clone(),
             camera: camera(scene.camera()),
@@ -58,6 +68,7 @@ impl<S: Prepare> World<S> {
             apart,
             casters,
             flattened,
+            simd,
         }
     }
 }
@@ -67,12 +78,13 @@ impl<S: Prepare> World<S> {
 fn surfaces<S: Prepare>(
     scene: &Proof,
     plan: &Plan,
+    simd: SimdLevel,
     mut material_of: impl FnMut(usize, bool) -> usize,
 ) -> Vec<Surface<S>> {
     let meshes = scene
         .meshes()
         .iter()
-        .map(|mesh| Arc::new(S::prepare_mesh(mesh)))
+        .map(|mesh| Arc::new(S::prepare_mesh(mesh, simd)))
         .collect::<Vec<_>>();
     let prepared = |(index, surface): (usize, &valid::Surface)| {
         let shape = S::prepare(&surface.shape, &meshes)?;
@@ -98,7 +110,7 @@ struct Lookup {
 }
 
 impl Lookup {
-    fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>]) -> Self {
+    fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>], simd: SimdLevel) -> Self {
         let flattens = flattened_surfaces(scene);
         let is_path = matches!(scene.settings().mode, valid::Mode::Path(_));
         // Shadow rays of paths meet what all rays meet: light counts once, by whichever strategy.
@@ -117,7 +129,7 @@ impl Lookup {
         Self {
             casters: (casters.len() < apart.len()).then(|| Apart::of(surfaces, &casters)),
             apart: Apart::of(surfaces, &apart),
-            flattened: Flattened::new(surfaces, &flattened),
+            flattened: Flattened::new(surfaces, &flattened, simd),
         }
     }
 }

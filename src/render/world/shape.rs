@@ -1,6 +1,7 @@
 //! The shapes of a world: how each kind is made of a proven one.
 
 use crate::math::Vec3;
+use crate::render::accel::simd::SimdLevel;
 use crate::render::shape::Shape;
 use crate::render::shape::basic::Basic;
 use crate::render::shape::geometry::Geometry;
@@ -18,9 +19,9 @@ pub trait Prepare: Geometry {
     /// A mesh prepared once for all its instances.
     type Mesh: Send + Sync;
 
-    /// Prepares a mesh.
+    /// Prepares a mesh, for rays traced with the vector instructions of a level.
     #[must_use]
-    fn prepare_mesh(mesh: &valid::Mesh) -> Self::Mesh;
+    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> Self::Mesh;
 
     /// Prepares a shape; `None` for one that no ray hits.
     #[must_use]
@@ -30,7 +31,7 @@ pub trait Prepare: Geometry {
 impl Prepare for Shape {
     type Mesh = PreparedMesh;
 
-    fn prepare_mesh(mesh: &valid::Mesh) -> PreparedMesh {
+    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> PreparedMesh {
         let valid::Mesh {
             positions,
             normals,
@@ -47,7 +48,7 @@ impl Prepare for Shape {
             tangents: tangents.clone(),
             colors: colors.clone(),
         };
-        PreparedMesh::new(positions, triangles, attributes)
+        PreparedMesh::new(positions, triangles, attributes, simd)
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
@@ -151,8 +152,8 @@ impl Proven for valid::Instance {
 impl Prepare for Basic {
     type Mesh = PreparedMesh;
 
-    fn prepare_mesh(mesh: &valid::Mesh) -> PreparedMesh {
-        Shape::prepare_mesh(mesh)
+    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> PreparedMesh {
+        Shape::prepare_mesh(mesh, simd)
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PreparedMesh>]) -> Option<Self> {
@@ -172,8 +173,8 @@ impl Prepare for Basic {
 impl<R: Real> Prepare for PlainShape<R> {
     type Mesh = PlainMesh<R>;
 
-    fn prepare_mesh(mesh: &valid::Mesh) -> PlainMesh<R> {
-        PlainMesh::new(Shape::prepare_mesh(mesh))
+    fn prepare_mesh(mesh: &valid::Mesh, simd: SimdLevel) -> PlainMesh<R> {
+        PlainMesh::new(Shape::prepare_mesh(mesh, simd))
     }
 
     fn prepare(shape: &valid::Shape, meshes: &[Arc<PlainMesh<R>>]) -> Option<Self> {

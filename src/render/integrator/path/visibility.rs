@@ -35,9 +35,10 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         };
         let world = self.world;
         if is_tested && self.world.alpha_tested == AlphaTested::Triangles {
-            world.transmittance(&ray, t_max, from, |hit| self.transmittance(&ray, &hit).1)
+            let mut pass = |hit| self.transmittance(&ray, &hit).1;
+            world.transmittance(&ray, t_max, from, &mut pass)
         } else {
-            world.transmittance(&ray, t_max, from, |_| 0.0)
+            f64::from(!world.any_hit_from(&ray, t_max, from))
         }
     }
 
@@ -70,7 +71,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 Some(Some(to_place)) => to_place,
             };
             // Stop if the rest of the segment is clear.
-            if self.world.transmittance(&end, t_max, from, |_| 0.0) > 0.0 {
+            if !self.world.any_hit_from(&end, t_max, from) {
                 return transmittance;
             }
             // By rounding, the closest-hit search may miss a surface that blocks the segment. It

@@ -1,0 +1,197 @@
+//! A ray in the cube about some geometry, in single precision: what may be hit is never passed over.
+//!
+//! All is measured in a cube about the geometry, so that no number leaves the range of f32 whatever
+//! the scale of the scene. Rays are brought to the cube in f64; a bound on what rounding does to
+//! each widens every comparison. The hit itself is decided elsewhere, in f64.
+
+use crate::math::{U, Vec3, ldexp};
+use crate::render::accel::bounds::Bounds;
+use crate::render::ray::Ray;
+
+/// The unit round-off of f32, 2⁻²⁴.
+const ROUND: f64 = 0.5 * f32::EPSILON as f64;
+
+/// Directions are at least this steep to every axis; within the cube that moves no ray by more than
+/// [`FLOOR`].
+const STEEP: f64 = 1.0 / 1_099_511_627_776.0;
+
+/// The least distance that counts.
+const FLOOR: f64 = 1.0 / 68_719_476_736.0;
+
+/// By how much a root may be wrong, and more.
+const ROUNDED: f64 = 1.0 / 1_048_576.0;
+
+/// A cube about the origin may be so many times as large as one about the geometry.
+const OFF_CENTER: f64 = 16.0;
+
+/// Where the cube [−1, 1]³ lies in space.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct QuantizationFrame {
+    center: Vec3,
+    /// A power of two.
+    scale: f64,
+    /// How far rounding may have moved a corner, in the cube.
+    error_bound: f64,
+}
+
+impl QuantizationFrame {
+    /// The cube around some boxes, not far larger than needed; `error_bound` bounds the error of the
+    /// corners of what is in them.
+    ///
+    /// Where that costs few bits the cube lies about the origin: then corners of 32 bits stay as
+    /// they are but for a power of two. Else it is finest where most of the boxes are, about the
+    /// mean of their centres.
+    pub(in crate::render) fn around(
+        whole: Bounds,
+        mean: impl FnOnce() -> Vec3,
+        error_bound: f64,
+    ) -> Self {
+        let extent_about = |center: Vec3| {
+            let far = (whole.min - center).abs().max((whole.max - center).abs());
+            far.max_element()
+        };
+        let is_near = extent_about(Vec3::ZERO) <= OFF_CENTER * extent_about(whole.center());
+        let center = if is_near { Vec3::ZERO } else { mean() };
+        let extent = extent_about(center);
+        let exponent = if extent > 0.0 {
+            (libm::ilogb(extent) + 1).clamp(-900, 1000)
+        } else {
+            0
+        };
+        let scale = ldexp(1.0, -exponent);
+        Self {
+            center,
+            scale,
+            error_bound: error_bound * scale,
+        }
+    }
+
+    /// A point in the cube.
+    pub(in crate::render::accel) fn enter(&self, point: Vec3) -> Vec3 {
+        (point - self.center) * self.scale
+    }
+
+    /// What a number of a cube about the origin was before, exactly; `None` for other cubes.
+    pub(in crate::render::accel) fn unit(&self) -> Option<f64> {
+        (self.center == Vec3::ZERO).then(|| self.scale.recip())
+    }
+
+    /// A box in the cube, rounded outward: its lowest and its highest corner.
+    pub(in crate::render::accel) fn rounded_outward(&self, bounds: Bounds) -> [[f32; 3]; 2] {
+        let (min, max) = (self.enter(bounds.min), self.enter(bounds.max));
+        [
+            min.to_array().map(rounded_down),
+            max.to_array().map(|x| -rounded_down(-x)),
+        ]
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "rounded down")]
+fn rounded_down(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x {
+        nearest.next_down()
+    } else {
+        nearest
+    }
+}
+
+/// Why there is no beam.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) enum NoBeam {
+    /// The ray misses the cube.
+    Missed,
+    /// The arithmetic can't tell: anything may be hit.
+    Untold,
+}
+
+/// A ray in a cube. Its own t counts from where it comes near the cube, in units in which it moves
+/// along its main axis as fast as t.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render) struct Beam {
+    /// The axes with the main one last, and where it starts along them.
+    pub(in crate::render::accel) axes: [usize; 3],
+    pub(in crate::render::accel) origin: [f32; 3],
+    /// Shifted for the nearer and the farther ends of boxes.
+    pub(in crate::render::accel) near_origin: [f32; 3],
+    pub(in crate::render::accel) far_origin: [f32; 3],
+    pub(in crate::render::accel) inverse: [f32; 3],
+    /// Whether the upper end of a box is the nearer one.
+    pub(in crate::render::accel) down: [bool; 3],
+    /// Its direction along the main axis, ±1, and the slopes of the others along it.
+    pub(in crate::render::accel) main: f32,
+    pub(in crate::render::accel) slopes: [f32; 2],
+    /// The error of a coordinate relative to the ray.
+    pub(in crate::render::accel) error: f32,
+    /// What 1 of the ray's t is in `self`, and where `self` starts.
+    rate: f64,
+    start: f64,
+}
+
+impl Beam {
+    /// The part of a ray that may be inside a cube.
+    #[inline(always)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is meant; errors are bounded"
+    )]
+    pub(in crate::render) fn new(frame: &QuantizationFrame, ray: &Ray) -> Result<Self, NoBeam> {
+        let size = ray.direction.abs();
+        let speed = size.max_element();
+        let main = if size.x == speed {
+            0
+        } else {
+            2 - usize::from(size.y == speed)
+        };
+        let mut direction = ray.direction * speed.recip();
+        direction[main] = 1.0_f64.copysign(ray.direction[main]);
+        let far = frame.enter(ray.origin);
+        let distance = far.abs().max_element();
+        let rate = speed * frame.scale;
+        if !(direction.is_finite() && distance < 1e30 && rate.is_normal()) {
+            return Err(NoBeam::Untold);
+        }
+        // Points of the cube have t between the distance ∓ 1.
+        let start = (distance - 2.0).max(0.0);
+        let origin = far + direction * start;
+        let largest = origin.abs().max_element();
+        let base = FLOOR + 64.0 * U * (1.0 + distance);
+        if largest > 5.0 + base {
+            return Err(NoBeam::Missed);
+        }
+        let steep = direction.abs().max(Vec3::splat(STEEP)).copysign(direction);
+        // Twice what rounding to f32 moves the origin by, once more for the sum.
+        let shift = (origin.abs() * (4.0 * ROUND) + 2.0 * base).copysign(direction);
+        let axes = [(main + 1) % 3, (main + 2) % 3, main];
+        let down = direction.is_negative_bitmask();
+        Ok(Self {
+            origin: axes.map(|axis| origin[axis] as f32),
+            near_origin: (origin + shift).as_vec3().to_array(),
+            far_origin: (origin - shift).as_vec3().to_array(),
+            inverse: steep.as_vec3().to_array().map(f32::recip),
+            down: [down & 1 != 0, down & 2 != 0, down & 4 != 0],
+            axes,
+            main: direction[main] as f32,
+            slopes: [direction[axes[0]] as f32, direction[axes[1]] as f32],
+            error: (10.0 * ROUND * (1.0 + largest) + 2.0 * base + 2.0 * frame.error_bound) as f32,
+            rate,
+            start,
+        })
+    }
+
+    /// The end of the beam for a `t_max` of the ray, rounded up by more than a root may be wrong.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded up")]
+    pub(in crate::render) fn limit(&self, t_max: f64) -> f32 {
+        let end = t_max * self.rate * (1.0 + ROUNDED) - self.start;
+        end as f32 * (1.0 + 2.0 * f32::EPSILON) + self.error
+    }
+
+    /// Where the beam is surely before a `t_max` of the ray.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "rounded down")]
+    pub(in crate::render::accel) fn sure_limit(&self, t_max: f64) -> f32 {
+        let end = t_max * self.rate * (1.0 - ROUNDED) - self.start;
+        end as f32 * (1.0 - 4.0 * f32::EPSILON) - 2.0 * self.error
+    }
+}

@@ -1,0 +1,142 @@
+//! Which vector instructions a machine has, and which of them are used. All give the same bits.
+
+use fearless_simd::{Fallback, Level};
+
+/// The vector instructions that hierarchies are searched with.
+#[derive(Clone, Copy, Debug)]
+pub struct SimdLevel(Tokens);
+
+/// Proofs that the machine has the instructions.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::render::accel) enum Tokens {
+    /// None: one lane after the other.
+    Scalar(Fallback),
+    /// SSE2 of x86.
+    #[cfg(target_arch = "x86_64")]
+    Sse2(fearless_simd::Sse2),
+    /// AVX2 of x86.
+    #[cfg(target_arch = "x86_64")]
+    Avx2(fearless_simd::Avx2),
+    /// AVX-512 of x86, of Ice Lake and later.
+    #[cfg(target_arch = "x86_64")]
+    Avx512(fearless_simd::Avx512),
+    /// NEON of 64-bit ARM.
+    #[cfg(target_arch = "aarch64")]
+    Neon(fearless_simd::aarch64::Neon),
+}
+
+impl SimdLevel {
+    /// The names of all levels of all machines.
+    pub const NAMES: [&'static str; 5] = ["scalar", "sse2", "avx2", "avx512", "neon"];
+
+    /// The best that this machine has.
+    #[must_use]
+    pub fn best() -> Self {
+        let best = ["neon", "avx512", "avx2", "sse2"].into_iter();
+        best.filter_map(Self::named)
+            .next()
+            .unwrap_or(Self(Tokens::Scalar(Fallback::new())))
+    }
+
+    /// The level of a name; `None` if this machine lacks it or it is no name of a level.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        if name == "scalar" {
+            return Some(Self(Tokens::Scalar(Fallback::new())));
+        }
+        Self::native(name, Level::new()).map(Self)
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn native(name: &str, level: Level) -> Option<Tokens> {
+        match name {
+            "sse2" => level.as_sse2().map(Tokens::Sse2),
+            "avx2" => level.as_avx2().map(Tokens::Avx2),
+            "avx512" => level.as_avx512().map(Tokens::Avx512),
+            _ => None,
+        }
+    }
+
+    #[cfg(target_arch = "aarch64")]
+    fn native(name: &str, level: Level) -> Option<Tokens> {
+        level.as_neon().filter(|_| name == "neon").map(Tokens::Neon)
+    }
+
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    fn native(_: &str, _: Level) -> Option<Tokens> {
+        None
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Tokens::Scalar(_) => "scalar",
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Sse2(_) => "sse2",
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Avx2(_) => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Avx512(_) => "avx512",
+            #[cfg(target_arch = "aarch64")]
+            Tokens::Neon(_) => "neon",
+        }
+    }
+
+    /// The proof that the machine has it.
+    #[inline]
+    pub(in crate::render::accel) fn tokens(self) -> Tokens {
+        self.0
+    }
+}
+
+/// Does the same with the instructions of a level; `$simd` names them within.
+macro_rules! at_level {
+    ($level:expr, $simd:ident => $what:expr) => {{
+        use fearless_simd::Simd;
+        use $crate::render::accel::simd::Tokens;
+        match $level.tokens() {
+            Tokens::Scalar($simd) => $what,
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Sse2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $what,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $what,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            Tokens::Avx512($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $what,
+            ),
+            #[cfg(target_arch = "aarch64")]
+            Tokens::Neon($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $what,
+            ),
+        }
+    }};
+}
+pub(in crate::render::accel) use at_level;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_is_found_by_its_own_name() {
+        assert!(SimdLevel::named("sse9").is_none());
+        assert_eq!(
+            SimdLevel::named("scalar").map(SimdLevel::name),
+            Some("scalar")
+        );
+        for name in SimdLevel::NAMES {
+            let level = SimdLevel::named(name);
+            assert!(level.is_none_or(|level| level.name() == name), "{name}");
+        }
+        assert_ne!(SimdLevel::best().name(), "scalar");
+    }
+}

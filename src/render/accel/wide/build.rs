@@ -1,0 +1,211 @@
+//! How a hierarchy is built: from the top, a node taking the parts of its parts until it is full
+//! (Dammertz, Hanika, Keller, "Shallow bounding volume hierarchies", 2008).
+//!
+//! Its upper part is built first, then what hangs below on all threads; the result does not depend
+//! on how many there are.
+
+use super::split::{Item, Part};
+use super::{LEAF, NONE, Wide};
+use crate::math::Vec3;
+use crate::render::accel::beam::QuantizationFrame;
+use crate::render::accel::bounds::Bounds;
+use crate::render::accel::lanes::{ITEMS, LINKS, Leaf, Node, TRIANGLES, WIDTH, place};
+use crate::render::accel::pages::Pages;
+use crate::render::accel::simd::SimdLevel;
+use rayon::prelude::*;
+
+/// Parts of so few triangles are built by one thread.
+const ALONE: usize = 4096;
+
+impl Wide {
+    /// Builds the hierarchy of some triangles, each known by its number, with corners that may be
+    /// wrong by `error_bound`; `None` if there is none.
+    pub(in crate::render) fn build(
+        simd: SimdLevel,
+        count: usize,
+        error_bound: f64,
+        corners: impl Fn(u32) -> [Vec3; 3] + Sync,
+    ) -> Option<Self> {
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        if count == 0 {
+            return None;
+        }
+        let bounds = |item| Bounds::of(&corners(item)).grown(error_bound);
+        let all = (0..count).into_par_iter();
+        let whole = all
+            .clone()
+            .map(bounds)
+            .reduce(|| Bounds::EMPTY, Bounds::union);
+        let mean = || {
+            let centers = (0..count).map(|item| bounds(item).center() / f64::from(count));
+            centers.sum::<Vec3>()
+        };
+        let frame = QuantizationFrame::around(whole, mean, error_bound);
+        let item = |item| Item::new(item, frame.rounded_outward(bounds(item)));
+        let mut items: Vec<Item> = all.map(item).collect();
+        let (root, branches) = grow_all(&mut items, &Leaves { frame, corners });
+        drop(items);
+        let is_exact = branches.iter().all(|branch| branch.is_exact);
+        let (nodes, leaves) = branches
+            .into_iter()
+            .map(|branch| (branch.nodes, branch.leaves))
+            .unzip();
+        Some(Self {
+            simd,
+            frame,
+            nodes: Pages::joined(nodes),
+            leaves: Pages::joined(leaves),
+            root,
+            unit: frame.unit().filter(|_| is_exact),
+        })
+    }
+}
+
+/// What leaves are made of.
+struct Leaves<C> {
+    frame: QuantizationFrame,
+    corners: C,
+}
+
+impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
+    /// The leaf of some items, and whether it holds their corners exactly.
+    fn leaf(&self, items: &[Item]) -> (Leaf, bool) {
+        let (mut leaf, mut is_exact) = ([0.0; ITEMS + TRIANGLES], true);
+        leaf[ITEMS..].fill(f32::from_bits(NONE));
+        for (lane, item) in items.iter().enumerate() {
+            leaf[ITEMS + lane] = f32::from_bits(item.number());
+            for (corner, point) in (self.corners)(item.number()).into_iter().enumerate() {
+                let rounded = self.frame.enter(point).as_vec3();
+                let exact = self.frame.unit().map(|unit| rounded.as_dvec3() * unit);
+                is_exact &= exact == Some(point);
+                for (axis, number) in rounded.to_array().into_iter().enumerate() {
+                    leaf[place(corner, axis) + lane] = number;
+                }
+            }
+        }
+        (leaf, is_exact)
+    }
+}
+
+/// Nodes and leaves that lead to each other.
+struct Branch {
+    nodes: Vec<Node>,
+    leaves: Vec<Leaf>,
+    is_exact: bool,
+}
+
+/// A part that is left for later, and where the link to it goes.
+struct LeftPart<'items> {
+    part: Part<'items>,
+    depth: usize,
+    node: usize,
+    lane: usize,
+}
+
+/// The link to the root, and all branches: links count the nodes and the leaves of all, in order.
+fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
+    items: &mut [Item],
+    leaves: &Leaves<C>,
+) -> (u32, Vec<Branch>) {
+    let alone = ALONE.max(items.len() / 64);
+    let mut top = Branch::new();
+    let mut left = Vec::new();
+    let root = top.grow(Part::of(items), 0, leaves, &mut |part| {
+        let is_small = part.part.items.len() <= alone;
+        if is_small {
+            left.push(part);
+            return None;
+        }
+        Some(part)
+    });
+    let grown = left.into_par_iter().map(|left| {
+        let mut branch = Branch::new();
+        let link = branch.grow(left.part, left.depth, leaves, &mut Some);
+        (left.node, left.lane, link, branch)
+    });
+    let grown: Vec<_> = grown.collect();
+    let (mut nodes, mut leaves) = (top.nodes.len(), top.leaves.len());
+    let mut branches = Vec::with_capacity(grown.len() + 1);
+    for (node, lane, link, mut branch) in grown {
+        let moved = |link: u32| match link & LEAF {
+            0 => link + to_u32(nodes),
+            _ => link + (to_u32(leaves) << 2),
+        };
+        top.nodes[node][LINKS + lane] = f32::from_bits(moved(link));
+        for link in branch
+            .nodes
+            .iter_mut()
+            .flat_map(|node| &mut node[LINKS..][..WIDTH])
+        {
+            *link = f32::from_bits(moved(link.to_bits()));
+        }
+        nodes += branch.nodes.len();
+        leaves += branch.leaves.len();
+        branches.push(branch);
+    }
+    branches.insert(0, top);
+    (root, branches)
+}
+
+impl Branch {
+    fn new() -> Self {
+        Self {
+            nodes: Vec::new(),
+            leaves: Vec::new(),
+            is_exact: true,
+        }
+    }
+
+    /// Adds what is needed for a part and returns the link to it. `take` may keep what hangs below
+    /// a node for later.
+    fn grow<'items, C: Fn(u32) -> [Vec3; 3]>(
+        &mut self,
+        part: Part<'items>,
+        depth: usize,
+        leaves: &Leaves<C>,
+        take: &mut impl FnMut(LeftPart<'items>) -> Option<LeftPart<'items>>,
+    ) -> u32 {
+        if part.items.len() <= TRIANGLES {
+            let (leaf, is_exact) = leaves.leaf(part.items);
+            self.leaves.push(leaf);
+            self.is_exact &= is_exact;
+            return LEAF | to_u32(self.leaves.len() - 1) << 2 | to_u32(part.items.len() - 1);
+        }
+        let children = part.into_children(depth);
+        let here = self.nodes.len();
+        self.nodes.push(node(&children));
+        for (lane, part) in children.into_iter().enumerate() {
+            let left = LeftPart {
+                part,
+                depth: depth + 1,
+                node: here,
+                lane,
+            };
+            if let Some(LeftPart { part, depth, .. }) = take(left) {
+                let link = self.grow(part, depth, leaves, take);
+                self.nodes[here][LINKS + lane] = f32::from_bits(link);
+            }
+        }
+        to_u32(here)
+    }
+}
+
+/// The node of some children, without their links; the boxes of those that are not there are met by
+/// no ray.
+fn node(children: &[Part<'_>]) -> Node {
+    let mut node = [0.0; LINKS + 2 * WIDTH];
+    for axis in 0..3 {
+        for lane in 0..WIDTH {
+            let nothing = [f32::INFINITY, f32::NEG_INFINITY];
+            let [low, high] = children.get(lane).map_or(nothing, |part| part.ends(axis));
+            node[2 * WIDTH * axis + lane] = low;
+            node[2 * WIDTH * axis + WIDTH + lane] = high;
+        }
+    }
+    node[LINKS..][..WIDTH].fill(f32::from_bits(LEAF));
+    node
+}
+
+fn to_u32(count: usize) -> u32 {
+    u32::try_from(count).unwrap_or(u32::MAX)
+}

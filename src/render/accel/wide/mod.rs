@@ -1,0 +1,80 @@
+//! A hierarchy over triangles, eight wide: it finds candidates; the hit itself is decided elsewhere.
+//!
+//! Nodes hold the boxes of up to eight children, leaves the corners of up to four triangles, both in
+//! single precision in a cube about the geometry; a ray meets all boxes or triangles at once.
+
+mod build;
+mod split;
+mod walk;
+
+use crate::math::Vec3;
+use crate::render::accel::beam::QuantizationFrame;
+use crate::render::accel::lanes::{ITEMS, Leaf, Node, TRIANGLES, WIDTH, place};
+use crate::render::accel::pages::Pages;
+use crate::render::accel::simd::SimdLevel;
+use arrayvec::ArrayVec;
+pub(in crate::render) use walk::Visitor;
+
+/// Below this depth the heuristic chooses; above it the middle, which needs at most 12 more.
+const HEURISTIC_DEPTH: usize = 16;
+
+/// What a walk has left for later, with where the ray enters it: each level leaves at most seven
+/// children.
+type TraversalStack = ArrayVec<(f32, u32), { (HEURISTIC_DEPTH + 12) * (WIDTH - 1) + 1 }>;
+
+/// The bit of a link that leads to a leaf; the two lowest are then one less than the triangles in
+/// it.
+const LEAF: u32 = 1 << 31;
+
+/// Where a leaf has no triangle.
+const NONE: u32 = u32::MAX;
+
+/// The hierarchy.
+#[derive(Debug)]
+pub(in crate::render) struct Wide {
+    simd: SimdLevel,
+    frame: QuantizationFrame,
+    nodes: Pages<Node>,
+    leaves: Pages<Leaf>,
+    root: u32,
+    /// What 1 of the cube is in space, if leaves hold all corners exactly.
+    unit: Option<f64>,
+}
+
+impl Wide {
+    /// Has candidates come without corners.
+    pub(in crate::render) fn forget_corners(&mut self) {
+        self.unit = None;
+    }
+}
+
+/// A triangle that a ray may hit.
+#[derive(Clone, Copy)]
+pub(in crate::render) struct Candidate<'walk> {
+    /// Its number.
+    pub(in crate::render) item: u32,
+    leaf: &'walk Leaf,
+    lane: usize,
+    unit: Option<f64>,
+}
+
+impl Candidate<'_> {
+    /// Its corners, if they are here with every bit.
+    #[inline(always)]
+    pub(in crate::render) fn corners(&self) -> Option<[Vec3; 3]> {
+        let unit = self.unit?;
+        let lane = self.lane & (TRIANGLES - 1);
+        let number = |corner, axis| f64::from(self.leaf[place(corner, axis) + lane]) * unit;
+        let point = |corner| Vec3::new(number(corner, 0), number(corner, 1), number(corner, 2));
+        Some([point(0), point(1), point(2)])
+    }
+}
+
+/// The item of a lane of a leaf.
+#[inline(always)]
+fn item(leaf: &Leaf, lane: usize) -> u32 {
+    leaf[ITEMS + (lane & (TRIANGLES - 1))].to_bits()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,249 @@
+//! How a list of boxes is split into two or eight: by the surface area heuristic over bins (Wald,
+//! "On fast construction of SAH-based bounding volume hierarchies", 2007).
+
+use super::HEURISTIC_DEPTH;
+use crate::math::Lanes;
+use crate::render::accel::lanes::{TRIANGLES, WIDTH};
+use arrayvec::ArrayVec;
+
+const BINS: usize = 16;
+
+/// The box of a triangle in the cube, and its number as the bits of the fourth lane of `min`.
+#[derive(Clone, Copy)]
+pub(super) struct Item {
+    min: Lanes,
+    max: Lanes,
+}
+
+impl Item {
+    /// Of a number and the lowest and the highest corner of its box.
+    pub(super) fn new(number: u32, [min, max]: [[f32; 3]; 2]) -> Self {
+        let lanes = |[x, y, z]: [f32; 3], w: f32| Lanes::new(x, y, z, w);
+        Self {
+            min: lanes(min, f32::from_bits(number)),
+            max: lanes(max, 0.0),
+        }
+    }
+
+    /// Its number.
+    pub(super) fn number(&self) -> u32 {
+        self.min.w.to_bits()
+    }
+
+    /// Twice its centre.
+    #[inline(always)]
+    fn center(&self) -> Lanes {
+        self.min + self.max
+    }
+}
+
+/// A box, whose fourth lanes mean nothing.
+#[derive(Clone, Copy)]
+struct LaneBox {
+    min: Lanes,
+    max: Lanes,
+}
+
+impl LaneBox {
+    const EMPTY: Self = Self {
+        min: Lanes::INFINITY,
+        max: Lanes::NEG_INFINITY,
+    };
+
+    #[inline(always)]
+    fn add(&mut self, min: Lanes, max: Lanes) {
+        self.min = self.min.min(min);
+        self.max = self.max.max(max);
+    }
+
+    #[inline(always)]
+    fn half_area(&self) -> f32 {
+        let size = (self.max - self.min).max(Lanes::ZERO);
+        size.x * size.y + size.y * size.z + size.z * size.x
+    }
+}
+
+/// Some items side by side, the box around them, and that around twice their centres.
+pub(super) struct Part<'items> {
+    pub(super) items: &'items mut [Item],
+    bounds: LaneBox,
+    centers: LaneBox,
+}
+
+/// A border between two bins of an axis.
+#[derive(Clone, Copy)]
+struct Border {
+    work: f32,
+    axis: usize,
+    bin: usize,
+    /// The boxes below and above it.
+    sides: [LaneBox; 2],
+}
+
+/// The bins of all axes: the box of what is in each, and how much that is.
+type Bins = [[(LaneBox, u32); 3]; BINS];
+
+impl<'items> Part<'items> {
+    /// All of some items.
+    pub(super) fn of(items: &'items mut [Item]) -> Self {
+        let (mut bounds, mut centers) = (LaneBox::EMPTY, LaneBox::EMPTY);
+        for item in items.iter() {
+            bounds.add(item.min, item.max);
+            centers.add(item.center(), item.center());
+        }
+        Self {
+            items,
+            bounds,
+            centers,
+        }
+    }
+
+    /// The lower and the upper end of its box along an axis.
+    pub(super) fn ends(&self, axis: usize) -> [f32; 2] {
+        [self.bounds.min[axis], self.bounds.max[axis]]
+    }
+
+    /// Its parts, at most eight: the one that is met most often is split next, which has the largest
+    /// area, or, deep down, the most items.
+    pub(super) fn into_children(self, depth: usize) -> ArrayVec<Self, WIDTH> {
+        let is_deep = depth >= HEURISTIC_DEPTH;
+        let weight = |part: &Self| match part.items.len() {
+            0..=TRIANGLES => 0.0,
+            count if is_deep => count as f32,
+            _ => part.bounds.half_area().max(f32::MIN_POSITIVE),
+        };
+        let mut parts = ArrayVec::from_iter([self]);
+        while !parts.is_full() {
+            let heaviest = (0..parts.len())
+                .map(|part| (weight(&parts[part]), part))
+                .fold(
+                    (0.0, 0),
+                    |best, next| if next.0 > best.0 { next } else { best },
+                );
+            if heaviest.0 == 0.0 {
+                break;
+            }
+            let halves = parts.swap_remove(heaviest.1).split(!is_deep);
+            parts.extend(halves);
+        }
+        parts
+    }
+
+    /// Two parts of it, neither empty; it has two items at least.
+    fn split(self, by_heuristic: bool) -> [Self; 2] {
+        let size = self.centers.max - self.centers.min;
+        let scale = Lanes::splat(BINS as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
+        let bins = |item: &Item| (item.center() - self.centers.min) * scale;
+        let border = if by_heuristic {
+            cheapest_border(&self.fill(&bins), size)
+        } else {
+            None
+        };
+        match border {
+            Some(border) => self.parted(&border, scale),
+            None => self.halved(size),
+        }
+    }
+
+    /// What falls into the bins.
+    #[inline(always)]
+    fn fill(&self, place: &impl Fn(&Item) -> Lanes) -> Bins {
+        let mut bins = [[(LaneBox::EMPTY, 0); 3]; BINS];
+        for item in self.items.iter() {
+            let places = place(item).to_array();
+            for (axis, place) in places.into_iter().take(3).enumerate() {
+                let (bounds, count) = &mut bins[bin(place)][axis];
+                bounds.add(item.min, item.max);
+                *count += 1;
+            }
+        }
+        bins
+    }
+
+    /// The items below a border, and those above.
+    fn parted(self, border: &Border, scale: Lanes) -> [Self; 2] {
+        let (axis, origin) = (border.axis, self.centers.min[border.axis]);
+        let is_below = |item: &Item| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
+        let mut centers = [LaneBox::EMPTY; 2];
+        let (mut next, mut end) = (0, self.items.len());
+        while next < end {
+            let item = self.items[next];
+            let below = is_below(&item);
+            centers[usize::from(!below)].add(item.center(), item.center());
+            if below {
+                next += 1;
+            } else {
+                end -= 1;
+                self.items.swap(next, end);
+            }
+        }
+        let (below, above) = self.items.split_at_mut(next);
+        let part = |items, side: usize| Self {
+            items,
+            bounds: border.sides[side],
+            centers: centers[side],
+        };
+        [part(below, 0), part(above, 1)]
+    }
+
+    /// Two halves along the widest axis.
+    fn halved(self, size: Lanes) -> [Self; 2] {
+        let widest = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b]));
+        let axis = widest.unwrap_or(0);
+        let middle = self.items.len() / 2;
+        self.items.select_nth_unstable_by(middle, |a, b| {
+            let order = a.center()[axis].total_cmp(&b.center()[axis]);
+            order.then(a.number().cmp(&b.number()))
+        });
+        let (first, second) = self.items.split_at_mut(middle);
+        [Self::of(first), Self::of(second)]
+    }
+}
+
+/// The bin of a place.
+#[inline(always)]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "places are from 0 on and below 16"
+)]
+fn bin(place: f32) -> usize {
+    place as i32 as usize & (BINS - 1)
+}
+
+/// The border with the least expected work on both sides, if any has items on both. So many
+/// triangles are tested at once as a leaf has.
+fn cheapest_border(bins: &Bins, size: Lanes) -> Option<Border> {
+    let mut best: Option<Border> = None;
+    for axis in (0..3).filter(|axis| size[*axis] > 0.0) {
+        let mut above = [(f32::INFINITY, LaneBox::EMPTY); BINS];
+        let mut side = (LaneBox::EMPTY, 0);
+        for bin in (1..BINS).rev() {
+            above[bin] = (add_work(&mut side, &bins[bin][axis]), side.0);
+        }
+        let mut side = (LaneBox::EMPTY, 0);
+        for bin in 1..BINS {
+            let work = add_work(&mut side, &bins[bin - 1][axis]) + above[bin].0;
+            if work < best.as_ref().map_or(f32::INFINITY, |best| best.work) {
+                let sides = [side.0, above[bin].1];
+                best = Some(Border {
+                    work,
+                    axis,
+                    bin,
+                    sides,
+                });
+            }
+        }
+    }
+    best
+}
+
+/// Adds a bin to one side, and says how much work that side is; infinite while it is empty.
+fn add_work(side: &mut (LaneBox, u32), (bounds, count): &(LaneBox, u32)) -> f32 {
+    side.0.add(bounds.min, bounds.max);
+    side.1 += count;
+    match side.1 {
+        0 => f32::INFINITY,
+        count => side.0.half_area() * count.div_ceil(TRIANGLES as u32) as f32,
+    }
+}

@@ -1,0 +1,317 @@
+//! Whatever is hit is visited, and little else.
+
+use super::*;
+use crate::render::ray::Ray;
+use crate::render::sampler::Key;
+use crate::render::shape::triangle::{Shear, Triangle};
+use rayon::prelude::*;
+
+/// Triangles in each hierarchy.
+const COUNT: u32 = 96;
+
+/// How triangles and rays are made: the scale and the place of all, how far the eye is, and
+/// what is special.
+const FAMILIES: [(&str, f64, f64, f64); 8] = [
+    ("generic", 1.0, 0.0, 3.0),
+    ("tiny", 1e-57, 0.0, 3.0),
+    ("huge", 1e57, 0.0, 3.0),
+    ("at 1e6", 1.0, 1e6, 3.0),
+    ("seen from 1e9", 1.0, 0.0, 1e9),
+    ("along the axes", 1.0, 0.0, 3.0),
+    ("in one plane", 1.0, 0.0, 3.0),
+    ("slivers", 1.0, 0.0, 0.5),
+];
+
+fn triangles(family: usize) -> Vec<Triangle> {
+    let (name, scale, place, _) = FAMILIES[family];
+    let one = |index: u64| {
+        let key = Key::new([u32::try_from(family).unwrap(), 7], index);
+        let frame =
+            |k: u64| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0;
+        let (a, width) = (frame(0), if name == "slivers" { 1e-7 } else { 0.3 });
+        let corners = [a, a + frame(3) * 0.3, a + frame(3) * 0.1 + frame(6) * width];
+        let flat = |p: Vec3| {
+            if name == "in one plane" {
+                p.with_z(0.25)
+            } else {
+                p
+            }
+        };
+        Triangle::new(corners.map(|p| flat(p) * scale + Vec3::splat(place)))
+    };
+    (0_u64..).filter_map(one).take(COUNT as usize).collect()
+}
+
+/// A ray at the inside, an edge or a corner of one of the triangles.
+fn aimed(family: usize, triangles: &[Triangle], index: u64) -> Ray {
+    let (name, scale, place, distance) = FAMILIES[family];
+    let key = Key::new([u32::try_from(family).unwrap(), 11], index);
+    let [a, b, c] = *triangles[(index / 3) as usize % triangles.len()].vertices();
+    let (u, v) = (key.uniform(0), key.uniform(1));
+    let target = [
+        a + (b - a) * (u * v) + (c - a) * (u * (1.0 - v)),
+        a + (b - a) * u,
+        a,
+    ][(index % 3) as usize];
+    let away = (Vec3::new(key.uniform(2), key.uniform(3), key.uniform(4)) * 2.0 - 1.0)
+        * (distance * scale);
+    if name == "along the axes" {
+        let direction = [Vec3::X, Vec3::NEG_Y, Vec3::Z][(index / 5) as usize % 3];
+        return Ray {
+            origin: target - direction * 4.0,
+            direction,
+        };
+    }
+    let origin = Vec3::splat(place) + away;
+    Ray {
+        origin,
+        direction: target - origin,
+    }
+}
+
+fn built(all: &[Triangle]) -> Wide {
+    let corners = |item: u32| *all[item as usize].vertices();
+    Wide::build(SimdLevel::best(), all.len(), 0.0, corners).unwrap()
+}
+
+/// Visits all triangles whose boxes are met.
+struct Boxed<F>(F);
+
+impl<F: FnMut(u32) -> f64> Visitor for Boxed<F> {
+    const CULLS: bool = false;
+
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        self.0(candidate.item)
+    }
+}
+
+/// Visits triangles that may be hit, and hears of those that are for sure.
+#[derive(Default)]
+struct Sure {
+    may: Vec<u32>,
+    sure: Vec<u32>,
+}
+
+impl Visitor for Sure {
+    const IS_SURE: bool = true;
+
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        self.may.push(candidate.item);
+        2.0
+    }
+
+    fn is_settled_by(&mut self, item: u32) -> bool {
+        self.sure.push(item);
+        false
+    }
+}
+
+#[test]
+fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
+    for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
+        let all = triangles(family);
+        let wide = built(&all);
+        let judge = |index: u64| {
+            let ray = aimed(family, &all, index);
+            // The ray ends where it was aimed at, a little before, and beyond.
+            let aim = if name == "along the axes" { 4.0 } else { 1.0 };
+            let t_max = aim * [1.0, 0.999_999, 2.0][(index / 7) as usize % 3];
+            let mut found = Sure::default();
+            wide.walk(&ray, t_max, &mut found);
+            let is_hit = |item: &&u32| {
+                let t = all[**item as usize].intersect(&ray, &Shear::new(&ray));
+                t.is_some_and(|t| t < t_max)
+            };
+            let wrong = found.sure.iter().filter(|item| !is_hit(item)).count() as u64;
+            let hits = found.may.iter().filter(is_hit).count() as u64;
+            [hits, found.sure.len() as u64, wrong]
+        };
+        let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let [hits, sure, wrong] = (0..60_000_u64)
+            .into_par_iter()
+            .map(judge)
+            .reduce(|| [0; 3], add);
+        println!("| sure of | {name} | {sure} of {hits} | {wrong} wrong |");
+        assert_eq!(wrong, 0, "{name}");
+        assert!(
+            name == "slivers" || 3 * sure > hits,
+            "{name}: {sure} of {hits}"
+        );
+    }
+}
+
+/// What a ray visits, in order, and how far it is told to be sure.
+type Visits = (Vec<u32>, Vec<u32>);
+
+#[test]
+fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
+    let all = triangles(0);
+    let rays: Vec<Ray> = (0..3000).map(|index| aimed(0, &all, index)).collect();
+    let mut expected: Option<Vec<Visits>> = None;
+    for level in SimdLevel::NAMES.into_iter().filter_map(SimdLevel::named) {
+        let corners = |item: u32| *all[item as usize].vertices();
+        let wide = Wide::build(level, all.len(), 0.0, corners).unwrap();
+        let alone = |ray: &Ray| {
+            let mut found = Sure::default();
+            wide.walk(ray, 2.0, &mut found);
+            (found.may, found.sure)
+        };
+        let alone: Vec<_> = rays.iter().map(alone).collect();
+        let mut together: Vec<_> = rays
+            .iter()
+            .map(|ray| (*ray, 2.0, Sure::default()))
+            .collect();
+        wide.walk_all(&mut together);
+        let together = together
+            .into_iter()
+            .map(|(_, _, found)| (found.may, found.sure));
+        assert!(together.eq(alone.iter().cloned()), "{}", level.name());
+        let expected = expected.get_or_insert_with(|| alone.clone());
+        assert_eq!(*expected, alone, "{}", level.name());
+    }
+}
+
+/// Corners of 32 bits are in the leaves with every bit; others are asked for elsewhere.
+#[test]
+fn corners_are_exact_or_not_there() {
+    let single = |item: u32| {
+        let key = Key::new([1, 9], item.into());
+        let number = |k: u64| f64::from((key.uniform(k) * 100.0 - 30.0) as f32);
+        [0, 3, 6].map(|k| Vec3::new(number(k), number(k + 1), number(k + 2)))
+    };
+    let double = |item: u32| single(item).map(|corner| corner + Vec3::splat(0.1));
+    let far = |item: u32| single(item).map(|corner| corner + Vec3::splat(1_048_576.0));
+    let visited = |corners: &(dyn Fn(u32) -> [Vec3; 3] + Sync)| {
+        let wide = Wide::build(SimdLevel::best(), 900, 0.0, corners).unwrap();
+        let direction = corners(5)[0];
+        let ray = Ray {
+            origin: Vec3::ZERO,
+            direction,
+        };
+        let mut all = Vec::new();
+        wide.walk(&ray, f64::INFINITY, &mut |candidate: Candidate<'_>| {
+            all.push((candidate.item, candidate.corners()));
+            f64::INFINITY
+        });
+        assert!(all.iter().any(|(item, _)| *item == 5));
+        all
+    };
+    for (item, corners) in visited(&single) {
+        assert_eq!(corners, Some(single(item)));
+    }
+    assert!(
+        visited(&double)
+            .iter()
+            .all(|(_, corners)| corners.is_none())
+    );
+    assert!(visited(&far).iter().all(|(_, corners)| corners.is_none()));
+}
+
+#[test]
+fn whatever_is_hit_is_visited_and_little_else() {
+    let rays = std::env::var("RTC_RAYS")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(20_000_u64);
+    for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
+        let all = triangles(family);
+        let wide = built(&all);
+        let judge = |index: u64| {
+            let ray = aimed(family, &all, index);
+            let shear = Shear::new(&ray);
+            let (mut hits, mut missed, mut visits) = (0, 0, 0);
+            for (item, triangle) in (0..).zip(&all) {
+                let Some(t) = triangle.intersect(&ray, &shear) else {
+                    continue;
+                };
+                let (mut culled, mut boxed) = (false, false);
+                // Even if nothing beyond that hit counts any more.
+                wide.walk(&ray, t, &mut |other: Candidate<'_>| {
+                    (culled, visits) = (culled || other.item == item, visits + 1);
+                    t
+                });
+                wide.walk(
+                    &ray,
+                    t,
+                    &mut Boxed(|other| {
+                        boxed |= other == item;
+                        t
+                    }),
+                );
+                (hits, missed) = (hits + 1, missed + u64::from(!culled) + u64::from(!boxed));
+            }
+            [hits, missed, visits]
+        };
+        let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+        let [hits, missed, visits] = (0..rays).into_par_iter().map(judge).reduce(|| [0; 3], add);
+        println!("| triangles passed over | {name} | {hits} | {missed} | {visits} visits |");
+        assert!(hits > rays / 4 && missed == 0, "{name}: {missed} of {hits}");
+        assert!(
+            name == "slivers" || visits < 16 * hits,
+            "{name}: {visits} visits for {hits} hits"
+        );
+    }
+}
+
+#[test]
+fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
+    let all = triangles(0);
+    let wide = built(&all);
+    let visited = |ray: Ray, answer: f64| {
+        let mut visited = Vec::new();
+        let visit = |item| {
+            visited.push(item);
+            answer
+        };
+        wide.walk(&ray, f64::INFINITY, &mut Boxed(visit));
+        visited.sort_unstable();
+        visited
+    };
+    let ray = aimed(0, &all, 0);
+    assert_eq!(visited(ray, -1.0).len(), 1);
+    let mut once = visited(ray, f64::INFINITY);
+    once.dedup();
+    assert_eq!(once, visited(ray, f64::INFINITY));
+    // What the arithmetic can't tell is not decided here.
+    assert_eq!(
+        visited(
+            Ray {
+                direction: Vec3::ZERO,
+                ..ray
+            },
+            1.0
+        ),
+        (0..COUNT).collect::<Vec<_>>()
+    );
+    assert_eq!(
+        visited(
+            Ray {
+                direction: Vec3::ZERO,
+                ..ray
+            },
+            -1.0
+        )
+        .len(),
+        1
+    );
+    assert!(Wide::build(SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO; 3]).is_none());
+}
+
+/// Equal boxes leave the heuristic nothing to choose by.
+#[test]
+fn equal_triangles_build_a_hierarchy_that_ends() {
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    let wide = Wide::build(SimdLevel::best(), 5000, 0.0, |_| corners).unwrap();
+    let (mut visits, ray) = (
+        0,
+        Ray {
+            origin: Vec3::new(0.2, 0.2, 1.0),
+            direction: Vec3::NEG_Z,
+        },
+    );
+    wide.walk(&ray, f64::INFINITY, &mut |_: Candidate<'_>| {
+        visits += 1;
+        f64::INFINITY
+    });
+    assert_eq!(visits, 5000);
+}

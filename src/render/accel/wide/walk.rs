@@ -1,0 +1,273 @@
+//! How rays go through a hierarchy: one by one, or several by turns, so that while the memory that
+//! one waits for is fetched the others go on.
+
+use super::{Candidate, LEAF, NONE, TraversalStack, Wide, item};
+use crate::render::accel::beam::{Beam, NoBeam};
+use crate::render::accel::lanes::{
+    BoxLanes, LINKS, Leaf, Node, TRIANGLES, TriangleLanes, Verdict, WIDTH,
+};
+use crate::render::accel::simd::at_level;
+use crate::render::ray::Ray;
+use fearless_simd::Simd;
+use std::hint::black_box;
+
+/// So many rays go by turns.
+const TURNS: usize = 4;
+
+/// Where a ray is in the hierarchy.
+struct Traversal<'walk, S: Simd> {
+    nodes: &'walk [Node],
+    leaves: &'walk [Leaf],
+    unit: Option<f64>,
+    beam: Beam,
+    boxes: BoxLanes<S>,
+    triangles: TriangleLanes<S>,
+    limit: f32,
+    sure_limit: f32,
+    link: u32,
+    open: TraversalStack,
+}
+
+/// What a ray asks of the triangles it may hit.
+pub(in crate::render) trait Visitor {
+    /// Whether triangles that are missed for sure are passed over; else all are visited whose boxes
+    /// the ray may meet.
+    const CULLS: bool = true;
+
+    /// Whether triangles that are hit for sure are told apart, before the end of the ray.
+    const IS_SURE: bool = false;
+
+    /// Looks at a triangle, and says beyond which t no other counts; below 0 ends the walk.
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64;
+
+    /// Told of a triangle that is hit for sure; whether that ends the walk.
+    fn is_settled_by(&mut self, _item: u32) -> bool {
+        false
+    }
+}
+
+impl<F: FnMut(Candidate<'_>) -> f64> Visitor for F {
+    #[inline(always)]
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        self(candidate)
+    }
+}
+
+/// Whether a walk goes on.
+#[derive(PartialEq, Eq)]
+enum Step {
+    GoesOn,
+    Ends,
+}
+
+impl Wide {
+    /// Has the triangles visited that the ray may hit before `t_max`, nearer ones roughly first.
+    #[inline]
+    pub(in crate::render) fn walk(&self, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
+        at_level!(self.simd, simd => self.walk_one(simd, ray, t_max, visitor));
+    }
+
+    /// As [`Wide::walk`] for each of some rays, with the `t_max` and the visitor of each.
+    pub(in crate::render) fn walk_all<V: Visitor>(&self, rays: &mut [(Ray, f64, V)]) {
+        at_level!(self.simd, simd => self.walk_by_turns(simd, rays));
+    }
+
+    #[inline(always)]
+    fn walk_one<S: Simd>(&self, simd: S, ray: &Ray, t_max: f64, visitor: &mut impl Visitor) {
+        if let Some(mut traversal) = self.start(simd, ray, t_max, visitor) {
+            while traversal.step(simd, visitor) == Step::GoesOn {}
+        }
+    }
+
+    #[inline(always)]
+    fn walk_by_turns<S: Simd, V: Visitor>(&self, simd: S, rays: &mut [(Ray, f64, V)]) {
+        let mut waiting = rays.iter_mut();
+        let mut under_way = Vec::with_capacity(TURNS);
+        loop {
+            while under_way.len() < TURNS
+                && let Some((ray, t_max, visitor)) = waiting.next()
+            {
+                if let Some(traversal) = self.start(simd, ray, *t_max, visitor) {
+                    under_way.push((traversal, visitor));
+                }
+            }
+            if under_way.is_empty() {
+                return;
+            }
+            let mut turn = 0;
+            while let Some((traversal, visitor)) = under_way.get_mut(turn) {
+                if traversal.step(simd, *visitor) == Step::GoesOn {
+                    traversal.touch();
+                    turn += 1;
+                } else {
+                    under_way.swap_remove(turn);
+                }
+            }
+        }
+    }
+
+    /// A ray at the root; `None` if it meets nothing, or where arithmetic can't tell and all
+    /// triangles have been visited.
+    #[inline(always)]
+    fn start<S: Simd, V: Visitor>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        t_max: f64,
+        visitor: &mut V,
+    ) -> Option<Traversal<'_, S>> {
+        let beam = match Beam::new(&self.frame, ray) {
+            Ok(beam) => beam,
+            Err(NoBeam::Missed) => return None,
+            Err(NoBeam::Untold) => {
+                self.visit_all(visitor);
+                return None;
+            }
+        };
+        Some(Traversal {
+            nodes: self.nodes.rows(),
+            leaves: self.leaves.rows(),
+            unit: self.unit,
+            boxes: BoxLanes::new(simd, &beam),
+            triangles: TriangleLanes::new(simd, &beam),
+            limit: beam.limit(t_max),
+            sure_limit: if V::IS_SURE {
+                beam.sure_limit(t_max)
+            } else {
+                0.0
+            },
+            link: self.root,
+            open: TraversalStack::new(),
+            beam,
+        })
+    }
+
+    /// Has all triangles visited, while they may count.
+    #[cold]
+    #[inline(never)]
+    fn visit_all(&self, visitor: &mut impl Visitor) {
+        let unit = self.unit;
+        let all = self.leaves.rows().iter();
+        for (leaf, lane) in all.flat_map(|leaf| (0..TRIANGLES).map(move |lane| (leaf, lane))) {
+            let item = item(leaf, lane);
+            if item == NONE {
+                continue;
+            }
+            let t_max = visitor.visit(Candidate {
+                item,
+                leaf,
+                lane,
+                unit,
+            });
+            if t_max < 0.0 {
+                return;
+            }
+        }
+    }
+}
+
+impl<S: Simd> Traversal<'_, S> {
+    /// Goes to one node or one leaf.
+    #[inline(always)]
+    fn step<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> Step {
+        if self.link & LEAF == 0 {
+            let node = &self.nodes[self.link as usize];
+            let (met, enter) = self.boxes.meet(simd, node, self.limit);
+            if met != 0 {
+                self.link = nearest(&mut self.open, met, &enter, node);
+                return Step::GoesOn;
+            }
+        } else if self.visit_leaf(simd, visitor) == Step::Ends {
+            return Step::Ends;
+        }
+        // The last one left for later that may still count.
+        while let Some((near, next)) = self.open.pop() {
+            if near <= self.limit {
+                self.link = next;
+                return Step::GoesOn;
+            }
+        }
+        Step::Ends
+    }
+
+    #[inline(always)]
+    fn visit_leaf<V: Visitor>(&mut self, simd: S, visitor: &mut V) -> Step {
+        let leaf = &self.leaves[((self.link & !LEAF) >> 2) as usize];
+        let all = 0b1111 >> (3 - (self.link & 3));
+        let verdict = match (V::CULLS, V::IS_SURE) {
+            (false, _) => Verdict { may: all, sure: 0 },
+            (true, false) => self.triangles.judge::<false>(simd, leaf, [self.limit, 0.0]),
+            (true, true) => {
+                let limits = [self.limit, self.sure_limit];
+                self.triangles.judge::<true>(simd, leaf, limits)
+            }
+        };
+        for lane in lanes_of(verdict.sure & all) {
+            if visitor.is_settled_by(item(leaf, lane)) {
+                return Step::Ends;
+            }
+        }
+        let mut t_max = None;
+        for lane in lanes_of(verdict.may & all) {
+            let item = item(leaf, lane);
+            let unit = self.unit;
+            let end = visitor.visit(Candidate {
+                item,
+                leaf,
+                lane,
+                unit,
+            });
+            if end < 0.0 {
+                return Step::Ends;
+            }
+            t_max = Some(end);
+        }
+        if let Some(t_max) = t_max {
+            self.limit = self.beam.limit(t_max);
+        }
+        Step::GoesOn
+    }
+
+    /// Asks for the memory of the next step, which is there when its turn comes.
+    #[inline(always)]
+    fn touch(&self) {
+        if self.link & LEAF == 0 {
+            let node = &self.nodes[self.link as usize];
+            black_box([node[0], node[16], node[32], node[48]]);
+        } else {
+            let leaf = &self.leaves[((self.link & !LEAF) >> 2) as usize];
+            black_box([leaf[0], leaf[16], leaf[32]]);
+        }
+    }
+}
+
+/// The lanes of some bits.
+#[inline(always)]
+fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        let is_there = bits != 0;
+        bits &= bits.wrapping_sub(1);
+        is_there.then_some(lane & (TRIANGLES - 1))
+    })
+}
+
+/// The nearest of the children met; the others are left for later.
+#[inline(always)]
+fn nearest(open: &mut TraversalStack, mut met: u32, enter: &[f32; WIDTH], node: &Node) -> u32 {
+    let child = |met: u32| {
+        let lane = met.trailing_zeros() as usize & (WIDTH - 1);
+        (enter[lane], node[LINKS + lane].to_bits())
+    };
+    let mut first = child(met);
+    met &= met - 1;
+    while met != 0 {
+        let mut other = child(met);
+        if other.0 < first.0 {
+            (first, other) = (other, first);
+        }
+        open.push(other);
+        met &= met - 1;
+    }
+    first.1
+}

@@ -1,0 +1,59 @@
+//! What a ray asks of the flattened triangles it may hit: which is the nearest, or whether there is
+//! any.
+
+use super::OVER;
+use super::flattened::FlattenedRay;
+use crate::render::accel::wide::{Candidate, Visitor};
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::tie::Nearest;
+
+/// Looks for the nearest hit.
+pub(super) struct ClosestSearch<'walk, S> {
+    pub(super) triangles: FlattenedRay<'walk, S>,
+    pub(super) nearest: Nearest<(usize, u32)>,
+}
+
+impl<S: Geometry> Visitor for ClosestSearch<'_, S> {
+    #[inline(always)]
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        if let Some((t, key)) = self.triangles.root(&candidate) {
+            self.nearest.add(t, key);
+        }
+        self.nearest.t
+    }
+}
+
+/// Looks whether anything is hit with 0 < t < `t_max`.
+pub(super) struct AnySearch<'walk, S> {
+    triangles: FlattenedRay<'walk, S>,
+    t_max: f64,
+    pub(super) is_hit: bool,
+}
+
+impl<'walk, S> AnySearch<'walk, S> {
+    pub(super) fn new(triangles: FlattenedRay<'walk, S>, t_max: f64) -> Self {
+        Self {
+            triangles,
+            t_max,
+            is_hit: false,
+        }
+    }
+}
+
+impl<S: Geometry> Visitor for AnySearch<'_, S> {
+    const IS_SURE: bool = true;
+
+    #[inline(always)]
+    fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
+        let root = self.triangles.root(&candidate);
+        self.is_hit = root.is_some_and(|(t, _)| t < self.t_max);
+        if self.is_hit { OVER } else { self.t_max }
+    }
+
+    /// What is hit for sure in single precision is hit in double precision.
+    #[inline(always)]
+    fn is_settled_by(&mut self, item: u32) -> bool {
+        self.is_hit = !self.triangles.starts_at(item);
+        self.is_hit
+    }
+}
