@@ -6,7 +6,7 @@ use super::{Vec3, ldexp};
 /// `v` times the power of two that brings its largest component into [1, 2), and the exponent taken
 /// out: `v = scaled·2^exponent`. `None` for the zero vector and for components that are not finite.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
     let largest = v.abs().max_element();
     if !v.is_finite() || largest == 0.0 {
@@ -47,7 +47,7 @@ pub fn length(v: Vec3) -> f64 {
 }
 
 /// The exponent of a positive number, as `ilogb` says, read off a normal one.
-#[inline]
+#[inline(always)]
 fn exponent_of(x: f64) -> i32 {
     match i32::try_from(x.to_bits() >> 52) {
         Ok(biased @ 1..2047) => biased - 1023,
@@ -56,7 +56,7 @@ fn exponent_of(x: f64) -> i32 {
 }
 
 /// 2^`exponent`, if it is a normal number.
-#[inline]
+#[inline(always)]
 fn power_of_two(exponent: i32) -> Option<f64> {
     let biased = u64::try_from(exponent + 1023)
         .ok()

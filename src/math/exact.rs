@@ -7,7 +7,7 @@ use super::Vec3;
 
 /// The sum and its rounding error: `a + b = s + e` exactly (Knuth, TAOCP 2, §4.2.2, theorem B).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let b_virtual = s - a;
@@ -16,7 +16,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// The difference and its rounding error: `a − b = s + e` exactly.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, -b)
 }
@@ -26,7 +26,7 @@ pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
 /// With an FMA unit known at build time the error is one instruction, else Dekker's product
 /// (Numerische Mathematik 18, 1971); both are exact, so the bits are the same.
 #[must_use]
-#[inline]
+#[inline(always)]
 #[expect(
     clippy::disallowed_methods,
     reason = "only where it is one instruction"
@@ -43,7 +43,7 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// Veltkamp's splitting into two halves of at most 26 bits each.
-#[inline]
+#[inline(always)]
 fn split(a: f64) -> (f64, f64) {
     const FACTOR: f64 = 134_217_729.0;
     let c = FACTOR * a;
@@ -57,7 +57,7 @@ fn split(a: f64) -> (f64, f64) {
 /// After Kahan; see Jeannerod, Louvet, Muller, "Further analysis of Kahan's algorithm", Math. Comp.
 /// 82 (2013).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);
@@ -66,7 +66,7 @@ pub fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
 
 /// The cross product, each component to within 2 u of itself.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
     Vec3::new(
         difference_of_products(a.y, b.z, a.z, b.y),
@@ -78,7 +78,7 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
 /// The dot product as if computed in twice the precision and rounded once (Ogita, Rump, Oishi,
 /// "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005), algorithm 5.3).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn dot(a: Vec3, b: Vec3) -> f64 {
     let (x, x_error) = two_product(a.x, b.x);
     let (y, y_error) = two_product(a.y, b.y);

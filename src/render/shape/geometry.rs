@@ -90,6 +90,13 @@ pub trait Geometry: Sized + Send + Sync {
         None
     }
 
+    /// As [`Geometry::intersect_prim`], of a root below `t_max` alone.
+    #[must_use]
+    #[inline]
+    fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+        self.intersect_prim(ray, prim_id).filter(|t| *t < t_max)
+    }
+
     /// Whether its triangles are those of an instance that is not moved: the coordinates of the shape
     /// are those of the world.
     #[must_use]

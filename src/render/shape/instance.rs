@@ -104,11 +104,10 @@ impl Instance {
     /// The root above 0 of a triangle found in the hierarchy of the mesh.
     #[inline(always)]
     fn root(&self, local: &LocalRay, candidate: &Candidate<'_>) -> Option<f64> {
-        let vertices = match candidate.corners() {
-            Some(corners) => corners,
-            None => self.mesh.vertices(candidate.item),
-        };
-        triangle::root(&vertices, &local.ray, &local.shear)
+        match candidate.corners() {
+            Some(corners) => triangle::root(&corners, &local.ray, &local.shear),
+            None => self.mesh.root(local, candidate.item),
+        }
     }
 
     /// Breaks the tie between the roots as close as the one at `t`.
@@ -289,7 +288,16 @@ impl Geometry for Instance {
 
     #[inline(always)]
     fn intersect_prim(&self, local: &LocalRay, prim_id: u32) -> Option<f64> {
-        triangle::root(&self.mesh.vertices(prim_id), &local.ray, &local.shear)
+        self.mesh.root(local, prim_id)
+    }
+
+    /// A shadow ray often ends on a triangle that is a light: its root is soon told to be no less.
+    #[inline(always)]
+    fn intersect_prim_before(&self, local: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+        if t_max < f64::INFINITY && self.mesh.is_beyond(local, prim_id, t_max) {
+            return None;
+        }
+        self.mesh.root(local, prim_id).filter(|t| *t < t_max)
     }
 
     fn is_in_place(&self) -> bool {

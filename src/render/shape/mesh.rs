@@ -3,9 +3,10 @@
 use crate::math::{Column, Shared, Vec3};
 use crate::render::accel::simd::SimdLevel;
 use crate::render::accel::wide::Wide;
+use crate::render::shape::geometry::LocalRay;
 use crate::render::shape::plain::real::Real;
 use crate::render::shape::plane::Normal;
-use crate::render::shape::triangle::{PlainTriangle, Triangle};
+use crate::render::shape::triangle::{self, PlainTriangle, Triangle};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
@@ -25,6 +26,10 @@ pub struct Attributes {
     pub colors: Column<4>,
 }
 
+/// So few triangles are kept prepared, as they stay in the caches; more are prepared when they are
+/// asked for, as rays wait for memory.
+pub(in crate::render) const FEW: usize = 1 << 14;
+
 /// A mesh ready to be hit.
 #[derive(Debug)]
 pub struct PreparedMesh {
@@ -34,6 +39,8 @@ pub struct PreparedMesh {
     positions: Column<3>,
     /// The corners of each triangle that has an area, by their numbers in the mesh.
     corners: Shared<[u32; 3]>,
+    /// The triangles, if they are few.
+    few: Vec<Triangle>,
     /// What its hierarchy is searched with.
     simd: SimdLevel,
     /// Built when a ray first asks for it: most meshes stand once, in the hierarchy of their
@@ -56,10 +63,17 @@ impl PreparedMesh {
         } else {
             triangles.iter().copied().filter(has_area).collect()
         };
+        let few = if corners.len() <= FEW {
+            let prepared = |corners: &[u32; 3]| Triangle::new(places(positions, *corners));
+            corners.iter().filter_map(prepared).collect()
+        } else {
+            Vec::new()
+        };
         Self {
             attributes,
             positions: positions.clone(),
             corners,
+            few,
             simd,
             hierarchy: OnceLock::new(),
         }
@@ -92,15 +106,39 @@ impl PreparedMesh {
     /// One of them.
     #[inline]
     pub(in crate::render) fn triangle(&self, triangle: u32) -> Triangle {
-        Triangle::with_area(self.vertices(triangle))
+        match self.few.get(triangle as usize) {
+            Some(triangle) => *triangle,
+            None => Triangle::with_area(self.vertices(triangle)),
+        }
+    }
+
+    /// The root above 0 of one of them, of a ray in its coordinates.
+    #[inline(always)]
+    pub(in crate::render) fn root(&self, ray: &LocalRay, triangle: u32) -> Option<f64> {
+        match self.few.get(triangle as usize) {
+            Some(triangle) => triangle.intersect(&ray.ray, &ray.shear),
+            None => triangle::root(&self.vertices(triangle), &ray.ray, &ray.shear),
+        }
+    }
+
+    /// Whether it is soon told that [`Self::root`] finds none below `t_max`.
+    #[inline(always)]
+    pub(in crate::render) fn is_beyond(&self, ray: &LocalRay, triangle: u32, t_max: f64) -> bool {
+        let triangle = self.few.get(triangle as usize);
+        triangle.is_some_and(|triangle| triangle.is_beyond(&ray.ray, t_max))
     }
 
     /// The hierarchy of the triangles, if there are any.
     pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
         let vertices = |item: u32| self.vertices(item);
-        self.hierarchy
-            .get_or_init(|| Wide::build(self.simd, self.count(), 0.0, vertices))
-            .as_ref()
+        let build = || {
+            let mut hierarchy = Wide::build(self.simd, self.count(), 0.0, vertices)?;
+            if !self.few.is_empty() {
+                hierarchy.forget_corners();
+            }
+            Some(hierarchy)
+        };
+        self.hierarchy.get_or_init(build).as_ref()
     }
 }
 

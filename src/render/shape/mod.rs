@@ -90,6 +90,13 @@ macro_rules! dispatch {
                 }
             }
 
+            #[inline]
+            fn intersect_prim_before(&self, ray: &LocalRay, prim_id: u32, t_max: f64) -> Option<f64> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Geometry>::intersect_prim_before(shape, ray, prim_id, t_max),)*
+                }
+            }
+
             fn is_in_place(&self) -> bool {
                 match self {
                     $(Self::$Name(shape) => <$Name as Geometry>::is_in_place(shape),)*
@@ -161,4 +168,4 @@ macro_rules! declare {
 
 shapes!(declare);
 
-const _: () = assert!(size_of::<Shape>() <= 192, "memory is what rays wait for");
+const _: () = assert!(size_of::<Shape>() == 192, "memory is what rays wait for");

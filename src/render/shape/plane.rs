@@ -1,7 +1,7 @@
 //! The plane: t from compensated dot products with the raw normal, accurate at any slope and
 //! distance.
 
-use crate::math::{Vec3, cross, dot, two_difference, unit_scale};
+use crate::math::{U, Vec3, cross, dot, two_difference, unit_scale};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
@@ -32,7 +32,7 @@ pub struct Plane {
 impl Normal {
     /// That of a vector, which must not be zero.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub(in crate::render) fn new(vector: Vec3) -> Self {
         let raw = unit_scale(vector).map_or(vector, |(scaled, _)| scaled);
         let square = dot(raw, raw);
@@ -45,7 +45,7 @@ impl Normal {
 
     /// That of a triangle, or `None` if its corners are in line.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub(in crate::render) fn of([a, b, c]: [Vec3; 3]) -> Option<Self> {
         let (first, _) = unit_scale(b - a)?;
         let (second, _) = unit_scale(c - a)?;
@@ -61,7 +61,7 @@ impl Normal {
     }
 
     /// The t of the plane through `anchor` along the ray; see [`Plane::parameter`].
-    #[inline]
+    #[inline(always)]
     fn parameter(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
         let slope = dot(self.raw, ray.direction);
         if slope == 0.0 {
@@ -71,7 +71,7 @@ impl Normal {
     }
 
     /// N·(anchor − p), as if in twice the precision.
-    #[inline]
+    #[inline(always)]
     fn distance(&self, anchor: Vec3, p: Vec3) -> f64 {
         let (x, x_error) = two_difference(anchor.x, p.x);
         let (y, y_error) = two_difference(anchor.y, p.y);
@@ -81,9 +81,24 @@ impl Normal {
 
     /// The root above 0 of the plane through `anchor`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub(in crate::render) fn intersect(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
         self.parameter(anchor, ray).filter(|t| *t > 0.0)
+    }
+
+    /// Whether plain arithmetic can tell that [`Self::intersect`] finds a root of at least `t_max`.
+    #[must_use]
+    #[inline]
+    pub(in crate::render) fn is_beyond(&self, anchor: Vec3, ray: &Ray, t_max: f64) -> bool {
+        let to_anchor = anchor - ray.origin;
+        let (distance, slope) = (self.raw.dot(to_anchor), self.raw.dot(ray.direction));
+        // Four roundings of the distance, three of the slope, or products below the normal numbers.
+        let sizes = self.raw.abs();
+        let distance_error = 5.0 * U * sizes.dot(to_anchor.abs()) + f64::MIN_POSITIVE;
+        let slope_error = 4.0 * U * sizes.dot(ray.direction.abs()) + f64::MIN_POSITIVE;
+        // The root itself may be wrong by 10 u.
+        let limit = (slope.abs() + slope_error) * (t_max * (1.0 + 16.0 * U));
+        distance.signum() == slope.signum() && distance.abs() - distance_error > limit
     }
 
     /// The point at `t`, moved onto the plane through `anchor`.
@@ -197,5 +212,51 @@ impl<R: Real> Plain<R> for PlainPlane<R> {
     #[inline]
     fn normal(&self, _: &PlainRay<R>, _: Vector<R>, _: u32) -> Vector<R> {
         self.normal
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::sampler::Key;
+
+    /// Limits within 64 u of the root: plain arithmetic is often right about them, and often wrong.
+    #[test]
+    fn a_plane_said_to_lie_beyond_has_no_root_before() {
+        let mut told = 0;
+        for index in 0..50_000 {
+            let key = Key::new([3, 5], index);
+            let vector = |k: u64| {
+                Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)) * 2.0 - 1.0
+            };
+            let (anchor, normal) = (vector(0), Normal::new(vector(3)));
+            let ray = Ray {
+                origin: vector(6),
+                direction: vector(9),
+            };
+            let Some(t) = normal.intersect(anchor, &ray) else {
+                continue;
+            };
+            let t_max = t * (1.0 + 64.0 * U * (key.uniform(12) * 2.0 - 1.0));
+            if normal.is_beyond(anchor, &ray, t_max) {
+                assert!(t >= t_max, "{index}: {t} {t_max}");
+                told += 1;
+            }
+        }
+        assert!(told > 2000, "{told}");
+    }
+
+    #[test]
+    fn a_plane_behind_the_ray_or_along_it_is_not_said_to_lie_beyond() {
+        let normal = Normal::new(Vec3::Z);
+        let is_beyond = |direction| {
+            let ray = Ray {
+                origin: Vec3::ZERO,
+                direction,
+            };
+            normal.is_beyond(Vec3::Z * 2.0, &ray, 1.0)
+        };
+        assert!(is_beyond(Vec3::Z));
+        assert!(!is_beyond(Vec3::NEG_Z) && !is_beyond(Vec3::Z * 3.0));
     }
 }

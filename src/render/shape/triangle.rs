@@ -107,12 +107,15 @@ pub(in crate::render) fn root(vertices: &[Vec3; 3], ray: &Ray, shear: &Shear) ->
     Normal::of(*vertices)?.intersect(vertices[0], ray)
 }
 
-/// A prepared triangle.
+/// A prepared triangle, of the size of two cache lines.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub struct Triangle {
     vertices: [Vec3; 3],
     normal: Normal,
 }
+
+const _: () = assert!(size_of::<Triangle>() == 128, "memory is what rays wait for");
 
 impl Triangle {
     /// The triangle, or `None` if its vertices are collinear.
@@ -147,6 +150,13 @@ impl Triangle {
         } else {
             None
         }
+    }
+
+    /// Whether plain arithmetic can tell that [`Self::intersect`] finds no root below `t_max`.
+    #[must_use]
+    #[inline]
+    pub(in crate::render) fn is_beyond(&self, ray: &Ray, t_max: f64) -> bool {
+        self.normal.is_beyond(self.vertices[0], ray, t_max)
     }
 
     /// The barycentric coordinates of a point of the triangle; they sum to 1.

@@ -5,6 +5,7 @@ use crate::render::accel::simd::SimdLevel;
 use crate::render::accel::wide::{Candidate, Wide};
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::{Geometry, LocalRay};
+use crate::render::shape::mesh::FEW;
 use crate::render::shape::triangle::{self, Shear};
 use crate::valid::{self, Proof};
 
@@ -71,6 +72,24 @@ impl<'walk, S: Geometry> FlattenedRay<'walk, S> {
         Some((t?, key))
     }
 
+    /// As [`Self::root`], of a root below `t_max` alone.
+    #[inline(always)]
+    pub(super) fn root_before(
+        &mut self,
+        candidate: &Candidate<'_>,
+        t_max: f64,
+    ) -> Option<(f64, (usize, u32))> {
+        if candidate.corners().is_some() {
+            return self.root(candidate).filter(|(t, _)| *t < t_max);
+        }
+        let key = self.flattened.key(candidate.item);
+        if key == self.from {
+            return None;
+        }
+        let (shape, local) = self.brought_to(key.0);
+        Some((shape.intersect_prim_before(local, key.1, t_max)?, key))
+    }
+
     /// Whether the ray starts at a triangle of the hierarchy.
     #[inline]
     pub(super) fn starts_at(&self, item: u32) -> bool {
@@ -115,8 +134,8 @@ impl Flattened {
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
         let mut hierarchy = Wide::build(simd, count, error_bound, corners)?;
-        // Corners in the world are those of a mesh that is not moved alone.
-        if !indices.iter().all(|surface| shape(*surface).is_in_place()) {
+        // Corners in the world are those of a mesh that is not moved alone; few are prepared.
+        if count <= FEW || !indices.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();
         }
         Some(Self { starts, hierarchy })

@@ -277,8 +277,7 @@ impl<S: Geometry> World<S> {
         if let Some(flattened) = &self.flattened {
             let mut triangles = FlattenedRay::new(&ray, from, &self.surfaces, flattened);
             let mut visit = |candidate: Candidate<'_>| {
-                let hit = triangles.root(&candidate).filter(|(t, _)| *t < t_max);
-                if let Some((t, (surface, prim_id))) = hit {
+                if let Some((t, (surface, prim_id))) = triangles.root_before(&candidate, t_max) {
                     transmittance *= pass(Hit {
                         t: t * unit,
                         surface,

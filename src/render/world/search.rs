@@ -45,8 +45,7 @@ impl<S: Geometry> Visitor for AnySearch<'_, S> {
 
     #[inline(always)]
     fn visit(&mut self, candidate: Candidate<'_>) -> f64 {
-        let root = self.triangles.root(&candidate);
-        self.is_hit = root.is_some_and(|(t, _)| t < self.t_max);
+        self.is_hit = self.triangles.root_before(&candidate, self.t_max).is_some();
         if self.is_hit { OVER } else { self.t_max }
     }
 
