@@ -1,11 +1,9 @@
 //! Directional albedos of the lobes, tabulated over cosine and roughness.
 //!
-//! The tables are integrated at first use, by the same functions that shade.
+//! The tables are in `albedo.bin`, for they take half a second to integrate. A test integrates them
+//! by the same functions that shade, and finds the same bits; `RTC_UPDATE=1 cargo test --lib albedo`
+//! writes the file.
 
-use super::fresnel::schlick;
-use super::ggx::Ggx;
-use super::sheen::integrated_albedo;
-use crate::math::Vec3;
 use std::sync::LazyLock;
 
 /// Entries along the cosine, denser towards grazing: entry i is at (i/(n − 1))².
@@ -14,14 +12,18 @@ const COSINES: usize = 32;
 /// Entries along the roughness.
 const ROUGHNESSES: usize = 64;
 
-/// Normals per entry.
-const NORMALS: u32 = 256;
+/// Entries of a table.
+const ENTRIES: usize = ROUGHNESSES * COSINES;
+
+/// Little-endian numbers, a row for each roughness: both terms of each entry of microfacets, then the
+/// albedos of sheen.
+static STORED: [u8; 3 * 8 * ENTRIES] = *include_bytes!("albedo.bin");
 
 /// The tables.
 pub(super) struct Tables {
     /// The terms of the albedo in f0 and in f90.
     specular: Vec<[f64; 2]>,
-    sheen: LazyLock<Vec<[f64; 2]>>,
+    sheen: Vec<[f64; 2]>,
     /// Means over the hemisphere, weighted by the cosine, per roughness.
     means: Vec<[f64; 2]>,
 }
@@ -43,7 +45,7 @@ impl Split {
     }
 }
 
-/// The tables, made at the first call.
+/// The tables, read at the first call.
 pub(super) fn tables() -> &'static Tables {
     static TABLES: LazyLock<Tables> = LazyLock::new(Tables::new);
     &TABLES
@@ -51,7 +53,11 @@ pub(super) fn tables() -> &'static Tables {
 
 impl Tables {
     fn new() -> Self {
-        let specular = table(integrated_specular);
+        let numbers = STORED.as_chunks().0.iter().copied();
+        let numbers = numbers.map(f64::from_le_bytes).collect::<Vec<_>>();
+        let (specular, sheen) = numbers.split_at(2 * ENTRIES);
+        let specular = specular.as_chunks().0.to_vec();
+        let sheen = sheen.iter().map(|albedo| [*albedo, 0.0]).collect();
         let mean = |row: &[[f64; 2]]| {
             // ∫ 2μ·E(μ) dμ with μ = x², by the midpoint rule over what look-ups will give.
             const STEPS: u32 = 512;
@@ -66,7 +72,7 @@ impl Tables {
         let means = specular.chunks(COSINES).map(mean).collect();
         Self {
             specular,
-            sheen: LazyLock::new(|| table(|r, cosine| [integrated_albedo(r, cosine), 0.0])),
+            sheen,
             means,
         }
     }
@@ -89,44 +95,6 @@ impl Tables {
     pub(super) fn sheen(&self, roughness: f64, cosine: f64) -> f64 {
         look_up(&self.sheen, roughness, cosine)[0]
     }
-}
-
-fn table(entry: impl Fn(f64, f64) -> [f64; 2]) -> Vec<[f64; 2]> {
-    let fraction = |k: usize, count: usize| k as f64 / (count - 1) as f64;
-    let cosine = |k: usize| (fraction(k, COSINES) * fraction(k, COSINES)).max(1e-6);
-    let row = |r: usize| (0..COSINES).map(move |k| (fraction(r, ROUGHNESSES), cosine(k)));
-    (0..ROUGHNESSES)
-        .flat_map(row)
-        .map(|(roughness, cosine)| entry(roughness, cosine))
-        .collect()
-}
-
-/// Both terms of the albedo, over visible normals of a rank-1 lattice.
-fn integrated_specular(roughness: f64, cosine: f64) -> [f64; 2] {
-    /// The inverse of the golden ratio.
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let ggx = Ggx::isotropic(roughness);
-    let wo = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
-    if ggx.is_smooth() {
-        return [1.0 - schlick(cosine), schlick(cosine)];
-    }
-    let mut sum = [0.0; 2];
-    for k in 0..NORMALS {
-        let k = f64::from(k) + 0.5;
-        // Place more samples in the long tail of the slopes, with smaller weights.
-        let rest = 1.0 - k / f64::from(NORMALS);
-        // Sample a visible normal, and reflect.
-        let h = ggx.visible_normal(wo, [1.0 - rest * rest, (k * GOLDEN).fract()]);
-        let cosine = wo.dot(h);
-        let wi = h * (2.0 * cosine) - wo;
-        if wi.z > 0.0 {
-            // f·cos θ/pdf for a lobe that reflects everything: G₂/G₁.
-            let weight = 4.0 * rest * wi.z * (wo.z + ggx.stretched(wo)) * ggx.visibility(wo, wi);
-            let grazing = schlick(cosine);
-            sum = [sum[0] + (1.0 - grazing) * weight, sum[1] + grazing * weight];
-        }
-    }
-    sum.map(|term| term / f64::from(NORMALS))
 }
 
 /// Interpolates bilinearly between four entries.
@@ -153,3 +121,6 @@ fn place(fraction: f64, count: usize) -> (usize, f64) {
     let entry = (scaled as usize).min(count - 2);
     (entry, scaled - entry as f64)
 }
+
+#[cfg(test)]
+mod tests;

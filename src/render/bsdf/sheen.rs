@@ -6,7 +6,7 @@
 use super::albedo::tables;
 use super::standard::Sheen;
 use crate::math::{Vec3, exp, pow};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// The fibres on a surface as one viewer sees them.
 #[derive(Clone, Copy, Debug)]
@@ -106,6 +106,7 @@ impl Charlie {
 }
 
 /// The albedo of white sheen by the midpoint rule over the hemisphere of directions.
+#[cfg(test)]
 pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
     const STEPS: u32 = 48;
     let charlie = Charlie::new(roughness);
@@ -119,5 +120,5 @@ pub(super) fn integrated_albedo(roughness: f64, cosine: f64) -> f64 {
             sum += charlie.f(wo, wi) * wi.z;
         }
     }
-    (sum * 2.0 * PI / f64::from(STEPS * STEPS)).min(1.0)
+    (sum * TAU / f64::from(STEPS * STEPS)).min(1.0)
 }
