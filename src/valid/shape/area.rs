@@ -4,6 +4,7 @@ use crate::math::{U, Vec3, cross, unit_scale};
 use crate::valid::check::SMALLEST;
 
 /// Whether three corners are not in line.
+#[inline]
 pub(in crate::valid) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
     let edges = [b - a, c - a];
     surely_spans(edges) || spans(edges)
@@ -12,12 +13,15 @@ pub(in crate::valid) fn has_area([a, b, c]: [Vec3; 3]) -> bool {
 /// Whether the rounded cross product proves that two edges span an area. Its error is at most 6 u
 /// times the product of their lengths. It suffices for nearly all triangles, and the exact product
 /// is much slower.
+#[inline(always)]
 fn surely_spans([first, second]: [Vec3; 2]) -> bool {
     let (p, q) = (first.abs().max_element(), second.abs().max_element());
     p.min(q) > 4.0 * SMALLEST && first.cross(second).abs().max_element() > 8.0 * U * p * q
 }
 
 /// Whether two edges span an area.
+#[cold]
+#[inline(never)]
 fn spans([first, second]: [Vec3; 2]) -> bool {
     let Some((first, p)) = unit_scale(first) else {
         return false;
