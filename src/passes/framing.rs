@@ -168,8 +168,8 @@ struct Subject<'scene> {
     surfaces: Vec<&'scene Surface>,
     /// The boxes around the meshes.
     boxes: Vec<[Vec3; 2]>,
-    /// Whether each mesh counts as the box around it.
-    is_boxed: bool,
+    /// The vertices of each mesh that triangles use; none where each mesh counts as the box around it.
+    vertices: Option<Vec<Vec<u32>>>,
     /// Whether surfaces are left out because others stand on them.
     has_ground: bool,
 }
@@ -182,13 +182,14 @@ impl<'scene> Subject<'scene> {
             !material.is_some_and(is_invisible)
         };
         let triangles =
-            |surface: &&Surface| mesh(scene, surface).map_or(0, |(mesh, _)| mesh.triangles.len());
+            |surface: &&Surface| mesh(scene, surface).map_or(0, |(mesh, ..)| mesh.triangles.len());
         let count = scene.surfaces.iter().map(|surface| triangles(&surface));
         let mut subject = Self {
             scene,
             surfaces: scene.surfaces.iter().filter(shows).collect(),
             boxes: scene.mesh_boxes(),
-            is_boxed: count.fold(0, usize::saturating_add) > TRIANGLES,
+            vertices: (count.fold(0, usize::saturating_add) <= TRIANGLES)
+                .then(|| scene.meshes.iter().map(used).collect()),
             has_ground: false,
         };
         if subject.surfaces.is_empty() {
@@ -236,31 +237,45 @@ impl<'scene> Subject<'scene> {
     /// Visits the corners of a surface; of one without any those of a box around it, of one without
     /// an end none.
     fn each_corner(&self, surface: &Surface, visit: &mut dyn FnMut(Vec3)) {
-        let Some((mesh, world)) = mesh(self.scene, surface).filter(|_| !self.is_boxed) else {
+        let placed = self.vertices.as_ref().zip(mesh(self.scene, surface));
+        let Some((vertices, (mesh, index, world))) = placed else {
             return surface.shape.corners_around(&self.boxes, visit);
         };
-        let corners = mesh
-            .triangles
-            .iter()
-            .flatten()
-            .map(|corner| *corner as usize);
-        for corner in corners.filter(|corner| *corner < mesh.positions.len()) {
-            visit(world.transform_point3(Vec3::from_array(mesh.positions.at(corner))));
+        for vertex in &vertices[index] {
+            let position = mesh.positions.at(*vertex as usize);
+            visit(world.transform_point3(Vec3::from_array(position)));
         }
     }
+}
+
+/// The vertices of a mesh that triangles use, of those that there are.
+fn used(mesh: &Mesh) -> Vec<u32> {
+    let mut is_used = vec![false; mesh.positions.len()];
+    for corner in mesh.triangles.iter().flatten() {
+        if let Some(is_used) = is_used.get_mut(*corner as usize) {
+            *is_used = true;
+        }
+    }
+    let all = (0_u32..).zip(is_used);
+    all.filter_map(|(vertex, is_used)| is_used.then_some(vertex))
+        .collect()
 }
 
 /// A box around nothing.
 const EMPTY: [Vec3; 2] = [Vec3::INFINITY, Vec3::NEG_INFINITY];
 
-/// The mesh of a surface and its place, if it is one.
-fn mesh<'scene>(scene: &'scene Scene, surface: &Surface) -> Option<(&'scene Mesh, DAffine3)> {
+/// The mesh of a surface, its index, and its place, if it is one.
+fn mesh<'scene>(
+    scene: &'scene Scene,
+    surface: &Surface,
+) -> Option<(&'scene Mesh, usize, DAffine3)> {
     let Shape::Instance(instance) = &surface.shape else {
         return None;
     };
-    let mesh = scene.meshes.get(instance.mesh.0 as usize)?;
+    let index = instance.mesh.0 as usize;
     Some((
-        mesh,
+        scene.meshes.get(index)?,
+        index,
         DAffine3::from_cols_array_2d(&instance.world_from_object),
     ))
 }
