@@ -156,6 +156,10 @@ fn values(
     report: &mut AssetReport<'_, '_>,
 ) -> Vec<usize> {
     let components = elements.layout.components();
+    let is_float = elements.layout.component.range().is_none();
+    if !is_float && accessor.min.is_none() && accessor.max.is_none() {
+        return Vec::new();
+    }
     let (mut least, mut most) = ([f64::INFINITY; 16], [f64::NEG_INFINITY; 16]);
     let mut bad = Vec::new();
     elements.each(|at, element| {
@@ -175,7 +179,6 @@ fn values(
         else {
             continue;
         };
-        let is_float = elements.layout.component.range().is_none();
         #[expect(
             clippy::cast_possible_truncation,
             reason = "bounds of floats are compared as floats"

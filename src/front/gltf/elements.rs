@@ -130,9 +130,45 @@ impl<'d> Elements<'d> {
         vector
     }
 
+    /// Where the elements are, and the bytes from one to the next, if none is replaced and each is one
+    /// column.
+    fn plain(&self) -> Option<(&'d [u8], usize)> {
+        self.base
+            .filter(|_| self.sparse.is_none() && self.layout.columns == 1)
+    }
+
     /// Calls `see` with each element in turn. Of sparse ones that don't rise, only those that do
     /// are put in place.
     pub(super) fn each(&self, mut see: impl FnMut(usize, &[f64])) {
+        let ElementLayout {
+            component, rows, ..
+        } = self.layout;
+        let (float, short, long) = (
+            |bytes| f64::from(f32::from_le_bytes(bytes)),
+            |bytes| f64::from(u16::from_le_bytes(bytes)),
+            |bytes| f64::from(u32::from_le_bytes(bytes)),
+        );
+        // What large meshes are made of is read without asking each time of what type it is.
+        match (component, rows, self.plain()) {
+            (Component::F32, 2, Some(all)) => {
+                records::<2, _, _>(all, float, |at, own| see(at, own))
+            }
+            (Component::F32, 3, Some(all)) => {
+                records::<3, _, _>(all, float, |at, own| see(at, own))
+            }
+            (Component::F32, 4, Some(all)) => {
+                records::<4, _, _>(all, float, |at, own| see(at, own))
+            }
+            (Component::U16, 1, Some(all)) => {
+                records::<1, _, _>(all, short, |at, own| see(at, own))
+            }
+            (Component::U32, 1, Some(all)) => records::<1, _, _>(all, long, |at, own| see(at, own)),
+            _ => self.each_by_layout(see),
+        }
+    }
+
+    /// As [`Self::each`], for elements of any layout.
+    fn each_by_layout(&self, mut see: impl FnMut(usize, &[f64])) {
         let (layout, mut element) = (self.layout, Element::default());
         let components = layout.components();
         let mut next = self.replaced().and_then(|indices| indices.get(0));
@@ -175,6 +211,13 @@ impl<'d> Elements<'d> {
     /// exactly.
     pub(super) fn column<const N: usize>(&self) -> Column<N> {
         let mut vectors = Vec::with_capacity(self.count);
+        let ElementLayout {
+            component, rows, ..
+        } = self.layout;
+        if let (Component::F32, Some(all)) = (component, self.plain().filter(|_| rows == N)) {
+            records::<N, _, _>(all, f32::from_le_bytes, |_, vector| vectors.push(*vector));
+            return vectors.into();
+        }
         #[expect(
             clippy::cast_possible_truncation,
             reason = "components are of 32 bits or are rounded to them"
@@ -202,12 +245,41 @@ impl<'d> Elements<'d> {
         integers
     }
 
+    /// The same in groups of `N`; what is left over is left out.
+    pub(super) fn groups<const N: usize>(&self) -> Vec<[u32; N]> {
+        let ElementLayout {
+            component, rows, ..
+        } = self.layout;
+        if let (Component::U32, 1, Some((bytes, 4))) = (component, rows, self.plain()) {
+            let groups = bytes.as_chunks::<4>().0.as_chunks::<N>().0.iter();
+            return groups.map(|group| group.map(u32::from_le_bytes)).collect();
+        }
+        self.integers().as_chunks().0.to_vec()
+    }
+
     /// What a component stands for (glTF 2.0, section 3.6.2.2).
     pub(super) fn fraction(&self, number: f64) -> f64 {
         match self.layout.component.range() {
             Some([_, most]) if self.layout.normalized => (number / most).max(-1.0),
             _ => number,
         }
+    }
+}
+
+/// Calls `see` with each of some records of `N` numbers, so many bytes after one another.
+#[inline(always)]
+fn records<const N: usize, const B: usize, T: Copy + Default>(
+    (bytes, stride): (&[u8], usize),
+    number: impl Fn([u8; B]) -> T,
+    mut see: impl FnMut(usize, &[T; N]),
+) {
+    for (at, record) in bytes.chunks(stride).enumerate() {
+        let mut numbers = [T::default(); N];
+        numbers
+            .iter_mut()
+            .zip(record.as_chunks().0)
+            .for_each(|(to, bytes)| *to = number(*bytes));
+        see(at, &numbers);
     }
 }
 

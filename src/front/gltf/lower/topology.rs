@@ -19,8 +19,12 @@ pub(super) fn triangles(
     primitive: &Primitive,
     vertices: usize,
 ) -> Option<Vec<[u32; 3]>> {
-    let indices = indices(doc, primitive, vertices)?;
-    let mut triangles = assemble(&indices, primitive.mode)?;
+    let mut triangles = match primitive.indices {
+        Some(index) if primitive.mode == TRIANGLES => {
+            Elements::of(doc, doc.accessors.get(index)?)?.groups()
+        }
+        _ => assemble(&indices(doc, primitive, vertices)?, primitive.mode)?,
+    };
     triangles.retain(|corners| corners.iter().all(|corner| (*corner as usize) < vertices));
     Some(triangles)
 }
@@ -101,17 +105,21 @@ pub(super) fn compact(
     has_to_be: bool,
 ) -> Option<Vec<u32>> {
     const UNUSED: u32 = u32::MAX;
+    let mut is_used = vec![false; vertices];
+    let corners = triangles.iter().flatten();
+    corners.for_each(|corner| is_used[*corner as usize] = true);
+    let used = is_used.into_iter().filter(|is_used| *is_used).count();
+    if !has_to_be && 4 * used > 3 * vertices {
+        return None;
+    }
     let mut renamed = vec![UNUSED; vertices];
-    let mut kept = Vec::new();
+    let mut kept = Vec::with_capacity(used);
     for corner in triangles.iter().flatten() {
         let slot = &mut renamed[*corner as usize];
         if *slot == UNUSED {
             *slot = super::mesh::to_u32(kept.len());
             kept.push(*corner);
         }
-    }
-    if !has_to_be && 4 * kept.len() > 3 * vertices {
-        return None;
     }
     triangles
         .iter_mut()
