@@ -49,17 +49,22 @@ pub fn load(
         Some(form) => {
             refuse_choices(&options.front, false, sink);
             let scene = codec::decode(form, file, map, sink)?;
+            map.release(file, 0);
             Some(Lowered {
                 scene,
                 origins: Origins::default(),
             })
         }
         None if gltf::recognise(map.name(file), map.bytes(file)) => {
-            gltf::lower(file, map, &options.front, sink)
+            let lowered = gltf::lower(file, map, &options.front, sink)?;
+            gltf::release(file, map);
+            Some(lowered)
         }
         None if mesh::recognise(map.name(file), map.bytes(file)) => {
             refuse_choices(&options.front, false, sink);
-            assets::alone(file, &options.front, map, sink)
+            let lowered = assets::alone(file, &options.front, map, sink)?;
+            map.release(file, 0);
+            Some(lowered)
         }
         None => {
             let draft = course::lower(file, map, &options.front, sink)?;

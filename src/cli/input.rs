@@ -176,11 +176,13 @@ impl Input {
         &mut self,
         change: impl FnOnce(&mut Lowered, &Provenance),
     ) -> Option<Proven> {
+        // What a file is, is seen from all of it, and loading may release some.
+        let is_asset = self.is_asset();
         let mut lowered = pipeline::load(self.file?, &mut self.map, &self.options, &mut self.sink)?;
         let mut provenance = Provenance {
-            is_asset: self.is_asset(),
-            is_lit_asset: self.is_asset() && lowered.scene.lights.iter().any(Light::shines),
-            is_unlit: self.is_asset() && lowered.scene.is_unlit(),
+            is_asset,
+            is_lit_asset: is_asset && lowered.scene.lights.iter().any(Light::shines),
+            is_unlit: is_asset && lowered.scene.is_unlit(),
             fill: FillLight::Never,
             framing: None,
         };

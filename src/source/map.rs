@@ -6,6 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
+/// How far into a file a NUL is looked for.
+const SNIFF: usize = 8192;
+
 /// Names one file of a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FileId(u32);
@@ -52,7 +55,9 @@ struct SourceFile {
     name: String,
     /// The folder it was read from, unless it came through a stream.
     folder: Option<Folder>,
+    /// All of them, or the first ones of a file that was released.
     bytes: Vec<u8>,
+    is_released: bool,
     /// Found when a line is first asked for: most files are never pointed at, and some are large
     /// and binary.
     line_starts: OnceLock<Vec<u32>>,
@@ -135,6 +140,7 @@ impl SourceMap {
             name,
             folder,
             bytes,
+            is_released: false,
             line_starts: OnceLock::new(),
         });
         id
@@ -158,11 +164,33 @@ impl SourceMap {
         &self.file(file).bytes
     }
 
+    /// Whether lines of the file mean something to a person. Latin-1 counts: its lines can be read
+    /// but for some letters.
+    #[must_use]
+    pub fn is_text(&self, file: FileId) -> bool {
+        let bytes = self.bytes(file);
+        !bytes[..bytes.len().min(SNIFF)].contains(&0) || self.text(file).is_some()
+    }
+
+    /// Gives back the memory of a binary file of which all was made that it is for; the first `kept`
+    /// bytes stay. A text stays whole, for findings quote it.
+    pub fn release(&mut self, file: FileId, kept: usize) {
+        let kept = kept.max(SNIFF);
+        if kept < self.bytes(file).len() && !self.is_text(file) {
+            let own = &mut self.files[file.0 as usize];
+            own.bytes.truncate(kept);
+            own.bytes.shrink_to_fit();
+            own.is_released = true;
+        }
+    }
+
     /// The text of the file, if it is UTF-8 and not a binary container.
     #[must_use]
     pub fn text(&self, file: FileId) -> Option<&str> {
-        let bytes = self.bytes(file);
-        std::str::from_utf8(bytes).ok()
+        let SourceFile {
+            bytes, is_released, ..
+        } = self.file(file);
+        std::str::from_utf8(bytes).ok().filter(|_| !is_released)
     }
 
     /// The text a span covers, with what is not UTF-8 replaced.
@@ -233,5 +261,22 @@ mod tests {
         assert_eq!(map.line_column(file, 5), LineColumn { line: 2, column: 3 });
         assert_eq!(map.slice(map.lines(file, 2, 2)), "ü-b\n");
         assert_eq!(map.line_column(file, 6), LineColumn { line: 2, column: 4 });
+    }
+
+    #[test]
+    fn a_released_file_stays_binary_and_a_text_stays_whole() {
+        let mut map = SourceMap::default();
+        let text = [b"\0 but UTF-8".to_vec(), vec![b'a'; 3 * SNIFF]].concat();
+        let binary = [text.clone(), vec![0xff]].concat();
+        for (bytes, kept, is_text) in [(&text, text.len(), true), (&binary, 2 * SNIFF, false)] {
+            let file = map.add("x", bytes.clone());
+            map.release(file, 2 * SNIFF);
+            let all = (
+                map.bytes(file).len(),
+                map.is_text(file),
+                map.text(file).is_some(),
+            );
+            assert_eq!(all, (kept, is_text, is_text));
+        }
     }
 }

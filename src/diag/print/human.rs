@@ -2,7 +2,7 @@
 //! `annotate-snippets`.
 
 use super::fold::Fold;
-use super::place::{FilePlace, is_text};
+use super::place::FilePlace;
 use super::text::{clean, clean_except};
 use super::window::{self, SourceWindow};
 use super::{PrintOptions, text};
@@ -111,7 +111,7 @@ fn snippet<'a>(run: &[Mark<'a>], map: &'a SourceMap) -> Vec<Element<'a>> {
         .find(|(_, kind)| *kind == AnnotationKind::Primary)
         .unwrap_or(&run[0])
         .0;
-    if !is_text(map, head.span.file)
+    if !map.is_text(head.span.file)
         || !run
             .iter()
             .all(|(label, _)| window::is_near(map, label.span))
@@ -146,7 +146,7 @@ fn without_source<'a>(run: &[Mark<'a>], place: &FilePlace) -> Vec<Element<'a>> {
 /// The hint as a change of the source, if it has one that can be shown.
 fn patch<'a>(hint: &'a Hint, map: &'a SourceMap) -> Option<Group<'a>> {
     let Replacement { span, text } = hint.replacement.as_ref()?;
-    if !is_text(map, span.file) || !window::fits(map, *span) {
+    if !map.is_text(span.file) || !window::fits(map, *span) {
         return None;
     }
     let window = SourceWindow::new(map, &[*span]);

@@ -2,12 +2,9 @@
 //! text.
 
 use super::text::clean;
-use crate::source::{FileId, SourceMap, Span};
+use crate::source::{SourceMap, Span};
 use serde::Serialize;
 use std::fmt;
-
-/// How far into a file a NUL is looked for.
-const SNIFF: usize = 8192;
 
 /// A place in a file.
 #[derive(Clone, Debug, Serialize)]
@@ -45,7 +42,7 @@ impl<'a> FilePlace<'a> {
                 column: at.column,
             }
         };
-        let text = is_text(map, file);
+        let text = map.is_text(file);
         Self {
             file: map.name(file),
             byte_start: start,
@@ -64,11 +61,4 @@ impl fmt::Display for FilePlace<'_> {
             None => write!(f, "{file}: byte {}", self.byte_start),
         }
     }
-}
-
-/// True if lines of the file mean something to a person. Latin-1 counts: its lines can be read but
-/// for some letters.
-pub(super) fn is_text(map: &SourceMap, file: FileId) -> bool {
-    let bytes = map.bytes(file);
-    !bytes[..bytes.len().min(SNIFF)].contains(&0) || map.text(file).is_some()
 }

@@ -33,6 +33,13 @@ pub(super) fn is_glb(name: &str, bytes: &[u8]) -> bool {
     bytes.starts_with(MAGIC) || bytes.get(16..20) == Some(JSON) || name.ends_with(".glb")
 }
 
+/// Where the text of a `.glb` ends, with the header of the chunk behind it.
+pub(super) fn text_end(bytes: &[u8]) -> usize {
+    let length = bytes.get(HEADER..).and_then(<[u8]>::first_chunk);
+    let length = length.map_or(0, |length| u32::from_le_bytes(*length));
+    HEADER + CHUNK_HEADER + length as usize + CHUNK_HEADER
+}
+
 /// Finds the parts of a `.glb`. `None` if there is no text; the sink says why.
 pub(super) fn open(file: FileId, bytes: &[u8], is_lenient: bool, sink: &mut Sink) -> Option<Parts> {
     let mut scan = Scan {

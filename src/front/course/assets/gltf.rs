@@ -62,6 +62,7 @@ impl Assets {
                 ..porter.options.clone()
             };
             let asset = gltf::lower(file, porter.map, &options, porter.sink)?;
+            gltf::release(file, porter.map);
             Some(add(asset, lowered))
         });
         let Some(asset) = asset else { return };
