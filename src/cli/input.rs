@@ -78,6 +78,7 @@ impl Input {
                 animation: animation.clone(),
                 variant: variant.clone(),
                 camera: camera.clone(),
+                threads: 0,
             },
             valid: valid::ProofOptions { limits },
         };
@@ -149,6 +150,11 @@ impl Input {
             ground: ground.map(|ground| ground == GroundArg::On),
         });
         Ok(input)
+    }
+
+    /// Loads it with so many threads, 0 for one per core.
+    pub(super) fn use_threads(&mut self, threads: usize) {
+        self.options.front.threads = threads;
     }
 
     /// Changes how it is shown.

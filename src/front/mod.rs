@@ -34,6 +34,8 @@ pub struct FrontOptions {
     /// Of a glTF asset: the camera, by its name, that of its node, or its index; the first one
     /// that shows anything without.
     pub camera: Option<String>,
+    /// How many threads decode the images of a glTF asset, 0 for one per core.
+    pub threads: usize,
 }
 
 /// A file asks for more than the budget has.

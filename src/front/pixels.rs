@@ -6,6 +6,8 @@ use crate::diag::{Diagnostic, codes};
 use crate::image::{DecodeCost, DecodeError, Opacity, PixelFile, Pixels, Radiance, RadianceFile};
 use crate::ir;
 use crate::source::{Budget, Exceeded, Resource};
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Why there is no picture.
 #[derive(Debug)]
@@ -30,6 +32,62 @@ pub fn decode(bytes: &[u8], opacity: Opacity, budget: &Budget) -> Result<Pixels,
     let file = PixelFile::open(bytes, opacity, budget.limit(Resource::Pixels))?;
     charge(file.cost(), budget)?;
     Ok(file.decode()?)
+}
+
+/// A pixel file that is charged, and still to be decoded.
+pub struct Admitted<'a> {
+    bytes: &'a [u8],
+    opacity: Opacity,
+    most_pixels: u64,
+    /// Bytes that decoding it takes beside its pixels.
+    scratch: u64,
+}
+
+/// Charges what a PNG, JPEG or WebP takes. Its decoder is not kept: it takes memory of its own.
+///
+/// # Errors
+/// As [`decode`], but for faults beyond its header.
+pub fn admit<'a>(
+    bytes: &'a [u8],
+    opacity: Opacity,
+    budget: &Budget,
+) -> Result<Admitted<'a>, Refused> {
+    let most_pixels = budget.limit(Resource::Pixels);
+    let cost = PixelFile::open(bytes, opacity, most_pixels)?.cost();
+    charge(cost, budget)?;
+    Ok(Admitted {
+        bytes,
+        opacity,
+        most_pixels,
+        scratch: cost.scratch,
+    })
+}
+
+impl Admitted<'_> {
+    fn decode(&self) -> Result<Pixels, DecodeError> {
+        PixelFile::open(self.bytes, self.opacity, self.most_pixels)?.decode()
+    }
+}
+
+/// Decodes files on so many threads, 0 for one per core; one after another where the budget, or the
+/// system, has no room for more. What comes of each does not depend on that.
+pub fn decode_all(
+    files: &[Admitted<'_>],
+    threads: usize,
+    budget: &Budget,
+) -> Vec<Result<Pixels, DecodeError>> {
+    let scratch = files.iter().map(|file| file.scratch).max().unwrap_or(0);
+    let has_room = |pool: &ThreadPool| {
+        let at_once = pool.current_num_threads().min(files.len()) as u64;
+        let scratch = scratch.saturating_mul(at_once);
+        budget.has(Resource::Memory, scratch).is_ok()
+    };
+    let pool = || ThreadPoolBuilder::new().num_threads(threads).build().ok();
+    let several = files.len() > 1 && threads != 1;
+    match several.then(pool).flatten().filter(has_room) {
+        Some(pool) => pool.install(|| files.par_iter().map(Admitted::decode).collect()),
+        None => files.iter().map(Admitted::decode).collect(),
+    }
 }
 
 /// Decodes a Radiance HDR or OpenEXR file.

@@ -10,6 +10,7 @@ use rtc::diag::{Severity, Sink};
 use std::collections::BTreeSet;
 
 mod hostile;
+mod images;
 mod lowering;
 
 mod make;

@@ -356,3 +356,42 @@ pub(super) fn texture() -> Vec<u8> {
         "images": [{"name": "two", "uri": format!("data:image/png;base64,{PNG}")}],
     }))
 }
+
+/// A triangle for each of some square images of these sides, of which one may be cut short.
+pub(super) fn images(sides: &[u32], cut: Option<usize>) -> Vec<u8> {
+    let mut maker = Maker::default();
+    let triangle = maker.floats("VEC3", 3, &TRIANGLE);
+    let uvs = maker.floats("VEC2", 2, &[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    let attributes = json!({"POSITION": triangle, "TEXCOORD_0": uvs});
+    let of_each = |part: &dyn Fn(usize) -> Value| (0..sides.len()).map(part).collect::<Value>();
+    let image = |index: usize| {
+        let mut png = squares(sides[index]);
+        if cut == Some(index) {
+            png.truncate(png.len() / 2);
+        }
+        json!({"uri": format!("data:image/png;base64,{}", STANDARD.encode(png))})
+    };
+    let base =
+        |index: usize| json!({"pbrMetallicRoughness": {"baseColorTexture": {"index": index}}});
+    maker.finish(json!({
+        "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives":
+            of_each(&|index| json!({"attributes": attributes, "material": index}))}],
+        "materials": of_each(&base),
+        "textures": of_each(&|index| json!({"source": index})),
+        "images": of_each(&image),
+    }))
+}
+
+/// A PNG of so many pixels a side, no two rows of it alike.
+fn squares(side: u32) -> Vec<u8> {
+    let pixel = |index: u32| [index / side, index % side, 3].map(|level| f64::from(level) / 255.0);
+    let pixels = (0..side * side).map(pixel).collect();
+    let image = rtc::image::Image {
+        width: side,
+        height: side,
+        pixels,
+    };
+    let picture = rtc::image::Picture::opaque(image);
+    picture.encode(&rtc::image::FileFormat::Png8).unwrap()
+}

@@ -56,6 +56,7 @@ pub(super) fn run(args: &args::Render) -> Result<(), Failure> {
     let mut plan = RenderSetup::new(args)?;
     let mut talk = Talk::beside_result(&args.talk);
     let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
+    input.use_threads(plan.threads);
     input.restage(|stage| {
         stage.all_around = args.turntable.is_some();
         if args.look.background == BackgroundFill::Transparent {

@@ -6,8 +6,8 @@ use super::features;
 use super::field::Fields;
 use super::report::AssetReport;
 use crate::diag::{Code, codes};
-use crate::front::pixels::{self, Refused};
-use crate::image::{DecodeError, Opacity};
+use crate::front::pixels::{self, Admitted, Refused};
+use crate::image::{DecodeError, Opacity, Pixels};
 use crate::ir;
 use crate::source::tree::{NodeId, NodeKind};
 use crate::source::{Budget, Exceeded};
@@ -159,8 +159,10 @@ pub(super) fn check(doc: &Document<'_>, purposes: &mut Purposes, report: &mut As
 /// Why an image is refused: a code, the validator's name for it, and words.
 type Fault = (&'static Code, &'static str, String);
 
-/// Looks at the bytes of each image, and decodes them; images of the same bytes are one picture.
-pub(super) fn inspect(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) {
+/// Looks at the bytes of each image, and decodes them on so many threads, 0 for one per core; images
+/// of the same bytes are one picture.
+pub(super) fn inspect(doc: &mut Document<'_>, threads: usize, report: &mut AssetReport<'_, '_>) {
+    let mut decoded = decoded(doc, threads, report.budget);
     let mut known: BTreeMap<Stretch, Result<usize, Fault>> = BTreeMap::new();
     for index in 0..doc.images.len() {
         let image = &doc.images[index];
@@ -191,13 +193,16 @@ pub(super) fn inspect(doc: &mut Document<'_>, report: &mut AssetReport<'_, '_>) 
         let own = stretch(bytes);
         let picture = match known.get(&own) {
             Some(picture) => picture.clone(),
-            None => match picture(format, bytes, report.budget) {
-                Ok(picture) => {
+            None => match decoded.remove(&own) {
+                Some(Ok(picture)) => {
                     doc.pictures.push(picture);
                     Ok(doc.pictures.len() - 1)
                 }
-                Err(Refusal::Limit(fault)) => return report.exceeded(at, "the image", &fault),
-                Err(Refusal::Fault(fault)) => Err(fault),
+                Some(Err(Refusal::Limit(fault))) => {
+                    return report.exceeded(at, "the image", &fault);
+                }
+                Some(Err(Refusal::Fault(fault))) => Err(fault),
+                None => unreachable!("`decoded` leaves out only what comes after a limit"),
             },
         };
         match &picture {
@@ -246,8 +251,46 @@ enum Refusal {
     Limit(Exceeded),
 }
 
-/// Decodes an image within the budget of the run.
-fn picture(format: ImageCoding, bytes: &[u8], budget: &Budget) -> Result<ir::Image, Refusal> {
+/// What becomes of the bytes of images, up to the first that asks for too much: all are charged, in
+/// their order, before any is decoded.
+fn decoded(
+    doc: &Document<'_>,
+    threads: usize,
+    budget: &Budget,
+) -> BTreeMap<Stretch, Result<ir::Image, Refusal>> {
+    let (mut pictures, mut admitted) = (BTreeMap::new(), BTreeMap::new());
+    let images = doc.images.iter().filter_map(|image| doc.image_bytes(image));
+    for (bytes, format) in images.filter_map(|bytes| Some((bytes, ImageCoding::of(bytes)?))) {
+        let own = stretch(bytes);
+        if pictures.contains_key(&own) || admitted.contains_key(&own) {
+            continue;
+        }
+        match admit(format, bytes, budget) {
+            Ok(file) => {
+                admitted.insert(own, file);
+            }
+            Err(refusal) => {
+                let is_over = matches!(refusal, Refusal::Limit(_));
+                pictures.insert(own, Err(refusal));
+                if is_over {
+                    break;
+                }
+            }
+        }
+    }
+    let (places, files): (Vec<_>, Vec<_>) = admitted.into_iter().unzip();
+    let made = pixels::decode_all(&files, threads, budget).into_iter();
+    let made = made.map(|pixels| pixels.map(picture).map_err(|fault| Refusal::of(&fault)));
+    pictures.extend(places.into_iter().zip(made));
+    pictures
+}
+
+/// Charges an image to the budget of the run.
+fn admit<'a>(
+    format: ImageCoding,
+    bytes: &'a [u8],
+    budget: &Budget,
+) -> Result<Admitted<'a>, Refusal> {
     if format.ends_early(bytes) {
         let message = "the image ends before it tells its size".to_owned();
         return Err(Refusal::Fault((
@@ -256,22 +299,31 @@ fn picture(format: ImageCoding, bytes: &[u8], budget: &Budget) -> Result<ir::Ima
             message,
         )));
     }
-    let pixels = pixels::decode(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
+    pixels::admit(bytes, Opacity::Kept, budget).map_err(|refused| match refused {
         Refused::Limit(fault) => Refusal::Limit(fault),
-        Refused::File(fault) => {
-            let (code, alias) = match fault {
-                DecodeError::TooLarge {
-                    width: _,
-                    height: _,
-                } => (&codes::GLTF_HUGE_IMAGE, ""),
-                DecodeError::Format(_) | DecodeError::Damaged(_) => {
-                    (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
-                }
-            };
-            Refusal::Fault((code, alias, format!("the image {fault}")))
-        }
-    })?;
-    Ok(ir::Image {
+        Refused::File(fault) => Refusal::of(&fault),
+    })
+}
+
+impl Refusal {
+    /// That an image can't be decoded.
+    fn of(fault: &DecodeError) -> Self {
+        let (code, alias) = match fault {
+            DecodeError::TooLarge {
+                width: _,
+                height: _,
+            } => (&codes::GLTF_HUGE_IMAGE, ""),
+            DecodeError::Format(_) | DecodeError::Damaged(_) => {
+                (&codes::GLTF_IMAGE, "IMAGE_DATA_INVALID")
+            }
+        };
+        Self::Fault((code, alias, format!("the image {fault}")))
+    }
+}
+
+/// A picture without a name.
+fn picture(pixels: Pixels) -> ir::Image {
+    ir::Image {
         name: String::new(),
         width: pixels.width,
         height: pixels.height,
@@ -281,5 +333,5 @@ fn picture(format: ImageCoding, bytes: &[u8], budget: &Budget) -> Result<ir::Ima
             ir::Pixels::Rgb8
         },
         pixels: pixels.bytes.into(),
-    })
+    }
 }

@@ -120,7 +120,8 @@ pub fn lower(
     let doc = shape(&tree, parts.is_glb, &mut report).filter(|_| parts.is_whole)?;
     let search = Search::new(map.folder(file), options.asset_root.as_deref());
     let chunk = parts.bin.map(|range| &bytes[range]);
-    let doc = fill(doc, chunk, Resources::new(search, map), &mut report);
+    let resources = Resources::new(search, map);
+    let doc = fill(doc, chunk, resources, options.threads, &mut report);
     let lowered = (!report.has_errors()).then(|| lower::lower(&doc, options, &mut report));
     lowered.filter(|_| !report.has_errors())
 }
@@ -209,6 +210,7 @@ fn fill<'s>(
     mut doc: Document<'s>,
     chunk: Option<&'s [u8]>,
     mut resources: Resources<'_>,
+    threads: usize,
     report: &mut AssetReport<'_, 's>,
 ) -> Document<'s> {
     resources.bring_buffers(&mut doc, chunk, report);
@@ -218,7 +220,7 @@ fn fill<'s>(
     draco::expand(&mut doc, report);
     accessor::check_claims(&doc, report);
     contents::check(&doc, demands, report);
-    image::inspect(&mut doc, report);
+    image::inspect(&mut doc, threads, report);
     texture::check(&doc, report);
     doc
 }
