@@ -16,11 +16,9 @@ use std::time::{Duration, Instant};
 /// Studies the scene and writes the report.
 pub(super) fn run(args: &args::Cost) -> Result<(), Failure> {
     let mut talk = Talk::beside_result(&args.talk);
-    let outcome = carry_out(
-        args,
-        &mut Input::staged(&args.file, &args.reading, &args.stage)?,
-        &mut talk,
-    );
+    let mut input = Input::staged(&args.file, &args.reading, &args.stage)?;
+    input.use_threads(threads(args));
+    let outcome = carry_out(args, &mut input, &mut talk);
     talk.finish()?;
     outcome
 }
@@ -50,6 +48,11 @@ fn carry_out(args: &args::Cost, input: &mut Input, talk: &mut Talk) -> Result<()
     output.commit(report.as_bytes(), &interrupt)
 }
 
+/// How many threads work, 0 for one per core.
+fn threads(args: &args::Cost) -> usize {
+    args.threads.map_or(0, usize::from)
+}
+
 #[expect(
     clippy::disallowed_methods,
     reason = "the study is handed the clock from here"
@@ -65,7 +68,7 @@ fn measure(
     let wall = || start.elapsed();
     let on_pixel = |_| !interrupt.is_raised();
     let bench = Bench::new(
-        args.threads.map_or(0, usize::from),
+        threads(args),
         Clock {
             cpu: &cpu,
             wall: &wall,
