@@ -4,8 +4,8 @@
 # row is that of fewer than 19 of 20. On two cores it was the same in all of 20.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-rtc=${RTC:-target/release/rtc}
-[ -n "${RTC:-}" ] || cargo build --release --quiet
+. benches/driver.sh
+rtc=$(rtc)
 runs=${1:-20} scene=${2:-scenes/mirrors.yaml}
 loops=() out=$(mktemp)
 trap 'kill "${loops[@]}"; rm -f "$out"' EXIT

@@ -3,17 +3,17 @@
 # repo, or for the scenes given; and how many pixels the plain ones change. Instructions too where valgrind is at hand.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release --quiet --example arithmetic
-example=target/release/examples/arithmetic
+. benches/driver.sh
+driver=$(driver arithmetic)
 scenes=("$@")
 [ ${#scenes[@]} -gt 0 ] || scenes=(scenes/*.yaml)
 
-"$example" --cost "${REPEATS:-5}" "${scenes[@]}"
+"$driver" --cost "${REPEATS:-5}" "${scenes[@]}"
 if command -v valgrind >/dev/null; then
     for scene in "${scenes[@]:0:3}"; do
         for arithmetic in robust plain f32; do
             count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect='*::render_with*' \
-                "$example" --once "$arithmetic" "$scene" 2>&1 | sed -n 's/.*Collected : //p')
+                "$driver" --once "$arithmetic" "$scene" 2>&1 | sed -n 's/.*Collected : //p')
             printf '%-45s %-6s %s instructions\n' "$(basename "$scene" .yaml)" "$arithmetic" "$count"
         done
     done

@@ -4,9 +4,9 @@
 # meshes are built (limit: 100), and those of a glTF asset beside them. CPU time is kinder to a busy machine than the clock.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release --quiet --bin rtc --example big_asset
-rtc=target/release/rtc
-asset=target/release/examples/big_asset
+. benches/driver.sh
+rtc=$(rtc)
+asset=$(driver big_asset)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 

@@ -1,17 +1,17 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # What checking costs: instructions from text to proof for 5 000 spheres, and peak memory above the text for 50 000; what
 # planning the picture of those costs: instructions of 5 000, time of 50 000. Limits: 450 million instructions, 60 MB.
-# Needs valgrind; builds the example `check_cost` in release mode.
-set -eu
+# Needs valgrind; builds the driver `check_cost` in release mode.
+set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --quiet --release --example check_cost
-example=target/release/examples/check_cost
+. benches/driver.sh
+driver=$(driver check_cost)
 out=$(mktemp)
 trap 'rm -f "$out"' EXIT
 instructions() {
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect="*check_cost*$1*" "$example" 5000 2>"$out" >/dev/null
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect="*check_cost*$1*" "$driver" 5000 2>"$out" >/dev/null
     sed -n 's/.*Collected : //p' "$out"
 }
 echo "instructions, 5000 spheres: $(instructions text_to_proof)"
 echo "instructions of the plan, 5000 spheres: $(instructions proof_to_plan)"
-"$example" 50000
+"$driver" 50000

@@ -3,8 +3,8 @@
 # CPU-second, and what was found in it. `gallery-gltf.sh [FOLDER [ARGUMENTS OF RENDER]]`; fails if an asset has no picture.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-rtc=${RTC:-target/release/rtc}
-[ -n "${RTC:-}" ] || cargo build --release --quiet
+. benches/driver.sh
+rtc=$(rtc)
 folder=${1:-../shared/gltf/assets}
 [ -d "$folder" ] || { echo "no folder $folder: nothing to show" && exit 0; }
 size=${SIZE:-256} spp=${SPP:-64} out=target/gallery/gltf

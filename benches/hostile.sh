@@ -4,13 +4,14 @@
 # Exits with 1 if a run took a CPU-second or more, or ended otherwise than expected.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release --quiet --bin rtc --example hostile
-rtc=${RTC:-$PWD/target/release/rtc}
+. benches/driver.sh
+rtc=$(rtc)
+hostile=$(driver hostile)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 export RAYON_NUM_THREADS=2
 
-target/release/examples/hostile "$out/files" >"$out/list"
+"$hostile" "$out/files" >"$out/list"
 echo "| what was tried | bytes | outcome | CPU seconds | peak MiB |"
 echo "| --- | ---: | --- | ---: | ---: |"
 faults=0

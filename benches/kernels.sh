@@ -7,10 +7,11 @@
 # `benches/kernels.sh >benches/kernels.md` makes the table that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. benches/driver.sh
 mkdir -p target/kernels
 CARGO_TARGET_DIR=target/kernels CARGO_PROFILE_RELEASE_LTO=off cargo rustc --quiet --release --lib -- \
     -C symbol-mangling-version=v0 --emit obj=target/kernels/rtc.o
-cargo build --quiet --release --example kernels
+kernels=$(driver kernels)
 
 cat <<'END'
 # Kernels
@@ -94,7 +95,6 @@ table("sum_paths_with", "PathFeatures", {
 }, 6)
 sys.exit("\n".join(wrong) or 0)
 END
-kernels=target/release/examples/kernels
 count() {
     valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect="$4" \
         "$kernels" "$1" "$2" "$3" 2>&1 | sed -n 's/.*Collected : //p'

@@ -4,11 +4,12 @@
 # >benches/paths.md` makes the table that is kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. benches/driver.sh
 shared=../shared/gltf samples=${1:-64} seconds=2
 [ -d "$shared" ] || { echo "no $shared here" >&2; exit 0; }
-cargo build --release --quiet --example paths
+paths=$(driver paths)
 # Cycles: samples per CPU-second in millions, peak of memory in MB.
-row() { ./target/release/examples/paths "$1" "$2" ${5:-} | sed "s/\$/ $3 | $4 |/"; }
+row() { "$paths" "$1" "$2" ${5:-} | sed "s/\$/ $3 | $4 |/"; }
 cat <<END
 # Paths
 

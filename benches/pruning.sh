@@ -4,8 +4,8 @@
 # byte.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release --quiet
-rtc=target/release/rtc
+. benches/driver.sh
+rtc=$(rtc)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 folder=../shared/course/scenes

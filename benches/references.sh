@@ -4,14 +4,15 @@
 # 256 × 256 pixels, as many samples as the argument says, 256 without; fails where a gate is missed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+. benches/driver.sh
 refs=../shared/gltf/refs samples=${1:-256} failed=0
 [ -d "$refs" ] || { echo "no $refs here" >&2; exit 0; }
-cargo build --release --quiet --example compare
+compare=$(driver compare)
 
 echo '| reference | mean off by | gate | relMSE | block p95 | gate |'
 echo '| --- | --: | --: | --: | --: | --: |'
 while read -r name mean block; do
-    line=$(./target/release/examples/compare "$refs/$name.json" "$samples")
+    line=$("$compare" "$refs/$name.json" "$samples")
     field() { sed "s/.*\"$1\":\([-+.0-9e]*\).*/\1/" <<<"$line"; }
     read -r off square p95 < <(awk -v off="$(field mean_off)" -v square="$(field rel_mse)" -v p95="$(field block_p95)" \
         'BEGIN { print 100 * off, square, 100 * p95 }')

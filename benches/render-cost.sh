@@ -3,13 +3,14 @@
 # bounces. Prints rays, CPU seconds and instructions; only instructions are the same on a busy machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo build --release --quiet
+. benches/driver.sh
+rtc=$(rtc)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
 TIMEFORMAT='CPU seconds: %U'
-time ./target/release/rtc render --threads 1 scenes/camera.yaml -o "$out/camera.png"
+time "$rtc" render --threads 1 scenes/camera.yaml -o "$out/camera.png"
 if command -v valgrind >/dev/null; then
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null ./target/release/rtc render -q --threads 1 \
+    valgrind --tool=callgrind --callgrind-out-file=/dev/null "$rtc" render -q --threads 1 \
         --size 100x100 scenes/camera.yaml -o "$out/small.png" 2>&1 | sed -n 's/.*Collected : /instructions at 100 × 100: /p'
 fi

@@ -5,8 +5,8 @@
 # page that is kept; LIST=1 names each file that differs on stderr.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-rtc=${RTC:-target/release/rtc}
-[ -n "${RTC:-}" ] || cargo build --release --quiet
+. benches/driver.sh
+rtc=$(rtc)
 [ -d ../shared/gltf ] || { echo "no folder ../shared/gltf: nothing to compare" >&2 && exit 0; }
 work=target/validator
 mkdir -p "$work"

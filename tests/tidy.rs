@@ -85,11 +85,18 @@ fn relative(path: &Path) -> String {
 }
 
 fn all_files() -> Vec<(String, String)> {
-    ["src", "tests", "benches", "fuzz/fuzz_targets"]
-        .into_iter()
-        .filter(|folder| root().join(folder).exists())
-        .flat_map(rust_files)
-        .collect()
+    [
+        "src",
+        "tests",
+        "benches",
+        "examples",
+        "scenes",
+        "fuzz/fuzz_targets",
+    ]
+    .into_iter()
+    .filter(|folder| root().join(folder).exists())
+    .flat_map(rust_files)
+    .collect()
 }
 
 /// The floor of a room; none for the names of things in the root of the crate.

@@ -1,4 +1,4 @@
-//! Assets and the set-ups of their references, for the examples that measure: a JSON file names the
+//! Assets and the set-ups of their references, for the drivers that measure: a JSON file names the
 //! asset, the camera and the lights.
 
 #![expect(
