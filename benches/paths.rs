@@ -1,134 +1,69 @@
-//! How fast paths are traced: `paths FILE [SAMPLES [SECONDS]]` renders an asset, or the set-up of a
-//! reference, in 512 × 512 pixels with paths of 8 bounces on one thread.
+//! A picture of a set-up by paths, on one thread: `paths SETUP.json SAMPLES SEED OUT` writes its
+//! pixels to OUT, row by row, three little-endian f32 each, linear. Another seed is another noise.
 //!
-//! One row of Markdown comes out: triangles, camera samples per CPU-second, CPU-seconds from the
-//! start of the process to the picture, the peak of memory until then; and, if `SECONDS` are given,
-//! the error a picture of 256 × 256 pixels has after so much CPU time, measured against one of 16
-//! times the samples and other random numbers.
+//! One line of JSON comes out: triangles, camera samples, seconds of the clock and CPU-seconds of
+//! rendering, without what is prepared before; CPU-seconds of the process; its peak of memory in MB.
 
 #![expect(
     clippy::unwrap_used,
     clippy::print_stdout,
     clippy::disallowed_methods,
-    reason = "a measurement stops at the first surprise, and asks the system what it took"
+    reason = "a measurement stops at the first surprise, has a clock, reads and writes"
 )]
 
 mod setup;
 
 use cpu_time::ProcessTime;
-use rtc::diag::Sink;
-use rtc::ir::{Lowered, Mode, Scene};
-use rtc::passes::Stage;
-use rtc::pipeline;
+use rtc::pipeline::Renderer;
 use rtc::plan::{Plan, Rules};
 use rtc::render::{Film, Job, Seeds, Values};
 use rtc::valid::{Proof, Shape, Surface};
+use serde_json::json;
 use std::path::Path;
-
-/// Pixels along each side, where the speed is measured and where the error is.
-const SIDES: [u32; 2] = [512, 256];
-
-/// Samples of the picture an error is measured against, to those of the other: their noise is so
-/// much less.
-const LONGER: u32 = 16;
-
-const BOUNCES: u32 = 8;
+use std::time::Instant;
 
 fn main() {
-    let mut arguments = std::env::args().skip(1);
-    let path = arguments.next().expect("usage: paths FILE [SAMPLES]");
-    let samples = arguments
-        .next()
-        .map_or(64, |samples| samples.parse().unwrap());
-    let path = Path::new(&path);
-    let seconds = arguments
-        .next()
-        .map(|seconds| seconds.parse::<f64>().unwrap());
-    let mut lowered = if path
-        .extension()
-        .is_some_and(|extension| extension == "json")
-    {
-        setup::load_set_up(path, samples)
-    } else {
-        let mut lowered = setup::load(path);
-        pipeline::stage(&mut lowered, &Stage::default(), true, &mut Sink::default());
-        lowered
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let [path, samples, seed, out] = &arguments[..] else {
+        panic!("usage: paths SETUP.json SAMPLES SEED OUT");
     };
-    resize(&mut lowered.scene, SIDES[0], samples);
+    let lowered = setup::load_set_up(Path::new(path), samples.parse().unwrap());
     let proof = setup::prove(&lowered);
-    let start = ProcessTime::now();
-    let film = render(&proof, 0);
-    let (took, whole) = (
-        start.elapsed().as_secs_f64(),
-        ProcessTime::now().as_duration().as_secs_f64(),
-    );
-    let peak = peak().map_or("–".to_owned(), |megabytes| format!("{megabytes:.0}"));
-    let (rate, name) = (
-        film.counts.camera as f64 / took,
-        path.file_stem().unwrap().to_string_lossy(),
-    );
-    let error = seconds.map_or("–".to_owned(), |seconds| {
-        format!("{:.5}", error_after(rate * seconds, &mut lowered))
-    });
-    let (triangles, rate) = (triangles(&proof), rate / 1e6);
-    println!("| {name} | {triangles} | {samples} | {rate:.2} | {whole:.1} | {peak} | {error} |");
-}
-
-/// The error of a picture of so many samples in all.
-fn error_after(samples: f64, lowered: &mut Lowered) -> f64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a few thousand at most"
-    )]
-    let samples = (samples / f64::from(SIDES[1] * SIDES[1])).round().max(1.0) as u32;
-    resize(&mut lowered.scene, SIDES[1], samples);
-    let film = render(&setup::prove(lowered), 0);
-    resize(&mut lowered.scene, SIDES[1], LONGER * samples);
-    relative_error(&film, &render(&setup::prove(lowered), 1))
-}
-
-/// The same view in pixels and paths of the number wanted.
-fn resize(scene: &mut Scene, side: u32, samples: u32) {
-    let shrink = f64::from(scene.camera.size[1]) / f64::from(side);
-    scene.camera.right = scene.camera.right.map(|x| x * shrink);
-    scene.camera.up = scene.camera.up.map(|x| x * shrink);
-    scene.camera.size = [side; 2];
-    scene.settings.max_depth = BOUNCES;
-    if let Mode::Path(paths) = &mut scene.settings.mode {
-        paths.samples = samples;
-    }
-}
-
-fn render(proof: &Proof, seed: u64) -> Film {
-    let seeds = Seeds {
-        pixel: seed,
-        lens: seed,
-        path: seed,
-    };
+    let seed = seed.parse().unwrap();
     let job = Job {
         values: Values::Linear,
-        seeds,
+        seeds: Seeds {
+            pixel: seed,
+            lens: seed,
+            path: seed,
+        },
         ..Job::default()
     };
-    pipeline::render(proof, &Plan::new(proof, Rules::ALL), &job, 1, &|_| true)
-        .unwrap()
-        .unwrap()
+    let renderer = Renderer::new(&proof, &Plan::new(&proof, Rules::ALL), 1).unwrap();
+    let (clock, cpu) = (Instant::now(), ProcessTime::now());
+    let film = renderer.render(&job, &|_| true).unwrap();
+    let (clock, cpu) = (clock.elapsed(), cpu.elapsed());
+    std::fs::write(out, bytes(&film)).unwrap();
+    let row = json!({
+        "triangles": triangles(&proof),
+        "samples": film.counts.camera,
+        "render_s": clock.as_secs_f64(),
+        "render_cpu_s": cpu.as_secs_f64(),
+        "process_cpu_s": ProcessTime::now().as_duration().as_secs_f64(),
+        "peak_mb": peak(),
+    });
+    println!("{row}");
 }
 
-/// The mean of `(a − b)² / (b² + 0.01)`.
-fn relative_error(film: &Film, truth: &Film) -> f64 {
-    let channels = || {
-        film.image
-            .pixels
-            .iter()
-            .flatten()
-            .zip(truth.image.pixels.iter().flatten())
-    };
-    channels()
-        .map(|(a, b)| (a - b) * (a - b) / (b * b + 0.01))
-        .sum::<f64>()
-        / channels().count() as f64
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "as precise as what they are compared with"
+)]
+fn bytes(film: &Film) -> Vec<u8> {
+    let numbers = film.image.pixels.iter().flatten();
+    numbers
+        .flat_map(|number| (*number as f32).to_le_bytes())
+        .collect()
 }
 
 fn triangles(proof: &Proof) -> usize {
@@ -142,7 +77,7 @@ fn triangles(proof: &Proof) -> usize {
     proof.surfaces().iter().map(of).sum()
 }
 
-/// The most memory the process has held so far, in megabytes, where the system tells.
+/// The most memory the process has held so far, in MB, where the system tells.
 fn peak() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

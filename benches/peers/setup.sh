@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Brings the peers: Embree, Mitsuba and Cycles into a Python environment of their own in target/peers, which bpy wants to be
+# Python 3.11 (PYTHON names another one), and POV-Ray by the packages of Debian. Done once; later it takes no time.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+venv=target/peers/venv
+if [ ! -e "$venv/ready" ]; then
+    "${PYTHON:-python3.11}" -m venv "$venv"
+    "$venv/bin/pip" install --quiet --disable-pip-version-check \
+        embreex==4.4.0.post1 mitsuba==3.9.1 bpy==4.5.0 numpy==1.26.4 pillow pyyaml
+    touch "$venv/ready"
+fi
+if ! command -v povray >/dev/null; then
+    apt-get update -qq
+    apt-get install -y -qq povray
+fi

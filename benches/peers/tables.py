@@ -1,0 +1,134 @@
+"""Shows what `turns.py` measured, as Markdown: `tables.py RESULTS.json`. Each ratio is of the same turn; shown are the median of all
+turns, the least and the greatest."""
+import json
+import os
+import re
+import statistics
+import sys
+from importlib import metadata
+
+
+def spread(numbers):
+    return f"**{statistics.median(numbers):.2f}** ({min(numbers):.2f} … {max(numbers):.2f})"
+
+
+def ratios(above, below):
+    return spread([a / b for a, b in zip(above, below)])
+
+
+def column(turns, key):
+    return [turn[key] for turn in turns]
+
+
+def table(head, rows):
+    """The first column holds words, the others numbers."""
+    lines = [head, ["---"] + ["--:"] * (len(head) - 1), *rows]
+    print("\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines), end="\n\n")
+
+
+def rays(found):
+    print("Rays through a mesh of 1 045 458 triangles in batches of 2^14, unsorted, one core; what rtc sorts counts. M rays per CPU-s,")
+    print("of the build CPU-s. Embree's other modes: rays sorted before, in time that does not count, and robust.\n")
+    rtc, embree = found["rtc"], found["Embree"]
+    times = lambda turns, work: [turn[work]["cpu_s"] for turn in turns]
+    head = ["work", "Embree", "rtc", "rtc ÷ Embree", "wanted", "÷ Embree, sorted", "÷ Embree, robust", "hits, rtc − Embree"]
+    rows = []
+    for work, wanted in (
+        ("coherent closest", "0.8, 1.0"),
+        ("incoherent closest", "0.65, 0.9"),
+        ("coherent any", "0.8, 1.0"),
+        ("incoherent any", "0.65, 0.9"),
+    ):
+        ours, theirs = times(rtc, work), times(embree, work)
+        count = rtc[0][work]["rays"]
+        rate = lambda seconds: f"{count / statistics.median(seconds) / 1e6:.2f}"
+        others = [ratios(times(embree, f"{work} {mode}"), ours) for mode in ("sorted", "robust")]
+        differ = rtc[0][work]["hits"] - embree[0][work]["hits"]
+        rows.append([work + " hit", rate(theirs), rate(ours), ratios(theirs, ours), wanted, *others, differ])
+    ours, theirs = times(rtc, "build"), times(embree, "build")
+    robust = ratios(times(embree, "build robust"), ours)
+    medians = [f"{statistics.median(seconds):.2f}" for seconds in (theirs, ours)]
+    rows.append(["build", *medians, ratios(theirs, ours), "1.0", "", robust, ""])
+    table(head, rows)
+
+
+def course(found):
+    print("Scenes of the course's kind, one thread, CPU-s of the whole process; the last column is how far the two pictures are apart, a")
+    print("mean over all channels in levels of 8 bits.\n")
+    rows = []
+    for name, scene in found.items():
+        times = {by: column(scene[by], "cpu_s") for by in ("POV-Ray", "rtc")}
+        medians = [f"{statistics.median(seconds):.2f}" for seconds in times.values()]
+        gain = ratios(*times.values())
+        rows.append([name, scene["size"], scene["samples"], *medians, gain, "5", f"{scene['apart']:.2f}"])
+    table(["scene", "pixels", "samples", "POV-Ray", "rtc", "POV-Ray ÷ rtc", "wanted", "apart"], rows)
+
+
+def noises(scene, peer, key):
+    """The columns of noise: of both, the gain in error times time, the means."""
+    turns, noise = scene["turns"], scene["noise"]
+    costs = {
+        by: [error * seconds for error, seconds in zip(noise[by]["rel_mse"], column(turns[by], key))] for by in (peer, "rtc")
+    }
+    errors = [f"{statistics.median(noise[by]['rel_mse']):.5f}" for by in (peer, "rtc")]
+    apart = noise["rtc"]["mean"] / noise[peer]["mean"] - 1
+    gain = ratios(costs[peer], costs["rtc"]) if len(turns["rtc"]) > 1 else "–"
+    return [*errors, gain, f"{100 * apart:+.2f} %"]
+
+
+def courtyard(found):
+    print(f"A courtyard of Lambert's surfaces under sun and sky, {found['turns']['rtc'][0]['triangles']} triangles, 256 × 256 pixels,")
+    print(f"{found['samples']} samples, 32 bounces, one thread: CPU-s from the start of the process to the picture; error as below.\n")
+    rows = []
+    for peer in [name for name in found["turns"] if name != "rtc"]:
+        times = [column(found["turns"][by], "cpu_s") for by in (peer, "rtc")]
+        medians = [f"{statistics.median(seconds):.2f}" for seconds in times]
+        peaks = [f"{max(column(found['turns'][by], 'peak_mb')):.0f}" for by in (peer, "rtc")]
+        rows.append([peer, *medians, ratios(*times), "1.5", *noises(found, peer, "cpu_s"), *peaks])
+    head = ["peer, sampler", "peer", "rtc", "peer ÷ rtc", "wanted", "relMSE, peer", "relMSE, rtc", "error × time, peer ÷ rtc"]
+    table([*head, "means apart", "MB, peer", "MB, rtc"], rows)
+
+
+def assets(found):
+    print("Traced paths, 256 × 256 pixels, 8 bounces, one thread: M camera samples per second of the clock, of sampling alone, since Cycles")
+    print("uses a second thread beside. The error of a picture is the mean of (a − b)²/(c² + 0.01): a is a picture, b the mean of those of")
+    print("the other turns by other seeds, c the mean of all by both.\n")
+    rows = []
+    for name, scene in found.items():
+        turns = scene["turns"]
+        rates = {by: [scene["samples"] * scene["pixels"] / seconds / 1e6 for seconds in column(turns[by], "render_s")] for by in turns}
+        medians = [f"{statistics.median(rates[by]):.2f}" for by in ("Cycles", "rtc")]
+        peaks = [f"{max(column(turns[by], 'peak_mb')):.0f}" for by in ("Cycles", "rtc")]
+        gain = ratios(rates["rtc"], rates["Cycles"])
+        rows.append([name, scene["samples"], *medians, gain, "2.0", *noises(scene, "Cycles", "render_s"), *peaks])
+    head = ["scene", "samples", "Cycles", "rtc", "rtc ÷ Cycles", "wanted", "relMSE, Cycles", "relMSE, rtc", "error × time, Cycles ÷ rtc"]
+    table([*head, "means apart", "MB, Cycles", "MB, rtc"], rows)
+
+
+def cores(found):
+    print("Seconds of the clock for a picture on one thread and on two; wanted is a gain of 1.9.\n")
+    rows = []
+    for name, turns in found.items():
+        times = [column(turns[threads], "wall_s") for threads in ("1", "2")]
+        rows.append([name, *(f"{statistics.median(seconds):.2f}" for seconds in times), ratios(*times)])
+    table(["picture", "one thread", "two", "gain"], rows)
+
+
+def heading(results):
+    model = re.search(r"model name\s*: (.*)", open("/proc/cpuinfo").read())
+    peers = [f"{name} {metadata.version(package)}" for name, package in (("Mitsuba", "mitsuba"), ("bpy", "bpy"), ("embreex", "embreex"))]
+    runs = len(results["rays"]["rtc"]) if "rays" in results else "some"
+    print(f"`benches/peers/run.sh` on {os.cpu_count()} cores, {model[1] if model else 'of a machine'}; {runs} turns: the median, the least and")
+    print(f"the greatest ratio; more than 1 is better. {', '.join(peers)}, POV-Ray 3.7.\n")
+
+
+def main(path):
+    results = json.load(open(path))
+    heading(results)
+    for show in (rays, course, courtyard, assets, cores):
+        if show.__name__ in results:
+            show(results[show.__name__])
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,164 @@
+"""Measures rtc and its peers by turns: `turns.py FOLDER RUNS KIND…`, with the programs in RTC, RAYS and PATHS, and the size of the
+picture of rings in RINGS. Each turn is one run of each, in the order of the last turn turned round. FOLDER/results.json keeps what
+was measured, kind by kind; `tables.py` shows it."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+FOLDER, RUNS = sys.argv[1], int(sys.argv[2])
+HERE = os.path.dirname(os.path.relpath(__file__))
+ASSETS = ["FlightHelmet", "MetalRoughGrid", "TransmissionRoughnessTest", "CornellLambert"]
+SAMPLES = {"Courtyard": 64, "FlightHelmet": 32, "MetalRoughGrid": 32, "TransmissionRoughnessTest": 32, "CornellLambert": 16}
+
+
+def run(*command):
+    """Seconds of the clock, CPU-seconds, peak of memory in MB and output of a program."""
+    with tempfile.TemporaryFile("w+") as complaints:
+        start = time.perf_counter()
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=complaints, text=True)
+        told = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        clock = time.perf_counter() - start
+        if status != 0:
+            complaints.seek(0)
+            sys.exit(f"{' '.join(command)}: {complaints.read()}")
+    cpu = usage.ru_utime + usage.ru_stime
+    return {"wall_s": clock, "cpu_s": cpu, "peak_mb": usage.ru_maxrss / 1024, "told": told}
+
+
+def by_turns(contestants):
+    """What each contestant returns for each turn, by name."""
+    results = {name: [] for name in contestants}
+    order = list(contestants)
+    for turn in range(RUNS):
+        for name in order:
+            results[name].append(contestants[name](turn))
+            print(f"  turn {turn + 1} of {RUNS}: {name}", file=sys.stderr)
+        order.reverse()
+    return results
+
+
+def rays():
+    sets = [f"{FOLDER}/{name}.f32" for name in ("coherent", "incoherent")]
+
+    def lines(*command):
+        rows = [json.loads(line) for line in run(*command)["told"].splitlines()]
+        return {row.pop("work"): row for row in rows}
+
+    rtc = lambda _: lines(os.environ["RAYS"], f"{FOLDER}/globe.glb", *sets)
+    embree = lambda _: lines(sys.executable, f"{HERE}/rays_embree.py", FOLDER, *sets)
+    return by_turns({"rtc": rtc, "Embree": embree})
+
+
+def course():
+    """The camera scene of the course, and the rings; how far the pictures are apart, in levels of 8 bits."""
+    from PIL import Image
+
+    found = {}
+    for name, scene, side, factor in (
+        ("camera", "scenes/camera.yaml", "400x400", 4),
+        ("rings", f"{HERE}/rings.yaml", os.environ["RINGS"], 2),
+    ):
+        width, height = side.split("x")
+        pov = f"{FOLDER}/{name}.pov"
+        with open(pov, "w") as file:
+            subprocess.run([sys.executable, f"{HERE}/to_povray.py", scene], stdout=file, check=True)
+        pictures = [f"{FOLDER}/{name}.{by}.png" for by in ("rtc", "povray")]
+        rtc = [os.environ["RTC"], "render", scene, "--size", side, "--threads", "1", "-q", "-o", pictures[0]]
+        povray = ["povray", f"+I{pov}", f"+O{pictures[1]}", f"+W{width}", f"+H{height}", "+FN", "File_Gamma=1.0"]
+        povray += ["+A0.0", "+AM1", f"+R{factor}", "-J", "+WT1", "-D", "-V", "-GA"]
+        turns = by_turns({"rtc": lambda _: run(*rtc), "POV-Ray": lambda _: run(*povray)})
+        a, b = (np.asarray(Image.open(path).convert("RGB"), float) for path in pictures)
+        found[name] = {"size": side, "samples": factor**2, "apart": float(np.abs(a - b).mean()), **turns}
+    return found
+
+
+def noise(pictures):
+    """The relative mean square error of each picture, against the mean of all others of its kind; and the means of the kinds."""
+    kinds = {name: np.array([np.fromfile(path, np.float32) for path in paths], float) for name, paths in pictures.items()}
+    truth = np.mean([stack.mean(0) for stack in kinds.values()], 0)
+    error = lambda stack: (stack - stack.mean(0)) ** 2 * (RUNS / max(RUNS - 1, 1)) / (truth**2 + 0.01)
+    return {name: {"rel_mse": error(stack).mean(1).tolist(), "mean": float(stack.mean())} for name, stack in kinds.items()}
+
+
+def picture(set_up, name, turn):
+    return f"{FOLDER}/{set_up}.{name}.{turn}.f32"
+
+
+def measured(set_up, contestants):
+    turns = by_turns(contestants)
+    noises = noise({name: [picture(set_up, name, turn) for turn in range(RUNS)] for name in contestants})
+    set_up_file = json.load(open(f"{FOLDER}/{set_up}.json"))
+    told = {"samples": SAMPLES[set_up], "pixels": set_up_file["width"] * set_up_file["height"], "turns": turns, "noise": noises}
+    return told
+
+
+def by_rtc(set_up):
+    def one(turn):
+        out = picture(set_up, "rtc", turn)
+        ran = run(os.environ["PATHS"], f"{FOLDER}/{set_up}.json", str(SAMPLES[set_up]), str(turn + 1), out)
+        return {**ran, **json.loads(ran.pop("told"))}
+
+    return one
+
+
+def courtyard():
+    def by_mitsuba(sampler):
+        def one(turn):
+            out = picture("Courtyard", f"Mitsuba, {sampler}", turn)
+            arguments = [f"{FOLDER}/Courtyard.json", str(SAMPLES["Courtyard"]), str(turn + 1), out, sampler]
+            ran = run(sys.executable, f"{HERE}/paths_mitsuba.py", *arguments)
+            return {**ran, **json.loads(ran.pop("told"))}
+
+        return one
+
+    contestants = {f"Mitsuba, {sampler}": by_mitsuba(sampler) for sampler in ("independent", "multijitter")}
+    return measured("Courtyard", {"rtc": by_rtc("Courtyard"), **contestants})
+
+
+def assets():
+    found = {}
+    for asset in ASSETS:
+        path = f"{FOLDER}/{asset}.json"
+        if not os.path.exists(path):
+            print(f"  no {path}: {asset} is left out", file=sys.stderr)
+            continue
+        command = [sys.executable, f"{HERE}/paths_cycles.py", path, str(SAMPLES[asset])]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cycles:
+            cycles.stdout.readline()
+
+            def by_cycles(turn):
+                print(turn + 1, picture(asset, "Cycles", turn), file=cycles.stdin, flush=True)
+                return json.loads(cycles.stdout.readline())
+
+            found[asset] = measured(asset, {"rtc": by_rtc(asset), "Cycles": by_cycles})
+            cycles.stdin.close()
+    return found
+
+
+def cores():
+    """Seconds of the clock on one thread and on two."""
+    found = {}
+    for name, scene in (("camera", ["scenes/camera.yaml", "--supersampling", "8"]), ("globe", [f"{FOLDER}/globe.glb", "--spp", "16"])):
+        command = [os.environ["RTC"], "render", *scene, "-q", "-o", f"{FOLDER}/cores.png", "--threads"]
+        found[name] = by_turns({threads: lambda _, threads=threads: run(*command, threads) for threads in ("1", "2")})
+    return found
+
+
+def main(kinds):
+    path = f"{FOLDER}/results.json"
+    results = json.load(open(path)) if os.path.exists(path) else {}
+    for kind in kinds:
+        print(f"{kind}:", file=sys.stderr)
+        results[kind] = {"rays": rays, "course": course, "courtyard": courtyard, "assets": assets, "cores": cores}[kind]()
+        with open(path, "w") as file:
+            json.dump(results, file, indent=1)
+
+
+if __name__ == "__main__":
+    main(sys.argv[3:])
