@@ -11,7 +11,7 @@ trap 'rm -rf "$out"' EXIT
 
 # CPU-seconds, MB, and rays of a render with so many paths a pixel.
 cost() {
-    /usr/bin/time -o "$out/cost" -f '%U %S %M' "$rtc" render "$out/big.glb" --size 256x256 --spp "$1" --threads 1 \
+    /usr/bin/time -o "$out/cost" -f '%U %S %M' "$rtc" render "$out/big.glb" --size 256x256 --spp "$1" --threads 1 --env-color 0.6 \
         --color never -o "$out/big.png" 2>"$out/words"
     rays=$(sed -n 's/.*, \([0-9,]*\) rays,.*/\1/p' "$out/words" | tr -d ,)
     awk -v rays="$rays" '{ print $1 + $2, $3 / 1024, rays }' "$out/cost"

@@ -11,18 +11,18 @@ rays=$(driver rays) memory=$(driver memory)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 sets=("$folder/coherent.f32" "$folder/incoherent.f32")
-cache() { getconf "LEVEL$1_CACHE_$2"; }
-level() { echo "$(cache "$1" SIZE),$(cache "$1" ASSOC),$(cache "$1" LINESIZE)"; }
+cache() { echo "$(getconf "LEVEL$1_SIZE"),$(getconf "LEVEL$1_ASSOC"),$(getconf "LEVEL$1_LINESIZE")"; }
 # The last level is taken to be what a core complex of this family has; machines that are shared tell other sizes.
-levels=("$(level 2)" "$((32 << 20)),16,64")
+levels=("$(cache 2_CACHE)" "$((32 << 20)),16,64")
 
 "$memory" >"$out/memory"
 "$rays" "$folder/globe.glb" "${sets[@]}" >"$out/rays"
 # The work of 2^16 rays of each set; all other instructions don't count. One profile for each call of a batch.
+only=('--toggle-collect=rays::*_hits' '--dump-after=rays::closest_hits' '--dump-after=rays::any_hits')
 for k in 0 1; do
     mkdir "$out/$k"
-    valgrind --tool=callgrind --cache-sim=yes --D1="$(level 1D)" --LL="${levels[k]}" --toggle-collect='rays::*_hits' \
-        --dump-after='rays::*_hits' --callgrind-out-file="$out/$k/profile" \
+    valgrind --tool=callgrind --cache-sim=yes --D1="$(cache 1_DCACHE)" --LL="${levels[k]}" "${only[@]}" \
+        --callgrind-out-file="$out/$k/profile" \
         "$rays" "$folder/globe.glb" "${sets[@]}" 65536 >/dev/null 2>"$out/$k/words" &
 done
 wait

@@ -1,5 +1,5 @@
-"""Rays through the globe by Embree, in the same batches as `rays.rs`, and with the same output; also with the rays of each batch
-sorted before, in time that does not count, and in Embree's robust mode: `rays_embree.py FOLDER SET…`. All CPU time counts."""
+"""Rays through the globe by Embree, in the same batches as `rays.rs`, and with the same output; also with all rays sorted
+before, in time that does not count, and in Embree's robust mode: `rays_embree.py FOLDER SET…`. All CPU time counts."""
 import json
 import sys
 import time
@@ -55,7 +55,7 @@ def main(folder, *sets):
         for path in sets:
             name = path.split("/")[-1].removesuffix(".f32")
             rays = np.fromfile(path, np.float32).reshape(-1, 6)
-            ordered = np.concatenate([in_order(batch) for batch in np.array_split(rays, len(rays) // BATCH)])
+            ordered = in_order(rays)
             for kind, query in (("closest", "DISTANCE"), ("any", "OCCLUDED")):
                 measure(scene, f"{name} {kind}{suffix}", rays, query)
                 if not robust:

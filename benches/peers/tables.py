@@ -28,7 +28,7 @@ def table(head, rows):
 
 def rays(found):
     print("Rays through a mesh of 1 045 458 triangles in batches of 2^14, unsorted, one core; what rtc sorts counts. M rays per CPU-s,")
-    print("of the build CPU-s. Embree's other modes: rays sorted before, in time that does not count, and robust.\n")
+    print("of the build CPU-s. Beside: Embree given all 2^20 rays sorted, in time that does not count, and robust.\n")
     rtc, embree = found["rtc"], found["Embree"]
     times = lambda turns, work: [turn[work]["cpu_s"] for turn in turns]
     head = ["work", "Embree", "rtc", "rtc ÷ Embree", "wanted", "÷ Embree, sorted", "÷ Embree, robust", "hits, rtc − Embree"]
