@@ -70,10 +70,11 @@ def noises(scene, peer, key):
     costs = {
         by: [error * seconds for error, seconds in zip(noise[by]["rel_mse"], column(turns[by], key))] for by in (peer, "rtc")
     }
-    errors = [f"{statistics.median(noise[by]['rel_mse']):.5f}" for by in (peer, "rtc")]
     apart = noise["rtc"]["mean"] / noise[peer]["mean"] - 1
-    gain = ratios(costs[peer], costs["rtc"]) if len(turns["rtc"]) > 1 else "–"
-    return [*errors, gain, f"{100 * apart:+.2f} %"]
+    if len(turns["rtc"]) == 1:
+        return ["–", "–", "–", f"{100 * apart:+.2f} %"]
+    errors = [f"{statistics.median(noise[by]['rel_mse']):.5f}" for by in (peer, "rtc")]
+    return [*errors, ratios(costs[peer], costs["rtc"]), f"{100 * apart:+.2f} %"]
 
 
 def courtyard(found):
