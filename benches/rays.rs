@@ -26,9 +26,6 @@ use std::path::Path;
 /// Rays that are given to the world at a time.
 const BATCH: usize = 1 << 14;
 
-/// How far shadow rays reach, in lengths of their direction: beyond any asset here.
-const FAR: f64 = 1e4;
-
 fn main() {
     // One thread, this one, so that its time is all there is.
     let _pool = rayon::ThreadPoolBuilder::new()
@@ -117,14 +114,12 @@ fn occlusion(world: &World, set: &str, rays: &[Ray]) {
 /// The closest hit of each ray.
 #[inline(never)]
 fn closest_hits(world: &World, batch: &[Ray], hits: &mut Vec<Option<Hit>>) {
-    hits.clear();
-    hits.extend(batch.iter().map(|ray| world.closest_hit(ray)));
+    *hits = world.closest_hits(batch);
 }
 
 /// Whether each ray hits anything.
 #[inline(never)]
 fn any_hits(world: &World, batch: &[Ray], hits: &mut Vec<bool>) {
-    let hit = |ray: &Ray| world.occluded(ray.origin, ray.origin + FAR * ray.direction);
-    hits.clear();
-    hits.extend(batch.iter().map(hit));
+    let endless: Vec<_> = batch.iter().map(|ray| (*ray, f64::INFINITY)).collect();
+    *hits = world.any_hits(&endless);
 }

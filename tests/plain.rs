@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "a test stops at a surprise")]
 
 use rtc::math::{Positive, Vec3};
-use rtc::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear};
+use rtc::render::{Geometry, PlainShape, Prepare, Ray, Real, Shape, Shear, SimdLevel};
 use rtc::valid;
 use std::sync::Arc;
 
@@ -120,7 +120,11 @@ fn mesh() -> valid::Mesh {
 }
 
 fn prepare<S: Prepare>(shape: &valid::Shape) -> S {
-    S::prepare(shape, &[Arc::new(S::prepare_mesh(&mesh()))]).unwrap()
+    S::prepare(
+        shape,
+        &[Arc::new(S::prepare_mesh(&mesh(), SimdLevel::best()))],
+    )
+    .unwrap()
 }
 
 /// Rays from points at 3 to 6 from the origin towards points within 1 of it, with directions of

@@ -10,7 +10,7 @@ use rtc::plan::{Arithmetic, Plan, Rules};
 use rtc::render::{Geometry, Hit, Ray, Shape as Prepared, Shear, World};
 
 /// Numbers in [−1, 1), always the same.
-fn numbers(seed: u64) -> impl FnMut() -> f64 {
+pub(super) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
         state = state
@@ -21,7 +21,7 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
 }
 
 /// A wavy square of side 2 in so many rows.
-fn waves(rows: u32) -> Mesh {
+pub(super) fn waves(rows: u32) -> Mesh {
     let share = |k: u32| f64::from(k) / f64::from(rows) * 2.0 - 1.0;
     let corner = |k: u32| {
         let (x, y) = (share(k % (rows + 1)), share(k / (rows + 1)));
@@ -42,7 +42,12 @@ fn waves(rows: u32) -> Mesh {
     }
 }
 
-fn place(scene: &mut Scene, mesh: u32, world_from_object: [[f64; 3]; 4], standard: Standard) {
+pub(super) fn place(
+    scene: &mut Scene,
+    mesh: u32,
+    world_from_object: [[f64; 3]; 4],
+    standard: Standard,
+) {
     let material = material(scene, standard);
     let shape = Shape::Instance(Instance {
         mesh: MeshId(mesh),

@@ -9,6 +9,7 @@ mod coverage;
 mod hierarchy;
 mod layers;
 mod leaves;
+mod levels;
 mod sides;
 mod surfaces;
 
