@@ -32,8 +32,17 @@ pub fn unit_scale(v: Vec3) -> Option<(Vec3, i32)> {
 #[must_use]
 #[inline]
 pub fn unit(v: Vec3) -> Option<Vec3> {
+    /// Of vectors with such squares, scaling first changes no bit: what underflows is too small to
+    /// round the sum.
+    const SQUARES: std::ops::RangeInclusive<f64> = MIN_SQUARE..=1.0 / MIN_SQUARE;
+    if SQUARES.contains(&v.length_squared()) {
+        return Some(v.normalize());
+    }
     unit_scale(v).map(|(scaled, _)| scaled.normalize())
 }
+
+/// 2⁻⁴⁰⁰.
+const MIN_SQUARE: f64 = f64::from_bits((1023 - 400) << 52);
 
 /// The length of a vector: finite unless it lies beyond the range of f64, and 0 only for the zero
 /// vector.

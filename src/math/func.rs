@@ -12,6 +12,12 @@ pub fn cos(x: f64) -> f64 {
     libm::cos(x)
 }
 
+/// The sine and the cosine of an angle in radians: the bits of [`sin`] and [`cos`], in one call.
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
 /// The arc cosine in radians, in [0, π].
 #[must_use]
 pub fn acos(x: f64) -> f64 {
@@ -46,4 +52,20 @@ pub fn ln(x: f64) -> f64 {
 #[must_use]
 pub fn ldexp(x: f64, exponent: i32) -> f64 {
     libm::ldexp(x, exponent)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn sine_and_cosine_together_have_the_bits_of_each(x in -7.0..7.0, exponent in -40..12_i32) {
+            let x = ldexp(x, exponent);
+            let (sine, cosine) = sin_cos(x);
+            prop_assert_eq!(sine.to_bits(), sin(x).to_bits(), "{}", x);
+            prop_assert_eq!(cosine.to_bits(), cos(x).to_bits(), "{}", x);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Angles as 64-bit fractions of a turn: they add and reduce without error.
 
-use super::func::{cos, sin};
+use super::func::sin_cos;
 use std::f64::consts::TAU;
 
 /// The cosine and sine of an angle in units of 2⁻⁶⁴ turns, each to within 2 u absolute.
@@ -13,7 +13,7 @@ pub fn cos_sin_turns(turns: u64) -> (f64, f64) {
     let quadrant = (turns.wrapping_add(1 << 61)) >> 62;
     let rest = turns.wrapping_sub(quadrant << 62).cast_signed();
     let angle = rest as f64 * (UNIT * TAU);
-    let (c, s) = (cos(angle), sin(angle));
+    let (s, c) = sin_cos(angle);
     match quadrant {
         0 => (c, s),
         1 => (-s, c),

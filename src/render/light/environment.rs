@@ -1,6 +1,6 @@
 //! The environment: its radiance by direction, and importance sampling of bright directions.
 
-use crate::math::{Vec3, acos, atan2, cos, sin};
+use crate::math::{Vec3, acos, atan2, sin, sin_cos};
 use crate::render::bsdf::direction_turned;
 use crate::render::sampler::discrete::Distribution2D;
 use crate::render::texture::sampled::{ColorSpace, sample};
@@ -107,13 +107,9 @@ impl Environment {
         // Sample a point of the image.
         let place = map.table.sample(u);
         let (longitude, colatitude) = ((place[0] - 0.5) * TAU, place[1] * PI);
-        let sine = sin(colatitude);
+        let ((sine, cosine), (across, along)) = (sin_cos(colatitude), sin_cos(longitude));
         // Convert from longitude and colatitude to a direction.
-        let local = Vec3::new(
-            sine * sin(longitude),
-            cos(colatitude),
-            -sine * cos(longitude),
-        );
+        let local = Vec3::new(sine * across, cosine, -sine * along);
         // Rotate from the image to the world.
         let [x, y, z] = map.image_from_world;
         let direction = (x * local.x + y * local.y + z * local.z).normalize();
