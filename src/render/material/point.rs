@@ -28,7 +28,7 @@ pub(in crate::render) struct ShadingFrame {
 
 /// The texture coordinates at a point.
 pub(in crate::render) fn uvs(details: &Details) -> UvSets {
-    [details.uv, details.second_uv]
+    UvSets::new([details.uv, details.second_uv])
 }
 
 impl<'world> MaterialPoint<'world> {
@@ -48,7 +48,7 @@ impl<'world> MaterialPoint<'world> {
 
     /// The first texture coordinates.
     pub(in crate::render) fn uv(&self) -> Option<[f64; 2]> {
-        self.uvs[0]
+        self.uvs.first()
     }
 
     /// The opacity: the probability that the alpha test keeps the hit.
@@ -95,8 +95,12 @@ impl<'world> MaterialPoint<'world> {
                 0.0
             },
             thin_walled: !m.bounds_a_volume,
+            anisotropy: None,
+            clearcoat: None,
+            sheen: None,
+            iridescence: None,
+            diffuse_transmission: None,
             multiple_scattering: multiple,
-            ..StandardParameters::default()
         };
         if can::<F>(MICROFACETS) {
             self.reflect(&mut standard, channel);

@@ -1,6 +1,7 @@
 //! Textures: lookup at texture coordinates, by the rules of the course and of glTF.
 
 pub(in crate::render) mod bilinear;
+mod footprint;
 pub(in crate::render) mod sampled;
 
 use crate::image::{Texel, Texels};

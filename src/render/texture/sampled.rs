@@ -1,9 +1,11 @@
-//! Texture sampling by the rules of glTF: wrap modes, filters and colour spaces.
+//! Texture sampling by the rules of glTF: texture coordinates and colour spaces.
 
+use super::footprint::{Footprint, Layout, single};
 use super::{Filter, Image, Texture, Wrap};
 use crate::color::srgb_decoded;
-use crate::image::Texel;
+use crate::image::Texels;
 use crate::math::Lanes;
+use std::cell::Cell;
 use std::sync::LazyLock;
 
 /// The colour space of a texture.
@@ -16,7 +18,37 @@ pub(in crate::render) enum ColorSpace {
 }
 
 /// The two sets of texture coordinates at a point; `None` for a missing set.
-pub(in crate::render) type UvSets = [Option<[f64; 2]>; 2];
+pub(in crate::render) struct UvSets {
+    sets: [Option<[f64; 2]>; 2],
+    /// The last footprint: the maps of a material mostly have the same one.
+    last: Cell<Option<(Layout, Footprint)>>,
+}
+
+impl UvSets {
+    /// The sets given.
+    pub(in crate::render) const fn new(sets: [Option<[f64; 2]>; 2]) -> Self {
+        let last = Cell::new(None);
+        Self { sets, last }
+    }
+
+    /// The first set.
+    pub(in crate::render) fn first(&self) -> Option<[f64; 2]> {
+        self.sets[0]
+    }
+
+    /// The footprint of a layout, at the coordinates of its set.
+    #[inline]
+    fn footprint(&self, layout: Layout, uv: [f64; 2]) -> Footprint {
+        if let Some((last, footprint)) = self.last.get()
+            && last == layout
+        {
+            return footprint;
+        }
+        let footprint = Footprint::new(&layout, uv);
+        self.last.set(Some((layout, footprint)));
+        footprint
+    }
+}
 
 /// A texture in a glTF material: its texture coordinates and its colour space.
 #[derive(Clone, Debug)]
@@ -34,7 +66,25 @@ impl Map {
     /// Looks the texture up: red, green, blue and alpha, in [0, 1] except for float images. `None`
     /// without texture coordinates.
     pub(in crate::render) fn look_up(&self, uvs: &UvSets) -> Option<[f64; 4]> {
-        let [u, v] = uvs[self.set]?;
+        let [u, v] = uvs.sets[self.set]?;
+        if let (
+            Texture::Sampled {
+                image,
+                wrap,
+                filter,
+            },
+            None,
+        ) = (&self.texture, &self.texture_from_surface)
+        {
+            let layout = Layout {
+                set: self.set,
+                size: [image.width, image.height],
+                wrap: *wrap,
+                filter: *filter,
+            };
+            let footprint = uvs.footprint(layout, [u, v]);
+            return Some(mean(&footprint, image, self.color_space));
+        }
         let uv = match self.texture_from_surface {
             None => [u, v],
             Some([[a, b, c], [d, e, f]]) => [a * u + b * v + c, d * u + e * v + f],
@@ -70,148 +120,50 @@ pub(in crate::render) fn sample(
     filter: Filter,
     color_space: ColorSpace,
 ) -> [f64; 4] {
-    let uvs = |axis: usize, size: u32| {
-        let place = within(uv[axis], wrap[axis]) * f64::from(size);
-        let corner = floor(if filter == Filter::Nearest {
-            place
-        } else {
-            place - 0.5
-        });
-        let first = whole(corner);
-        (
-            wrapped(first, size, wrap[axis]),
-            wrapped(first + 1, size, wrap[axis]),
-            single(place - 0.5 - corner),
-        )
+    let layout = Layout {
+        set: 0,
+        size: [image.width, image.height],
+        wrap,
+        filter,
     };
-    let (left, right, s) = uvs(0, image.width);
-    let (top, bottom, t) = uvs(1, image.height);
-    let at = |column: usize, row: usize| decoded(image.texel(column, row), color_space);
-    let value = if filter == Filter::Nearest {
-        at(left, top)
-    } else {
-        let (a, b, c, d) = (
-            at(left, top),
-            at(right, top),
-            at(left, bottom),
-            at(right, bottom),
-        );
-        let (top, bottom) = (a + (b - a) * s, c + (d - c) * s);
-        top + (bottom - top) * t
+    mean(&Footprint::new(&layout, uv), image, color_space)
+}
+
+/// The mean of the texels of a footprint by their weights: red, green, blue and alpha.
+fn mean(footprint: &Footprint, image: &Image, color_space: ColorSpace) -> [f64; 4] {
+    let tables: &[[f32; 256]; 2] = &DECODED;
+    let linear = &tables[ColorSpace::Linear as usize];
+    let color = &tables[color_space as usize];
+    let decoded = |[r, g, b]: [u8; 3], alpha| {
+        let [r, g, b] = [r, g, b].map(|byte| color[usize::from(byte)]);
+        Lanes::new(r, g, b, alpha)
+    };
+    // Decode texels by the format of the image, which is asked for once.
+    let value = match &image.texels {
+        Texels::Rgb8(bytes) => footprint.blend(bytes.as_chunks().0, |color| decoded(color, 1.0)),
+        Texels::Rgba8(bytes) => footprint.blend(bytes.as_chunks().0, |[r, g, b, a]| {
+            decoded([r, g, b], linear[usize::from(a)])
+        }),
+        Texels::Rgb32f(bytes) => {
+            footprint.blend(bytes.as_chunks().0.as_chunks().0, |color: [[u8; 4]; 3]| {
+                let [r, g, b] = color.map(f32::from_le_bytes);
+                Lanes::new(r, g, b, 1.0)
+            })
+        }
     };
     value.as_dvec4().to_array()
 }
 
-/// Wraps a coordinate to the unit interval, or to [0, 2] for mirrored repetition.
-fn within(coordinate: f64, wrap: Wrap) -> f64 {
-    match wrap {
-        Wrap::Repeat => coordinate - floor(coordinate),
-        Wrap::Mirror => coordinate - 2.0 * floor(coordinate * 0.5),
-        Wrap::Clamp => coordinate.clamp(-1.0, 2.0),
-    }
-}
-
-/// Wraps the index of a texel next to a coordinate from [`within`].
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "brought into the image"
-)]
-fn wrapped(texel: i64, count: u32, wrap: Wrap) -> usize {
-    let count = i64::from(count);
-    let inside = match wrap {
-        Wrap::Repeat if texel < 0 => texel + count,
-        Wrap::Repeat if texel >= count => texel - count,
-        Wrap::Mirror if texel >= count => 2 * count - 1 - texel,
-        Wrap::Repeat | Wrap::Mirror | Wrap::Clamp => texel,
-    };
-    inside.clamp(0, count - 1) as usize
-}
-
-/// The largest integer not above a number, without a call where the machine has no instruction for
-/// it.
-#[inline]
-fn floor(x: f64) -> f64 {
-    /// 2⁵², from which on all numbers are integers.
-    const INTEGERS: f64 = 4_503_599_627_370_496.0;
-    if x.abs() >= INTEGERS {
-        return x;
-    }
-    let towards_zero = whole(x) as f64;
-    if towards_zero > x {
-        towards_zero - 1.0
-    } else {
-        towards_zero
-    }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "columns, of which an image has at most 2³², or a number below 2⁵²"
-)]
-fn whole(place: f64) -> i64 {
-    place as i64
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a share, of which 24 bits are enough"
-)]
-fn single(fraction: f64) -> f32 {
-    fraction as f32
-}
-
-/// Red, green, blue and alpha.
-#[inline]
-fn decoded(texel: Texel, color_space: ColorSpace) -> Lanes {
-    let ([r, g, b], alpha) = match texel {
-        Texel::Rgb8(color) => (color, 255),
-        Texel::Rgba8([r, g, b, a]) => ([r, g, b], a),
-        Texel::Rgb32f([r, g, b]) => return Lanes::new(r, g, b, 1.0),
-    };
-    let alpha = f32::from(alpha) / 255.0;
-    match color_space {
-        ColorSpace::Srgb => {
-            let decoded: &[f32; 256] = &DECODED;
-            Lanes::new(
-                decoded[usize::from(r)],
-                decoded[usize::from(g)],
-                decoded[usize::from(b)],
-                alpha,
-            )
-        }
-        ColorSpace::Linear => {
-            (Lanes::new(f32::from(r), f32::from(g), f32::from(b), 0.0) / 255.0).with_w(alpha)
-        }
-    }
-}
-
-/// The linear value of each byte of sRGB.
-static DECODED: LazyLock<[f32; 256]> =
-    LazyLock::new(|| std::array::from_fn(|byte| single(srgb_decoded(byte as f64 / 255.0))));
+/// The value of each byte, by its [`ColorSpace`].
+static DECODED: LazyLock<[[f32; 256]; 2]> = LazyLock::new(|| {
+    let encoded: [f64; 256] = std::array::from_fn(|byte| byte as f64 / 255.0);
+    let linear = std::array::from_fn(|byte| byte as f32 / 255.0);
+    [encoded.map(|byte| single(srgb_decoded(byte))), linear]
+});
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::image::Texels;
-
-    #[test]
-    fn the_floor_is_that_of_std() {
-        for x in [
-            0.0,
-            0.5,
-            1.0,
-            -0.25,
-            -1.0,
-            -1.5,
-            4_503_599_627_370_495.5,
-            -4_503_599_627_370_495.5,
-            1e60,
-            -1e60,
-        ] {
-            assert_eq!(floor(x), x.floor(), "{x}");
-        }
-    }
 
     fn row() -> Image {
         Image {
@@ -249,6 +201,46 @@ mod tests {
                 "{wrap:?}"
             );
         }
+    }
+
+    #[test]
+    fn maps_after_others_show_what_they_show_alone() {
+        let image = |width: u8| Image {
+            width: width.into(),
+            height: 2,
+            texels: Texels::Rgb8((0..6 * width).collect::<Vec<_>>().into()),
+        };
+        let map = |width, set, wrap, filter| Map {
+            texture: Texture::Sampled {
+                image: image(width).into(),
+                wrap: [wrap; 2],
+                filter,
+            },
+            set,
+            texture_from_surface: None,
+            color_space: ColorSpace::Linear,
+        };
+        let maps = [
+            map(4, 0, Wrap::Repeat, Filter::Linear),
+            map(4, 0, Wrap::Repeat, Filter::Linear),
+            map(4, 1, Wrap::Repeat, Filter::Linear),
+            map(8, 1, Wrap::Repeat, Filter::Linear),
+            map(8, 1, Wrap::Mirror, Filter::Linear),
+            map(8, 1, Wrap::Mirror, Filter::Nearest),
+        ];
+        let uvs = || UvSets::new([Some([0.3, 0.7]), Some([1.8, 0.2])]);
+        let (shared, mut seen) = (uvs(), Vec::new());
+        for map in &maps {
+            let alone = map.look_up(&uvs());
+            assert_eq!(map.look_up(&shared), alone);
+            seen.extend(alone);
+        }
+        seen.dedup();
+        assert_eq!(
+            seen.len(),
+            maps.len() - 1,
+            "the layouts tell apart: {seen:?}"
+        );
     }
 
     #[test]

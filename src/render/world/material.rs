@@ -232,14 +232,14 @@ impl Slots<'_> {
 
     /// The values of a map.
     fn source(&self, map: Option<&valid::Map>, color_space: ColorSpace) -> Option<MapSource> {
-        /// Any coordinates: a folded map is constant.
-        const ANYWHERE: UvSets = [Some([0.5; 2]); 2];
         let map = map?;
         let prepared = self.textures.map(map, color_space);
         if self.is_looked_up(map) {
             return Some(MapSource::Map(prepared));
         }
-        prepared.look_up(&ANYWHERE).map(MapSource::Value)
+        // Any coordinates will do: a folded map is constant.
+        let anywhere = UvSets::new([Some([0.5; 2]); 2]);
+        prepared.look_up(&anywhere).map(MapSource::Value)
     }
 
     fn number(&self, factor: UnitInterval, map: Option<&valid::Map>, channel: usize) -> Number {
