@@ -246,12 +246,25 @@ impl<const F: u32> Lobes<F> {
         !is_diffuse && self.microfacet.is_smooth() && coat
     }
 
+    /// Whether [`Bsdf::sample`] samples the diffuse lobe for all first numbers up to `u_lobe`.
+    pub(super) fn is_diffuse_up_to(&self, u_lobe: f64) -> bool {
+        u_lobe < self.lobe_pdf.cosine
+    }
+
     /// The BSDF for light from `wi`, and the density with which [`Bsdf::sample`] samples `wi`.
     #[must_use]
     pub fn evaluate(&self, wi: Vec3) -> Evaluation {
         self.evaluate_entered(self.side.enter(wi))
     }
 
+    /// The BSDF of [`Self::evaluate`] alone: for lights that [`Bsdf::sample`] cannot find.
+    #[must_use]
+    pub(super) fn f(&self, wi: Vec3) -> Vec3 {
+        self.evaluate_entered(self.side.enter(wi)).f
+    }
+
+    /// Inlined, so that a density that nobody asks for is not computed.
+    #[inline(always)]
     fn evaluate_entered(&self, wi: Vec3) -> Evaluation {
         let above = wi.z > 0.0;
         if wi.z == 0.0 || self.wo.z == 0.0 {
@@ -323,6 +336,7 @@ impl<const F: u32> Lobes<F> {
 
     /// Samples a direction with three numbers in [0, 1); `None` if the direction is invalid.
     #[must_use]
+    #[inline(always)]
     pub fn sample(&self, u: [f64; 3]) -> Option<BsdfSample> {
         let LobePdf {
             cosine,

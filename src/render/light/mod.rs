@@ -29,6 +29,8 @@ pub(in crate::render) struct Lights<'world, S> {
     world: &'world World<S>,
     lights: Vec<Light>,
     by_power: DiscreteDistribution,
+    /// The one light that is ever chosen, if it is one.
+    only: Option<usize>,
     /// The probability of choosing each light.
     probabilities: Vec<f64>,
     /// The index of the first light of each surface that has some.
@@ -84,6 +86,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
             world,
             lights,
             by_power: DiscreteDistribution::new(std::iter::empty()),
+            only: None,
             probabilities: Vec::new(),
             firsts,
         };
@@ -93,6 +96,7 @@ impl<'world, S: Geometry> Lights<'world, S> {
                 .iter()
                 .map(|light| all.weight(light, disc, strategy)),
         );
+        all.only = all.by_power.only();
         let probability = |index| all.by_power.probability(index);
         all.probabilities = (0..all.lights.len()).map(probability).collect();
         all
@@ -180,6 +184,11 @@ impl<'world, S: Geometry> Lights<'world, S> {
         &self.world.standards[self.world.surfaces[surface].material]
     }
 
+    /// Whether [`Lights::sample`] depends on the number that chooses a light.
+    pub(in crate::render) fn has_choice(&self) -> bool {
+        self.only.is_none()
+    }
+
     /// Samples the light that reaches a point: `u_light` chooses the light, `u` a point on it or a
     /// direction to it.
     pub(in crate::render) fn sample(
@@ -189,7 +198,8 @@ impl<'world, S: Geometry> Lights<'world, S> {
         u: impl FnOnce() -> [f64; 2],
     ) -> Option<Incident> {
         // Choose a light by its power.
-        let (index, _) = self.by_power.choose(u_light)?;
+        let chosen = || self.by_power.choose(u_light).map(|(index, _)| index);
+        let index = self.only.or_else(chosen)?;
         let probability = self.probabilities[index];
         match &self.lights[index] {
             Light::Punctual(_, LightLeft::Place | LightLeft::Nothing) => None,

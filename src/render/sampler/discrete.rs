@@ -1,11 +1,17 @@
 //! Tabulated distributions: an index, or a point of the unit square, with a probability
 //! proportional to its weight.
 
+/// Indices per part of a guide: enough for it to be small beside the sums.
+const PER_PART: usize = 4;
+
 /// A discrete distribution over indices, proportional to weights.
 #[derive(Clone, Debug)]
 pub(in crate::render) struct DiscreteDistribution {
     /// Sums of the weights up to and including each.
     sums: Vec<f64>,
+    /// For each of 2^k equal parts of [0, 1), the first index that its numbers choose (Chen, Asau,
+    /// "On generating random variates from an empirical distribution", 1974).
+    guide: Vec<u32>,
     /// The last index with a nonzero weight.
     last: usize,
 }
@@ -19,12 +25,24 @@ impl DiscreteDistribution {
         };
         let sums = weights.map(add).collect::<Vec<_>>();
         let last = sums.partition_point(|before| *before < sum);
-        Self { sums, last }
+        let parts = (sums.len() / PER_PART).next_power_of_two();
+        let first = |part: usize| {
+            let place = part as f64 / parts as f64 * sum;
+            sums.partition_point(|sum| *sum <= place) as u32
+        };
+        let guide = (0..parts).map(first).collect();
+        Self { sums, guide, last }
     }
 
     /// The sum of all weights.
     pub(in crate::render) fn total(&self) -> f64 {
         self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    /// The one index with a nonzero weight; `None` if there are none or several.
+    pub(in crate::render) fn only(&self) -> Option<usize> {
+        let first = self.sums.partition_point(|sum| *sum <= 0.0);
+        (first == self.last && first < self.sums.len()).then_some(first)
     }
 
     /// The probability of an index.
@@ -42,10 +60,12 @@ impl DiscreteDistribution {
     /// next decision; `None` if all weights are 0.
     pub(in crate::render) fn choose(&self, u: f64) -> Option<(usize, f64)> {
         let place = u * self.total();
-        let index = self
-            .sums
-            .partition_point(|sum| *sum <= place)
-            .min(self.last);
+        // Rounding keeps order: a greater number has no lesser place.
+        let mut index = self.guide[(u * self.guide.len() as f64) as usize] as usize;
+        while self.sums.get(index).is_some_and(|sum| *sum <= place) {
+            index += 1;
+        }
+        let index = index.min(self.last);
         let before = if index > 0 { self.sums[index - 1] } else { 0.0 };
         let width = self.sums.get(index)? - before;
         (width > 0.0).then(|| {
@@ -136,6 +156,35 @@ mod tests {
                 .choose(0.5)
                 .is_none()
         );
+    }
+
+    #[test]
+    fn the_guide_leads_to_the_index_that_a_search_finds() {
+        // Weights of very different sizes, and many of 0.
+        let weight = |k: u32| match k % 5 {
+            0 | 3 => 0.0,
+            _ => f64::from(1_u32 << (k * 2_654_435 % 31)),
+        };
+        for count in [1, 2, 3, 7, 64, 1000] {
+            let choice = DiscreteDistribution::new((1..=count).map(weight));
+            let edges = choice.sums.iter().map(|sum| sum / choice.total());
+            let numbers = (0..4096).map(|k| f64::from(k) / 4096.0).chain(edges);
+            for u in numbers.filter(|u| *u < 1.0) {
+                let place = u * choice.total();
+                let found = choice.sums.partition_point(|sum| *sum <= place);
+                let chosen = choice.choose(u).map(|(index, _)| index);
+                assert_eq!(chosen, Some(found.min(choice.last)), "{count} {u}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_one_index_is_chosen_if_the_others_weigh_nothing() {
+        let only = |weights: &[f64]| DiscreteDistribution::new(weights.iter().copied()).only();
+        assert_eq!(only(&[0.0, 2.0, 0.0]), Some(1));
+        assert_eq!(only(&[5e-324]), Some(0));
+        assert_eq!(only(&[1.0, 0.0, 2.0]), None);
+        assert_eq!((only(&[0.0; 3]), only(&[])), (None, None));
     }
 
     #[test]

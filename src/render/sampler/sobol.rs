@@ -16,57 +16,103 @@ pub(in crate::render) const LENS: u32 = 1;
 /// The first pair for the bounces.
 pub(in crate::render) const CORNERS: u32 = 2;
 
+/// The largest number of a pair, 1 − 2⁻³².
+pub(in crate::render) const MAX: f64 = 1.0 - UNIT;
+
+/// 2⁻³².
+const UNIT: f64 = 1.0 / 4_294_967_296.0;
+
 /// The numbers of one path.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::render) struct Sobol {
     pixel: Key,
+    /// The key of the bounces.
+    path: Key,
+    seeds: Seeds,
     index: u32,
     /// The index from its highest bit on.
     reversed: u32,
-    seeds: Seeds,
 }
 
 impl Sobol {
     /// The numbers of path `index` of a pixel.
     pub(in crate::render) fn new(pixel: [u32; 2], index: u32, seeds: Seeds) -> Self {
+        let pixel = Key::new(pixel, 0);
         Self {
-            pixel: Key::new(pixel, 0),
+            pixel,
+            path: pixel.seeded(seeds.path),
+            seeds,
             index,
             reversed: index.reverse_bits(),
-            seeds,
         }
     }
 
-    /// Pair `dimension` of this path, both numbers in [0, 1).
+    /// Pair `dimension` of this path, both numbers from 0 to [`MAX`].
     #[inline]
     pub(in crate::render) fn pair(&self, dimension: u32) -> [f64; 2] {
-        let seed = match dimension {
-            FILM => self.seeds.pixel,
-            LENS => self.seeds.lens,
-            _ => self.seeds.path,
+        let point = self.point(dimension);
+        // Reversed together, they change places.
+        let both = (u64::from(point.first()) << 32 | u64::from(point.second())).reverse_bits();
+        [number(both as u32), number((both >> 32) as u32)]
+    }
+
+    /// The second number of a pair.
+    #[inline]
+    pub(in crate::render) fn second(&self, dimension: u32) -> f64 {
+        number(self.point(dimension).second().reverse_bits())
+    }
+
+    /// The point of the sequence that a pair takes.
+    #[inline]
+    fn point(&self, dimension: u32) -> Point {
+        let key = match dimension {
+            FILM => self.pixel.seeded(self.seeds.pixel),
+            LENS => self.pixel.seeded(self.seeds.lens),
+            _ => self.path,
         };
-        let bits = self.pixel.seeded(seed).bits(u64::from(dimension));
+        let bits = key.bits(u64::from(dimension));
         let (low, high) = (bits as u32, (bits >> 32) as u32);
         // Scrambled from its highest bit on, the index shuffles the points and keeps each first 2^k
         // of them together.
         let index = scrambled(self.reversed, low).reverse_bits();
-        let first = scrambled(index, high);
-        let second = scrambled(pascal(index), low.rotate_left(16) ^ high);
-        // Reversed together, they change places.
-        let both = (u64::from(first) << 32 | u64::from(second)).reverse_bits();
-        [f64::from(both as u32), f64::from((both >> 32) as u32)]
-            .map(|number| number / 4_294_967_296.0)
+        Point { index, low, high }
     }
 
     /// An independent number in [0, 1) for decisions that use no dimension of the sequence, such as
     /// the alpha test.
     pub(in crate::render) fn uniform(&self, dimension: u32, turn: u32) -> f64 {
         let key = self
-            .pixel
-            .seeded(self.seeds.path)
+            .path
             .child(u64::from(self.index) << 32 | u64::from(turn));
         key.uniform(u64::from(dimension))
     }
+}
+
+/// A point of the sequence, and the halves of the hash that scrambles it.
+struct Point {
+    index: u32,
+    low: u32,
+    high: u32,
+}
+
+impl Point {
+    /// The first coordinate, from its lowest bit on.
+    #[inline]
+    fn first(&self) -> u32 {
+        scrambled(self.index, self.high)
+    }
+
+    /// The second coordinate, from its lowest bit on.
+    #[inline]
+    fn second(&self) -> u32 {
+        scrambled(pascal(self.index), self.low.rotate_left(16) ^ self.high)
+    }
+}
+
+/// The number of a coordinate.
+#[inline]
+fn number(bits: u32) -> f64 {
+    f64::from(bits) * UNIT
 }
 
 /// Owen's nested scrambling from the lowest bit up: each bit is flipped by a hash of those below it
@@ -122,6 +168,15 @@ mod tests {
                 cells.dedup();
                 assert_eq!(cells.len(), count as usize, "{columns} × {rows}");
             }
+        }
+    }
+
+    #[test]
+    fn a_second_number_alone_is_that_of_its_pair() {
+        for index in 0..64 {
+            let sobol = Sobol::new([7, 9], index, Seeds::NONE);
+            assert_eq!(sobol.second(index), sobol.pair(index)[1]);
+            assert!(sobol.pair(index).iter().all(|u| (0.0..=MAX).contains(u)));
         }
     }
 

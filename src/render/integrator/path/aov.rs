@@ -13,15 +13,15 @@ impl<'run, S: Geometry, const F: u32> FirstHit<'run> for PathTracer<'run, S, F> 
     fn first_hit(&mut self, id: &SampleId) -> CameraHit {
         let sobol = Sobol::new(id.pixel, id.index, Seeds::NONE);
         let mut state = PathState::new(self.camera_ray(id.pixel, &sobol), sobol);
-        let first = self.closest_hit(&mut state).map(|vertex| {
+        let first = self.at_closest_hit(&mut state, |tracer, state, vertex| {
             let wo = -state.ray.direction;
-            let (frame, _) = vertex.point.frame::<F>(&vertex.at, &vertex.details, wo);
+            let (frame, _) = vertex.point.frame::<F>(vertex.at, vertex.details, wo);
             First {
                 albedo: vertex.point.base_color(),
                 normal: frame.to_world(Vec3::Z),
                 point: vertex.at.point,
                 uv: vertex.point.uv(),
-                surface: self.world.surfaces[vertex.hit.surface].index,
+                surface: tracer.world.surfaces[vertex.hit.surface].index,
             }
         });
         CameraHit {

@@ -123,15 +123,18 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         self.counts.camera += 1;
         let mut state = PathState::new(ray, sobol);
         loop {
-            let Some(vertex) = self.closest_hit(&mut state) else {
-                self.add_escaped_radiance(&mut state);
-                return state.radiance;
-            };
-            self.counts.hits += u64::from(state.bounces == 0);
-            if !self.heartbeat.goes_on(&self.counts) || !self.scatter(&mut state, &vertex) {
-                return state.radiance;
+            let scattered = self.at_closest_hit(&mut state, |tracer, state, vertex| {
+                tracer.counts.hits += u64::from(state.bounces == 0);
+                tracer.heartbeat.goes_on(&tracer.counts) && tracer.scatter(state, vertex)
+            });
+            match scattered {
+                Some(true) => state.bounces += 1,
+                Some(false) => return state.radiance,
+                None => {
+                    self.add_escaped_radiance(&mut state);
+                    return state.radiance;
+                }
             }
-            state.bounces += 1;
         }
     }
 }

@@ -8,13 +8,14 @@ use crate::plan::{Effect, PathFeatures};
 use crate::render::bsdf::Lobes;
 use crate::render::bsdf::standard::StandardParameters;
 use crate::render::light::Incident;
-use crate::render::material::point::ShadingFrame;
+use crate::render::material::point::{MaterialPoint, ShadingFrame};
+use crate::render::sampler::sobol;
 use crate::render::shape::geometry::Geometry;
 
 /// The BSDF at a vertex, in its frame of shading.
-struct Shading<const F: u32> {
-    frame: ShadingFrame,
-    bsdf: Lobes<F>,
+struct Shading<'vertex, const F: u32> {
+    frame: &'vertex ShadingFrame,
+    bsdf: &'vertex Lobes<F>,
     /// The direction to the viewer in the frame.
     wo: Vec3,
 }
@@ -42,7 +43,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     }
 
     /// Adds light at a vertex and samples the next direction; false if the path ends there.
-    pub(super) fn scatter(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> bool {
+    pub(super) fn scatter(
+        &mut self,
+        state: &mut PathState,
+        vertex: &PathVertex<'_, 'world>,
+    ) -> bool {
         // Attenuate by the medium along the ray (Beer-Lambert).
         if Self::can(PathFeatures::TRANSMISSION) && state.absorption != Vec3::ZERO {
             self.counts.add(Effect::Volume);
@@ -57,17 +62,34 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         if state.bounces >= self.world.plan.max_depth {
             return false;
         }
-        let [choice, light] = state.pair(0);
-        let shading = self.shading(state, vertex);
+        let (point, wo) = (vertex.point, -state.ray.direction);
+        if Self::can(PathFeatures::TRANSMISSION) {
+            self.disperse(state, point);
+        }
+        // Evaluate the material, and make its BSDF.
+        let (frame, coat) = point.frame::<F>(vertex.at, vertex.details, wo);
+        let multiple = self.multiple_scattering;
+        let standard = point.standard::<F>(&frame, coat, state.channel, multiple);
+        let wo = frame.to_local(wo);
+        let bsdf = Lobes::<F>::new(&standard, wo);
+        self.count_shading(vertex, &standard, &bsdf);
+        let shading = Shading {
+            frame: &frame,
+            bsdf: &bsdf,
+            wo,
+        };
+        // Draw numbers only where lights or lobes are to be chosen from.
+        let is_open = self.lights.has_choice() || !bsdf.is_diffuse_up_to(sobol::MAX);
+        let [choice, light] = if is_open { state.pair(0) } else { [0.0; 2] };
         // Sample one light.
-        if self.does(PathFeatures::AIM) && !shading.bsdf.is_delta() {
+        if self.does(PathFeatures::AIM) && !bsdf.is_delta() {
             state.radiance += state.beta * self.direct(state, vertex, &shading, light);
         }
         state.bounces < self.max_bounces && self.turn(state, vertex, &shading, choice)
     }
 
     /// Adds the emitted radiance of a surface.
-    fn add_emission(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) {
+    fn add_emission(&mut self, state: &mut PathState, vertex: &PathVertex<'_, 'world>) {
         let emission = vertex.point.emission();
         if emission == Vec3::ZERO {
             return;
@@ -88,12 +110,12 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     fn turn(
         &mut self,
         state: &mut PathState,
-        vertex: &PathVertex<'world>,
+        vertex: &PathVertex<'_, 'world>,
         Shading {
             frame,
             bsdf,
             wo: local,
-        }: &Shading<F>,
+        }: &Shading<'_, F>,
         choice: f64,
     ) -> bool {
         let (PathVertex { at, point, hit, .. }, wo) = (vertex, -state.ray.direction);
@@ -127,32 +149,20 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         state.russian_roulette()
     }
 
-    /// The BSDF at a vertex.
-    #[inline]
-    fn shading(&mut self, state: &mut PathState, vertex: &PathVertex<'world>) -> Shading<F> {
-        let PathVertex {
-            at, point, details, ..
-        } = vertex;
-        let wo = -state.ray.direction;
-        let is_dispersed =
-            Self::can(PathFeatures::TRANSMISSION) && point.material.dispersed.is_some();
+    /// Picks a wavelength at the first surface that disperses.
+    fn disperse(&mut self, state: &mut PathState, point: &MaterialPoint<'world>) {
+        let is_dispersed = point.material.dispersed.is_some();
         if is_dispersed && state.channel.is_none() && point.transmits() {
             self.counts.add(Effect::Dispersion);
             state.pick_wavelength();
         }
-        let (frame, coat) = point.frame::<F>(at, details, wo);
-        let standard = point.standard::<F>(&frame, coat, state.channel, self.multiple_scattering);
-        let wo = frame.to_local(wo);
-        let bsdf = Lobes::<F>::new(&standard, wo);
-        self.count_shading(vertex, &standard, &bsdf);
-        Shading { frame, bsdf, wo }
     }
 
     /// Counts what was evaluated of a material.
     #[inline]
     fn count_shading(
         &mut self,
-        vertex: &PathVertex<'_>,
+        vertex: &PathVertex<'_, '_>,
         standard: &StandardParameters,
         bsdf: &Lobes<F>,
     ) {
@@ -179,11 +189,11 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     fn direct(
         &mut self,
         state: &PathState,
-        vertex: &PathVertex<'world>,
-        Shading { frame, bsdf, wo }: &Shading<F>,
+        vertex: &PathVertex<'_, 'world>,
+        Shading { frame, bsdf, wo }: &Shading<'_, F>,
         choice: f64,
     ) -> Vec3 {
-        let at = &vertex.at;
+        let at = vertex.at;
         let Some(Incident {
             wi,
             radiance,
@@ -203,15 +213,15 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
         if through != (wi.dot(at.normal) * -state.ray.direction.dot(at.normal) < 0.0) {
             return Vec3::ZERO;
         }
-        let value = bsdf.evaluate(local);
-        let weight = match (pdf, self.strategy) {
+        let (f, weight) = match (pdf, self.strategy) {
             (Some(light_pdf), Strategy::Mis) => {
                 self.counts.add(Effect::Mis);
-                power_heuristic(light_pdf, value.pdf)
+                let value = bsdf.evaluate(local);
+                (value.f, power_heuristic(light_pdf, value.pdf))
             }
-            _ => 1.0,
+            _ => (bsdf.f(local), 1.0),
         };
-        let light = value.f * radiance * (local.z.abs() * weight);
+        let light = f * radiance * (local.z.abs() * weight);
         if light == Vec3::ZERO {
             light
         } else {

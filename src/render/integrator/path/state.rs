@@ -56,6 +56,11 @@ impl PathState {
         self.sobol.pair(CORNERS + PAIRS * self.bounces + pair)
     }
 
+    /// The second number of a pair of this vertex.
+    fn second(&self, pair: u32) -> f64 {
+        self.sobol.second(CORNERS + PAIRS * self.bounces + pair)
+    }
+
     /// Picks one colour channel, weighted by 3.
     #[expect(
         clippy::cast_possible_truncation,
@@ -77,7 +82,7 @@ impl PathState {
         if self.bounces < RR_MIN_DEPTH || largest >= 1.0 {
             return largest > 0.0;
         }
-        let [_, u] = self.pair(3);
+        let u = self.second(3);
         self.beta /= largest;
         u < largest
     }

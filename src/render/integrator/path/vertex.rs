@@ -14,18 +14,23 @@ use crate::render::world::Hit;
 pub(super) const MAX_SKIPPED: u32 = 1 << 10;
 
 /// A vertex of a path: a hit, with everything that shading needs.
-pub(in crate::render) struct PathVertex<'world> {
-    pub(super) at: Interaction,
-    pub(super) point: MaterialPoint<'world>,
-    pub(super) details: Details,
+pub(super) struct PathVertex<'hit, 'world> {
+    pub(super) at: &'hit Interaction,
+    pub(super) point: &'hit MaterialPoint<'world>,
+    pub(super) details: &'hit Details,
     pub(super) hit: Hit,
 }
 
 impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
-    /// The next hit that is not skipped. Alpha-tested surfaces are skipped with probability
-    /// 1 − opacity; camera rays also skip back faces of single-sided materials.
+    /// Shades the next hit that is not skipped, where it is found: a vertex is too large to be
+    /// moved. `None` without a hit. Alpha-tested surfaces are skipped with probability 1 − opacity;
+    /// camera rays also skip back faces of single-sided materials.
     #[inline(always)]
-    pub(super) fn closest_hit(&mut self, state: &mut PathState) -> Option<PathVertex<'world>> {
+    pub(super) fn at_closest_hit<T>(
+        &mut self,
+        state: &mut PathState,
+        shade: impl FnOnce(&mut Self, &mut PathState, &PathVertex<'_, 'world>) -> T,
+    ) -> Option<T> {
         state.travelled = 0.0;
         for skipped in 0..MAX_SKIPPED {
             let hit = self.next_hit(state)?;
@@ -44,12 +49,13 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
                 (state.ray, state.from) = (at.ray(state.ray.direction), (hit.surface, hit.prim_id));
                 continue;
             }
-            return Some(PathVertex {
-                at,
-                point,
-                details,
+            let vertex = PathVertex {
+                at: &at,
+                point: &point,
+                details: &details,
                 hit,
-            });
+            };
+            return Some(shade(self, state, &vertex));
         }
         None
     }

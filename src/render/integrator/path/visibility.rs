@@ -15,7 +15,7 @@ impl<'world, S: Geometry, const F: u32> PathTracer<'world, S, F> {
     #[inline(never)]
     pub(super) fn visibility(
         &mut self,
-        vertex: &PathVertex<'world>,
+        vertex: &PathVertex<'_, 'world>,
         wi: Vec3,
         place: Option<Vec3>,
     ) -> f64 {
