@@ -27,5 +27,8 @@ pub fn refract(d: Vec3, n: Vec3, eta_from: f64, eta_to: f64) -> Option<Vec3> {
 /// Phong's highlight, `max(0, R·V)ⁿ`, with the cosine kept from exceeding 1 by rounding; never −0.
 #[must_use]
 pub fn highlight(r_dot_v: f64, n: f64) -> f64 {
+    if r_dot_v <= 0.0 && n > 0.0 {
+        return 0.0;
+    }
     pow(r_dot_v.clamp(0.0, 1.0) + 0.0, n)
 }

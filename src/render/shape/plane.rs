@@ -63,16 +63,41 @@ impl Normal {
     /// The t of the plane through `anchor` along the ray; see [`Plane::parameter`].
     #[inline(always)]
     fn parameter(&self, anchor: Vec3, ray: &Ray) -> Option<f64> {
-        let slope = dot(self.raw, ray.direction);
+        let slope = match self.axis() {
+            Some((axis, sign)) => sign * ray.direction[axis],
+            None => dot(self.raw, ray.direction),
+        };
         if slope == 0.0 {
             return None;
         }
         Some(self.distance(anchor, ray.origin) / slope)
     }
 
+    /// The axis along which the normal lies, and its sign there, if it lies along one: products
+    /// with such a normal are exact, and so are their sums.
+    #[inline]
+    fn axis(&self) -> Option<(usize, f64)> {
+        let [x, y, z] = self.raw.abs().to_array();
+        let axis = match (x == 0.0, y == 0.0, z == 0.0) {
+            (true, true, false) => 2,
+            (true, false, true) => 1,
+            (false, true, true) => 0,
+            _ => return None,
+        };
+        (self.square == 1.0).then_some((axis, self.raw[axis]))
+    }
+
     /// N·(anchor − p), as if in twice the precision.
     #[inline(always)]
     fn distance(&self, anchor: Vec3, p: Vec3) -> f64 {
+        if let Some((axis, sign)) = self.axis() {
+            let (step, error) = two_difference(anchor[axis], p[axis]);
+            let distance = sign * step + sign * error;
+            // The sign of a 0 is that of the sum.
+            if distance != 0.0 {
+                return distance;
+            }
+        }
         let (x, x_error) = two_difference(anchor.x, p.x);
         let (y, y_error) = two_difference(anchor.y, p.y);
         let (z, z_error) = two_difference(anchor.z, p.z);
