@@ -24,15 +24,22 @@ impl Ray {
     #[must_use]
     #[inline]
     pub fn rescaled(self) -> (Self, f64) {
-        const MOST: f64 = 18_446_744_073_709_551_616.0;
-        let size = self.direction.abs().max_element();
-        if (1.0 / MOST..=MOST).contains(&size) {
+        if self.is_scaled() {
             return (self, 1.0);
         }
         match unit_scale(self.direction) {
             Some((direction, exponent)) => (Self { direction, ..self }, ldexp(1.0, -exponent)),
             None => (self, 1.0),
         }
+    }
+
+    /// Whether [`Self::rescaled`] leaves it as it is.
+    #[must_use]
+    #[inline]
+    pub(in crate::render) fn is_scaled(&self) -> bool {
+        const MOST: f64 = 18_446_744_073_709_551_616.0;
+        let size = self.direction.abs().max_element();
+        (1.0 / MOST..=MOST).contains(&size)
     }
 
     /// The unit vector along what leads out of the surface that was met. Where the eye is 10¹⁶

@@ -12,6 +12,15 @@ pub struct Bounds {
     pub max: Vec3,
 }
 
+/// A ball.
+#[derive(Clone, Copy, Debug)]
+pub struct Ball {
+    /// Its centre.
+    pub center: Vec3,
+    /// Its radius.
+    pub radius: f64,
+}
+
 impl Bounds {
     /// The box that holds nothing.
     pub const EMPTY: Self = Self {

@@ -3,6 +3,7 @@
 
 pub(in crate::render) mod beam;
 pub(in crate::render) mod bounds;
+pub(in crate::render) mod bundle;
 pub(in crate::render) mod bvh;
 pub(in crate::render) mod lanes;
 mod pages;

@@ -2,7 +2,7 @@
 
 use super::kinds::{Plane, Sphere, Triangle};
 use crate::math::Vec3;
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::tie;

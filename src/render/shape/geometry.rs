@@ -1,7 +1,7 @@
 //! What a world asks of the shapes in it.
 
 use crate::math::Vec3;
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::triangle::Shear;
 
@@ -107,6 +107,16 @@ pub trait Geometry: Sized + Send + Sync {
     /// A box around it; `None` for unbounded shapes.
     #[must_use]
     fn bounds(&self) -> Option<Bounds>;
+
+    /// A ball around it; `None` for unbounded shapes, and where hits are not known to lie within.
+    #[must_use]
+    fn ball(&self) -> Option<Ball> {
+        let Bounds { min, max } = self.bounds()?;
+        Some(Ball {
+            center: min * 0.5 + max * 0.5,
+            radius: (max - min).length() * 0.5,
+        })
+    }
 }
 
 /// A ray in the coordinates of a shape, and its shear.

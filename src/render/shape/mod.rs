@@ -34,6 +34,7 @@ macro_rules! dispatch {
                 tie::error(ray, t, &self.interaction(ray, t, prim_id))
             }
 
+            #[inline]
             fn interaction(&self, ray: &Ray, t: f64, prim_id: u32) -> Interaction {
                 match self {
                     $(Self::$Name(shape) => <$Name as Geometry>::interaction(shape, ray, t, prim_id),)*
@@ -108,6 +109,12 @@ macro_rules! dispatch {
                     $(Self::$Name(shape) => <$Name as Geometry>::bounds(shape),)*
                 }
             }
+
+            fn ball(&self) -> Option<Ball> {
+                match self {
+                    $(Self::$Name(shape) => <$Name as Geometry>::ball(shape),)*
+                }
+            }
         }
     };
 }
@@ -144,7 +151,7 @@ pub(in crate::render) mod kinds {
 }
 
 use crate::math::Vec3;
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::triangle::Shear;

@@ -6,7 +6,7 @@
 //! the sign or the root reported is in doubt, it is computed again.
 
 use crate::math::{DoubleDouble, U, Vec3, acos, atan2};
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::{Asked, Details, Geometry};
 use crate::render::shape::mesh::PlainMesh;
@@ -43,25 +43,30 @@ impl Sphere {
         let d = ray.direction;
         let (f2, b) = (f.dot(f), -f.dot(d));
 
-        // Leave spheres that lie behind the origin or beside the line: from outside, both roots
+        // Leave spheres that lie beside the line or behind the origin: from outside, both roots
         // have the sign of b, and there is none where a·(f² − r²) > b². Rounding may move the two
         // sides by 27 u·a·f².
-        let outside = f2 * (1.0 - 64.0 * U) - self.radius * self.radius;
-        if outside > 0.0 && (b < 0.0 || d.dot(d) * outside > b * b) {
+        let r2 = self.radius * self.radius;
+        let outside = f2 * (1.0 - 64.0 * U) - r2;
+        if outside > 0.0 && d.dot(d) * outside > b * b {
             return None;
         }
-        self.first_root(ray)
+
+        // Rays that lead off the sphere itself start outside by more than the 7 u by which rounding
+        // may move f² against r².
+        if b < 0.0 && f2 * (1.0 - 8.0 * U) > r2 {
+            return None;
+        }
+        self.first_root(ray, f, [f2, b])
     }
 
-    /// As [`Self::intersect`], of a line that comes close.
-    #[inline(never)]
-    fn first_root(&self, ray: &Ray) -> Option<f64> {
-        let f = ray.origin - self.center;
+    /// As [`Self::intersect`], of a line that comes close; `f` leads from the centre to the origin,
+    /// with its square and its product with the direction, negated.
+    #[inline]
+    fn first_root(&self, ray: &Ray, f: Vec3, [f2, b]: [f64; 2]) -> Option<f64> {
         let d = ray.direction;
         let r2 = self.radius * self.radius;
-        let f2 = f.dot(f);
         let a = d.dot(d);
-        let b = -f.dot(d);
 
         // Compute the discriminant from the foot of the perpendicular.
         let nearest = b / a;
@@ -84,17 +89,13 @@ impl Sphere {
         let a_discriminant = a * discriminant;
         let root = a_discriminant.sqrt();
         let q = if b >= 0.0 { b + root } else { b - root };
-        let (quotient, other) = (c / q, q / a);
-        let (near, far) = if b >= 0.0 {
-            (quotient, other)
-        } else {
-            (other, quotient)
-        };
         let from_afar = f2 > FAR * r2;
-        let t = match (from_afar, near > 0.0) {
-            (true, _) => nearest - (foot.dot(d) + root) / a,
-            (false, true) => near,
-            (false, false) => far,
+        let (t, is_quotient) = match (from_afar, b >= 0.0) {
+            (true, _) => (nearest - (foot.dot(d) + root) / a, true),
+            (false, true) if c / q > 0.0 => (c / q, true),
+            (false, true) => (q / a, false),
+            (false, false) if q / a > 0.0 => (q / a, false),
+            (false, false) => (c / q, true),
         };
         if t.is_nan() || t <= 0.0 {
             return None;
@@ -102,7 +103,6 @@ impl Sphere {
 
         // Recompute the root in double-double if the error of c or of the discriminant is
         // amplified.
-        let is_quotient = (near > 0.0) == (b >= 0.0);
         let cancelled = is_quotient && f2 + r2 > AMPLIFIED * c.abs();
         let amplified = r2 * (r2 + f2) * a * a > AMPLIFIED * AMPLIFIED * a_discriminant * q * q;
         if cancelled || amplified {
@@ -150,7 +150,7 @@ impl Sphere {
 
     /// The point at `t`: along the ray or moved onto the sphere in its own frame, whichever rounds
     /// less.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn interaction(&self, ray: &Ray, t: f64) -> Interaction {
         let step = ray.direction * t;
@@ -215,6 +215,11 @@ impl Geometry for TexturedSphere {
 
     fn bounds(&self) -> Option<Bounds> {
         Some(Bounds::around(self.sphere.center, self.sphere.radius))
+    }
+
+    fn ball(&self) -> Option<Ball> {
+        let Sphere { center, radius } = self.sphere;
+        Some(Ball { center, radius })
     }
 }
 

@@ -8,7 +8,7 @@
 //! on it.
 
 use crate::math::{Vec3, cross, ldexp};
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::geometry::Geometry;
 use crate::render::shape::mesh::PlainMesh;
@@ -36,6 +36,8 @@ pub struct Torus {
     major: f64,
     /// Of the tube.
     minor: f64,
+    /// The power of two near the outer radius.
+    unit: f64,
 }
 
 /// A ray near the torus, in units of about its outer radius, as seen from the axis.
@@ -61,6 +63,25 @@ impl TorusRay {
         let (large, small) = if z > off { (z, off) } else { (off, z) };
         let square = small * small + (large - self.minor) * (large + self.minor);
         square / ((off * off + z * z).sqrt() + self.minor)
+    }
+
+    /// Whether the ray certainly misses the torus from `low` to `high`: it is nowhere there between
+    /// the two planes that touch the torus, or all the way between them in the hole. All of it with
+    /// a margin far above rounding; the distance from the axis is largest at an end of that way.
+    fn passes(&self, low: f64, high: f64) -> bool {
+        /// Lengths are of about 1.
+        const MARGIN: f64 = 1.0 / 1_048_576.0;
+        let above = self.minor + MARGIN;
+        let ends = [-above, above].map(|height| (height - self.height) / self.rise);
+        let (enter, leave) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let hole = self.major - self.minor - MARGIN;
+        let is_in_hole = |s: f64| {
+            let off = self.off + self.turn * s;
+            off.dot(off) < hole * hole
+        };
+        enter > high + MARGIN
+            || leave < low - MARGIN
+            || hole > 0.0 && is_in_hole(enter) && is_in_hole(leave)
     }
 
     /// The coefficients of the quartic's derivative over 4, `s³ + linear·s + constant`: there is no
@@ -195,6 +216,7 @@ impl Torus {
             axis: Normal::new(axis).unit(),
             major,
             minor,
+            unit: ldexp(1.0, libm::ilogb(major + minor)),
         }
     }
 
@@ -212,7 +234,7 @@ impl Torus {
             return None;
         }
         // Scale by a power of two near the outer radius, which is exact.
-        let unit = ldexp(1.0, libm::ilogb(outer));
+        let unit = self.unit;
         let length = length2.sqrt();
         let (from, step) = (foot / unit, d / length);
         let line = TorusRay {
@@ -227,7 +249,7 @@ impl Torus {
         let half = half2.sqrt() / unit;
         let start = -nearest * length / unit;
         let low = if start > -half { start } else { -half };
-        if low >= half {
+        if low >= half || line.passes(low, half) {
             return None;
         }
         let t = nearest + line.first_root(low, half)? * (unit / length);
@@ -265,6 +287,13 @@ impl Geometry for Torus {
 
     fn bounds(&self) -> Option<Bounds> {
         Some(self.bounds())
+    }
+
+    fn ball(&self) -> Option<Ball> {
+        Some(Ball {
+            center: self.center,
+            radius: self.major + self.minor,
+        })
     }
 }
 

@@ -4,6 +4,7 @@
 pub(in crate::render) mod alpha;
 pub(in crate::render) mod any;
 mod batch;
+mod few;
 mod flattened;
 mod light;
 mod material;
@@ -30,6 +31,7 @@ use crate::render::shape::tie::{CLOSE, Nearest, Tie};
 use crate::render::shape::triangle::Shear;
 use crate::valid::Proof;
 use alpha::AlphaTested;
+use few::Few;
 use flattened::{Flattened, FlattenedRay};
 use light::LightList;
 use search::{AnySearch, ClosestSearch};
@@ -85,6 +87,8 @@ pub struct World<S = Shape> {
     flattened: Option<Flattened>,
     /// The vector instructions that rays are traced with.
     simd: SimdLevel,
+    /// All surfaces, if they are few and the integrator asks for bundles of rays.
+    pub(in crate::render) few: Option<Few>,
 }
 
 /// The surfaces that are not flattened.

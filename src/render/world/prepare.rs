@@ -1,14 +1,15 @@
 //! How a world is made of a proof: all that a hit would ask again and again is asked once, here.
 
 use super::alpha::AlphaTested;
+use super::few::Few;
 use super::flattened::{Flattened, flattened_surfaces};
 use super::material::{PhongList, standard};
 use super::settings::{camera, settings};
 use super::shape::Prepare;
 use super::texture::Textures;
 use super::{Apart, Surface, World, light};
-use crate::plan::Plan;
 use crate::plan::facts::material;
+use crate::plan::{Plan, Rules};
 use crate::render::accel::bvh::Bvh;
 use crate::render::accel::simd::SimdLevel;
 use crate::render::shape::geometry::Geometry;
@@ -50,7 +51,8 @@ impl<S: Prepare> World<S> {
             apart,
             casters,
             flattened,
-        } = Lookup::of(scene, &surfaces, simd);
+            few,
+        } = Lookup::of(scene, plan, &surfaces, simd);
         Self {
             scene: scene.clone(),
             camera: camera(scene.camera()),
@@ -69,6 +71,7 @@ impl<S: Prepare> World<S> {
             casters,
             flattened,
             simd,
+            few,
         }
     }
 }
@@ -107,10 +110,16 @@ struct Lookup {
     apart: Apart,
     casters: Option<Apart>,
     flattened: Option<Flattened>,
+    few: Option<Few>,
 }
 
 impl Lookup {
-    fn of<S: Geometry>(scene: &Proof, surfaces: &[Surface<S>], simd: SimdLevel) -> Self {
+    fn of<S: Geometry>(
+        scene: &Proof,
+        plan: &Plan,
+        surfaces: &[Surface<S>],
+        simd: SimdLevel,
+    ) -> Self {
         let flattens = flattened_surfaces(scene);
         let is_path = matches!(scene.settings().mode, valid::Mode::Path(_));
         // Shadow rays of paths meet what all rays meet: light counts once, by whichever strategy.
@@ -126,7 +135,11 @@ impl Lookup {
         let casters: Vec<u32> = casters
             .filter(|index| casts(&surfaces[*index as usize]))
             .collect();
+        // A naive world asks all surfaces, so that a validation sees what a bundle passed over.
+        let bundled = !is_path && plan.rules != Rules::NONE;
+        let few = || Few::new(surfaces, &apart, &casters);
         Self {
+            few: bundled.then(few).flatten(),
             casters: (casters.len() < apart.len()).then(|| Apart::of(surfaces, &casters)),
             apart: Apart::of(surfaces, &apart),
             flattened: Flattened::new(surfaces, &flattened, simd),

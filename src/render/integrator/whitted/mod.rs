@@ -9,6 +9,7 @@ mod shade;
 
 use crate::math::Vec3;
 use crate::plan::{Effect, Features, Plan, Rule};
+use crate::render::accel::bundle::Bundles;
 use crate::render::camera::grid::Grid;
 use crate::render::film::Counts;
 use crate::render::film::heartbeat::{Heartbeat, OnPixel};
@@ -39,6 +40,9 @@ pub(in crate::render) struct Tracer<'world, S, const F: u32> {
     pub(in crate::render) spread: bool,
     grid: Grid,
     pixel: PixelState,
+    /// How many bounces the path under way has behind it.
+    bounces: u32,
+    bundles: Bundles,
     /// The rays traced so far.
     pub(in crate::render) counts: Counts,
 }
@@ -60,6 +64,8 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             spread: false,
             grid: world.settings.grid,
             pixel: PixelState::default(),
+            bounces: 0,
+            bundles: Bundles::EMPTY,
             counts,
         }
     }
@@ -120,8 +126,9 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
             if Self::can(Features::NAIVE) {
                 self.weightless = path.beta == 0.0;
             }
+            let bounces = depth - path.bounces_left;
+            self.bounces = bounces;
             if let Some(shading_point) = self.shading_point(&path.ray, path.key) {
-                let bounces = depth - path.bounces_left;
                 self.counts.hits += u64::from(bounces == 0);
                 self.steps = self.is_cartoon() && bounces == 0;
                 if self.steps && shading_point.is_outline() {
@@ -163,8 +170,19 @@ impl<'world, S: Geometry, const F: u32> Tracer<'world, S, F> {
     /// What a ray sees, with the maps of its material applied.
     #[inline(always)]
     fn shading_point(&mut self, ray: &Ray, key: Key) -> Option<ShadingPoint<'world>> {
-        let hit = self.world.closest_hit(ray)?;
+        let hit = self.closest_hit(ray)?;
         Some(self.shading_point_of(ray, hit, key))
+    }
+
+    /// The closest hit, of the surfaces that the bundle of the ray may meet.
+    #[inline(always)]
+    fn closest_hit(&mut self, ray: &Ray) -> Option<Hit> {
+        if let Some(few) = &self.world.few
+            && let Some(items) = self.bundles.along(&few.balls, self.bounces as usize, ray)
+        {
+            return self.world.closest_hit_of(items, ray);
+        }
+        self.world.closest_hit(ray)
     }
 
     /// What a ray sees at a hit.

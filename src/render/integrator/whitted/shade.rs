@@ -3,6 +3,7 @@
 use super::Tracer;
 use crate::math::{Basis, Vec3};
 use crate::plan::{Effect, Features, Rule};
+use crate::render::accel::bounds::Ball;
 use crate::render::bsdf::optics::highlight;
 use crate::render::integrator::Integrator;
 use crate::render::light::course::CourseLight;
@@ -207,8 +208,7 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         if !faces && self.applies(Rule::ShadowFacing) {
             return false;
         }
-        let sees =
-            !Self::can(Features::SHADOW) || !shadowed.maybe || self.sees(shading_point, light);
+        let sees = !Self::can(Features::SHADOW) || self.sees(shading_point, light, shadowed);
         self.verify(
             Effect::Shadows,
             "a shadow ray left out is blocked",
@@ -222,12 +222,34 @@ impl<S: Geometry, const F: u32> Tracer<'_, S, F> {
         faces && sees
     }
 
-    fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3) -> bool {
+    /// Whether nothing stands between a point and a point of a light.
+    fn sees(&mut self, shading_point: &ShadingPoint<'_>, light: Vec3, shadowed: Hidden) -> bool {
+        if !shadowed.maybe {
+            return true;
+        }
         self.counts.shadow += 1;
-        let start = shading_point
-            .interaction
-            .start(light - shading_point.interaction.point);
-        !self.world.occluded(start, light)
+        let interaction = &shading_point.interaction;
+        let start = || interaction.start(light - interaction.point);
+        let world = self.world;
+        let Some(few) = &world.few else {
+            return !world.occluded(start(), light);
+        };
+        let lights = &world.lights.course;
+        let place = [self.bounces as usize, shadowed.light, lights.len()];
+        let target = || {
+            let CourseLight {
+                position, radius, ..
+            } = lights[shadowed.light];
+            Ball {
+                center: position,
+                radius: radius.get(),
+            }
+        };
+        let items = self
+            .bundles
+            .towards(&few.balls, place, interaction.point, target);
+        let items = few.casting(items);
+        items == 0 || !world.occluded_by(items, start(), light)
     }
 
     /// Gooch et al., "A non-photorealistic lighting model for automatic technical illustration"

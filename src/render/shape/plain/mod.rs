@@ -10,7 +10,7 @@ pub(in crate::render) mod real;
 pub(in crate::render) mod roots;
 
 use crate::math::Vec3;
-use crate::render::accel::bounds::Bounds;
+use crate::render::accel::bounds::{Ball, Bounds};
 use crate::render::ray::{Interaction, Ray};
 use crate::render::shape::Shape;
 use crate::render::shape::geometry::{Asked, Details, Geometry};
@@ -141,5 +141,10 @@ impl<R: Real> Geometry for PlainShape<R> {
 
     fn bounds(&self) -> Option<Bounds> {
         self.robust.bounds()
+    }
+
+    /// Plain formulas may hit beside the shape.
+    fn ball(&self) -> Option<Ball> {
+        None
     }
 }

@@ -1,0 +1,307 @@
+//! Bundles of rays that start near one another and run alike: which of a few balls they can meet at
+//! all is asked once for the whole bundle. What a bundle says never decides a hit; it only says
+//! which shapes need not be asked.
+//!
+//! Cones: Amanatides, "Ray tracing with cones" (SIGGRAPH 1984). Shafts: Haines, Wallace, "Shaft
+//! culling for efficient ray-cast radiosity" (1991).
+
+use crate::math::Vec3;
+use crate::render::accel::bounds::Ball;
+use crate::render::ray::Ray;
+use arrayvec::ArrayVec;
+
+/// At most so many items have bits.
+pub(in crate::render) const MAX_ITEMS: usize = 64;
+
+/// The margin, as a fraction of the coordinates it is for: 2⁻³², 2²¹ units of rounding. Hits are
+/// accurate to about 10² units.
+const MARGIN: f64 = 1.0 / 4_294_967_296.0;
+
+/// The margin of sines: 2⁻²⁰. A cosine near 1 gives a sine to 10⁻⁸.
+const SINE_MARGIN: f64 = 1.0 / 1_048_576.0;
+
+/// The widest cone, by its sine.
+const WIDEST: f64 = 0.5;
+
+/// The balls of a few items, each known by a bit.
+#[derive(Debug)]
+pub(in crate::render) struct Balls {
+    balls: Vec<(u64, Ball)>,
+    /// The items without a ball: every ray may meet them.
+    unbounded: u64,
+    /// The smallest radius, the measure of how near is near.
+    smallest: f64,
+}
+
+impl Balls {
+    /// The balls of some items by their bits, at most [`MAX_ITEMS`].
+    pub(in crate::render) fn new(items: impl Iterator<Item = (usize, Option<Ball>)>) -> Self {
+        let (mut balls, mut unbounded, mut smallest) = (Vec::new(), 0, f64::INFINITY);
+        for (bit, ball) in items {
+            let bit = 1 << bit;
+            match ball {
+                Some(ball) => {
+                    smallest = smallest.min(ball.radius);
+                    balls.push((bit, ball));
+                }
+                None => unbounded |= bit,
+            }
+        }
+        Self {
+            balls,
+            unbounded,
+            smallest,
+        }
+    }
+
+    /// The least of the clearances given that is as large as wanted, or what is wanted, and the
+    /// items with less than that.
+    fn choose(&self, wanted: f64, floor: f64, clearances: &ArrayVec<f64, MAX_ITEMS>) -> (f64, u64) {
+        let large = clearances.iter().filter(|clearance| **clearance >= wanted);
+        let room = large.copied().reduce(f64::min).unwrap_or(wanted);
+        let least = room.max(floor);
+        let items = self.balls.iter().zip(clearances);
+        let near = items.filter(|(_, clearance)| **clearance < least || clearance.is_nan());
+        (
+            room,
+            near.fold(self.unbounded, |items, ((bit, _), _)| items | bit),
+        )
+    }
+}
+
+/// How wide the next bundle is to be: bundles that few rays used become wider, those that many used
+/// narrower. It changes how long something takes, never what is found.
+#[derive(Clone, Copy, Debug)]
+struct Pace {
+    uses: u32,
+    /// The width wanted, in radii of the smallest ball.
+    width: f64,
+}
+
+impl Pace {
+    const START: Self = Self {
+        uses: 0,
+        width: 0.125,
+    };
+
+    fn next(self) -> Self {
+        let width = match self.uses {
+            0..8 => (self.width * 2.0).min(2.0),
+            8..128 => self.width,
+            _ => (self.width * 0.5).max(1.0 / 64.0),
+        };
+        Self { uses: 0, width }
+    }
+}
+
+/// All rays whose origins and directions differ little from those of one.
+#[derive(Clone, Copy, Debug)]
+struct RayCone {
+    origin: Vec3,
+    /// Of length 1.
+    direction: Vec3,
+    /// The largest squared distance of their origins; below 0 for no bundle.
+    near: f64,
+    /// The largest squared distance of their directions.
+    alike: f64,
+    /// The items that they may meet.
+    items: u64,
+    pace: Pace,
+}
+
+impl RayCone {
+    const EMPTY: Self = Self {
+        origin: Vec3::ZERO,
+        direction: Vec3::ZERO,
+        near: -1.0,
+        alike: -1.0,
+        items: 0,
+        pace: Pace::START,
+    };
+
+    #[inline(always)]
+    fn holds(&self, ray: &Ray) -> bool {
+        let (from, along) = (ray.origin - self.origin, ray.direction - self.direction);
+        from.dot(from) <= self.near && along.dot(along) <= self.alike
+    }
+
+    /// A cone around a ray, of directions of length 1; `None` for other rays.
+    #[inline(never)]
+    fn around(&self, ray: &Ray, balls: &Balls) -> Option<Self> {
+        const ONE: f64 = 1.0 / 1_073_741_824.0;
+        let length2 = ray.direction.dot(ray.direction);
+        if !(ray.origin.is_finite() && (length2 - 1.0).abs() <= ONE) {
+            return None;
+        }
+        let pace = self.pace.next();
+        // Rays of a pinhole start at one point.
+        let reach = if self.origin == ray.origin {
+            0.0
+        } else {
+            pace.width * balls.smallest
+        };
+        let mut widest = WIDEST;
+        let clearance = |(_, ball): &(u64, Ball)| {
+            let (clearance, size) = cone_clearance(ray, reach, ball);
+            widest = widest.min(size);
+            clearance
+        };
+        let clearances = balls.balls.iter().map(clearance).collect();
+        let (sine, items) = balls.choose(pace.width * widest, 0.0, &clearances);
+        Some(Self {
+            origin: ray.origin,
+            direction: ray.direction,
+            near: reach * reach,
+            alike: sine * sine,
+            items,
+            pace,
+        })
+    }
+}
+
+/// The sine of the widest cone around a ray whose rays, from origins within `reach`, all miss a
+/// ball, below 0 if there is none; and how large the ball is from there, about its sine.
+///
+/// At t those rays are within `reach + t·sine` of the one: they miss the ball if the cone misses the
+/// ball grown by `reach`. As both are round, that depends on three angles alone.
+fn cone_clearance(ray: &Ray, reach: f64, ball: &Ball) -> (f64, f64) {
+    let f = ball.center - ray.origin;
+    let size = (ray.origin.abs() + ball.center.abs()).element_sum() + ball.radius;
+    let radius = ball.radius + reach + MARGIN * size;
+    let along = f.dot(ray.direction);
+    let beside = (f - ray.direction * along).length();
+    let square = f.dot(f);
+    let square_tangent = square - radius * radius;
+    if square_tangent <= 0.0 || square_tangent.is_nan() {
+        return (-1.0, WIDEST);
+    }
+    let tangent = square_tangent.sqrt();
+    let seen = ball.radius / (tangent + ball.radius);
+    // The angle between the axis and the nearest tangent of the ball.
+    let sine = (beside * tangent - along * radius) / square;
+    let cosine = along * tangent + beside * radius;
+    let clearance = if sine > 0.0 && cosine <= 0.0 {
+        WIDEST
+    } else {
+        sine.min(WIDEST)
+    };
+    (
+        clearance - SINE_MARGIN,
+        if seen > 0.0 { seen } else { WIDEST },
+    )
+}
+
+/// The segments from points near one another to points of a light.
+#[derive(Clone, Copy, Debug)]
+struct Shaft {
+    light: usize,
+    from: Vec3,
+    /// The largest squared distance from there; below 0 for no bundle.
+    near: f64,
+    /// The items that they may meet.
+    items: u64,
+    pace: Pace,
+}
+
+impl Shaft {
+    const EMPTY: Self = Self {
+        light: usize::MAX,
+        from: Vec3::ZERO,
+        near: -1.0,
+        items: 0,
+        pace: Pace::START,
+    };
+
+    #[inline(always)]
+    fn holds(&self, light: usize, from: Vec3) -> bool {
+        let step = from - self.from;
+        self.light == light && step.dot(step) <= self.near
+    }
+
+    /// A shaft around the segment from a point to the centre of a light.
+    #[inline(never)]
+    fn around(&self, balls: &Balls, light: usize, from: Vec3, target: &Ball) -> Self {
+        let pace = self.pace.next();
+        let clearance = |(_, ball): &(u64, Ball)| segment_clearance(from, target.center, ball);
+        let clearances = balls.balls.iter().map(clearance).collect();
+        let wanted = pace.width * balls.smallest;
+        let (room, items) = balls.choose(wanted, target.radius, &clearances);
+        Self {
+            light,
+            from,
+            near: room * room,
+            items,
+            pace,
+        }
+    }
+}
+
+/// How far a ball stays off a segment: as far as both ends of it may be moved without meeting the
+/// ball. Below 0 if it may be met.
+fn segment_clearance(from: Vec3, to: Vec3, ball: &Ball) -> f64 {
+    let (f, d) = (ball.center - from, to - from);
+    let size = (from.abs() + to.abs() + ball.center.abs()).element_sum() + ball.radius;
+    let nearest = (f.dot(d) / d.dot(d)).clamp(0.0, 1.0);
+    (f - d * nearest).length() - ball.radius - MARGIN * size
+}
+
+/// Bounces that have bundles of their own.
+const LEVELS: usize = 8;
+
+/// Bundles of shadow rays kept at once.
+const SHAFTS: usize = 32;
+
+/// The bundles under way: of rays by bounce, of shadow rays by bounce and light.
+#[derive(Debug)]
+pub(in crate::render) struct Bundles {
+    cones: [RayCone; LEVELS],
+    shafts: [Shaft; SHAFTS],
+}
+
+impl Bundles {
+    /// None yet.
+    pub(in crate::render) const EMPTY: Self = Self {
+        cones: [RayCone::EMPTY; LEVELS],
+        shafts: [Shaft::EMPTY; SHAFTS],
+    };
+
+    /// The items that a ray after so many bounces may meet; `None` if its bundle can't say.
+    #[inline(always)]
+    pub(in crate::render) fn along(
+        &mut self,
+        balls: &Balls,
+        bounce: usize,
+        ray: &Ray,
+    ) -> Option<u64> {
+        let cone = &mut self.cones[bounce % LEVELS];
+        if !cone.holds(ray) {
+            *cone = cone.around(ray, balls)?;
+        }
+        cone.pace.uses += 1;
+        Some(cone.items)
+    }
+
+    /// The items that may stand between a point, after so many bounces, and the points of a light,
+    /// one of so many.
+    #[inline(always)]
+    pub(in crate::render) fn towards(
+        &mut self,
+        balls: &Balls,
+        [bounce, light, lights]: [usize; 3],
+        from: Vec3,
+        target: impl FnOnce() -> Ball,
+    ) -> u64 {
+        // Late bounces share a bundle where there are many lights.
+        let levels = (SHAFTS / lights.max(1)).max(1);
+        let slot = bounce.min(levels - 1) * lights + light;
+        let shaft = &mut self.shafts[slot % SHAFTS];
+        if !shaft.holds(light, from) {
+            *shaft = shaft.around(balls, light, from, &target());
+        }
+        shaft.pace.uses += 1;
+        shaft.items
+    }
+}
+
+#[cfg(test)]
+mod tests;

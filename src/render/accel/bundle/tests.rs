@@ -1,0 +1,197 @@
+//! No bundle passes over what a ray in it hits.
+
+use super::*;
+use crate::render::sampler::Key;
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::sphere::{Sphere, TexturedSphere};
+use crate::render::shape::torus::Torus;
+use crate::render::shape::triangle::Shear;
+use rayon::prelude::*;
+
+/// The names of the families of scenes, the size of their shapes, and how far off they stand.
+const FAMILIES: [(&str, f64, f64); 5] = [
+    ("generic", 1.0, 3.0),
+    ("close by", 1.0, 1.001),
+    ("tiny and far", 1e-3, 1e3),
+    ("a planet of 6378 at 150 million", 6378.0, 1.5e8),
+    ("a planet of 6378 from its ground", 6378.0, 6378.000_001),
+];
+
+/// A shape, and a ray of length 1 that grazes it, or passes at random.
+struct Case {
+    sphere: Sphere,
+    torus: Torus,
+    ray: Ray,
+    key: Key,
+}
+
+fn vector(key: Key, first: u64) -> Vec3 {
+    let uniform = |k: u64| key.uniform(first + k) * 2.0 - 1.0;
+    Vec3::new(uniform(0), uniform(1), uniform(2))
+}
+
+impl Case {
+    fn new(family: usize, index: u64) -> Self {
+        let (_, size, distance) = FAMILIES[family];
+        let key = Key::new([u32::try_from(family).unwrap(), 7], index);
+        let center = vector(key, 0) * distance;
+        let away = vector(key, 3).normalize() * distance * (1.0 + key.uniform(6));
+        let origin = center + away;
+        // Aim at the silhouette, as seen from about the origin, and just beside it.
+        let across = away.any_orthonormal_vector();
+        let beside = [0.999, 1.0, 1.0 + 1e-9, 1.001, 4.0][(index % 5) as usize];
+        let sine = size / away.length();
+        let foot = away * (sine * sine) + across * (size * (1.0 - sine * sine).max(0.0).sqrt());
+        let direction = (center + foot * beside - origin).normalize();
+        Self {
+            sphere: Sphere {
+                center,
+                radius: size,
+            },
+            torus: Torus::new(center, vector(key, 7), size * 0.75, size * 0.25),
+            ray: Ray { origin, direction },
+            key,
+        }
+    }
+
+    fn balls(&self) -> Balls {
+        let sphere = TexturedSphere {
+            sphere: self.sphere,
+            texture_from_world: Vec3::AXES,
+        };
+        let balls = [sphere.ball(), self.torus.ball()];
+        Balls::new(balls.into_iter().enumerate())
+    }
+
+    /// The bits of the shapes that a ray hits before `t_max`.
+    fn hits(&self, ray: &Ray, t_max: f64) -> u64 {
+        let shear = Shear::new(ray);
+        let torus = Geometry::intersect(&self.torus, ray, &shear, t_max).map(|(t, _)| t);
+        let hits = [self.sphere.intersect(ray), torus];
+        let is_hit = hits.map(|t| u64::from(t.is_some_and(|t| t < t_max)));
+        is_hit[0] | is_hit[1] << 1
+    }
+}
+
+/// Sums the hits and the faults that `judge` finds in the cases of each family.
+fn no_fault(what: &str, judge: impl Fn(&Case) -> [u64; 2] + Sync) {
+    let cases = std::env::var("RTC_RAYS")
+        .ok()
+        .and_then(|count| count.parse().ok())
+        .unwrap_or(20_000_u64);
+    for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
+        let [hits, faults] = (0..cases)
+            .into_par_iter()
+            .map(|index| judge(&Case::new(family, index)))
+            .reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        println!("| {what} | {name} | {hits} | {faults} |");
+        assert!(
+            hits > cases / 32 && faults == 0,
+            "{name}: {faults} of {hits}"
+        );
+    }
+}
+
+#[test]
+fn no_cone_passes_over_what_one_of_its_rays_hits() {
+    no_fault("cones", |case| {
+        let balls = case.balls();
+        let mut cone = RayCone::EMPTY;
+        cone.origin = if case.key.uniform(20) < 0.5 {
+            case.ray.origin
+        } else {
+            cone.origin
+        };
+        let cone = cone.around(&case.ray, &balls).unwrap();
+        let (reach, sine) = (cone.near.sqrt(), cone.alike.sqrt().min(1.0));
+        let mut sums = [0; 2];
+        for k in 0..16 {
+            // At the rim of the cone, towards the shape.
+            let towards = (case.sphere.center - case.ray.origin).normalize();
+            let aside = (towards + vector(case.key, 30 + 6 * k) * (0.1 * k as f64)).normalize();
+            let origin = case.ray.origin + aside.any_orthonormal_vector() * reach * 0.999;
+            let direction = (case.ray.direction + aside * sine * 0.9).normalize();
+            let ray = Ray { origin, direction };
+            if cone.holds(&ray) {
+                let hits = case.hits(&ray, f64::INFINITY);
+                sums[0] += u64::from(hits != 0);
+                sums[1] += u64::from(hits & !cone.items != 0);
+            }
+        }
+        sums
+    });
+}
+
+#[test]
+fn no_shaft_passes_over_what_one_of_its_segments_hits() {
+    no_fault("shafts", |case| {
+        let balls = case.balls();
+        let length = (case.ray.origin - case.sphere.center).length();
+        let size = case.sphere.radius;
+        let target = Ball {
+            center: case.ray.origin + case.ray.direction * length * (0.5 + case.key.uniform(21)),
+            radius: size * 0.2 * (case.key.uniform(22) - 0.5).max(0.0),
+        };
+        let shaft = Shaft::EMPTY.around(&balls, 3, case.ray.origin, &target);
+        let mut sums = [0; 2];
+        for k in 0..16 {
+            let towards = (case.sphere.center - case.ray.origin).normalize();
+            let aside = (towards.any_orthonormal_vector()
+                + vector(case.key, 30 + 6 * k) * (0.1 * k as f64))
+                .normalize();
+            let origin = case.ray.origin - aside * shaft.near.sqrt().min(size) * 0.999;
+            let end = target.center + vector(case.key, 33 + 6 * k).normalize() * target.radius;
+            if shaft.holds(3, origin) {
+                let ray = Ray {
+                    origin,
+                    direction: end - origin,
+                };
+                let hits = case.hits(&ray, 1.0);
+                sums[0] += u64::from(hits != 0);
+                sums[1] += u64::from(hits & !shaft.items != 0);
+            }
+        }
+        sums
+    });
+}
+
+#[test]
+fn rays_that_are_not_of_length_one_or_not_finite_have_no_cone() {
+    let case = Case::new(0, 0);
+    let balls = case.balls();
+    let (origin, direction) = (case.ray.origin, case.ray.direction);
+    let rays = [
+        (origin, direction * 2.0),
+        (origin, direction * f64::NAN),
+        (origin * f64::INFINITY, direction),
+    ];
+    for (origin, direction) in rays {
+        let ray = Ray { origin, direction };
+        assert!(RayCone::EMPTY.around(&ray, &balls).is_none());
+    }
+    assert!(!RayCone::EMPTY.holds(&case.ray));
+}
+
+#[test]
+fn a_bundle_keeps_only_what_its_rays_can_meet() {
+    let ball = |x: f64| Ball {
+        center: Vec3::new(x, 0.0, 0.0),
+        radius: 1.0,
+    };
+    let items = [Some(ball(10.0)), Some(ball(-10.0)), None];
+    let balls = Balls::new(items.into_iter().enumerate());
+    let mut bundles = Bundles::EMPTY;
+    let ray = Ray {
+        origin: Vec3::ZERO,
+        direction: Vec3::X,
+    };
+    assert_eq!(bundles.along(&balls, 0, &ray), Some(0b101));
+    let target = Ball {
+        center: Vec3::new(0.0, 9.0, 0.0),
+        radius: 0.5,
+    };
+    let mut towards = |from: Vec3| bundles.towards(&balls, [0, 0, 1], from, || target);
+    assert_eq!(towards(Vec3::new(-20.0, -9.0, 0.0)), 0b110);
+    assert_eq!(towards(Vec3::new(20.0, -9.0, 0.0)), 0b101);
+    assert_eq!(towards(Vec3::new(0.0, 5.0, 0.0)), 0b100);
+}

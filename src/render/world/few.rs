@@ -1,0 +1,105 @@
+//! The surfaces of a world that has only a few, none of them flattened: a ray is told which of them
+//! it can meet, and asks no others.
+
+use super::{Hit, NOWHERE, Surface, World, segment};
+use crate::math::Vec3;
+use crate::render::accel::bundle::{Balls, MAX_ITEMS};
+use crate::render::ray::Ray;
+use crate::render::shape::geometry::Geometry;
+use crate::render::shape::tie::Nearest;
+use crate::render::shape::triangle::Shear;
+
+/// Surfaces with bits: that of a surface is its index in the world.
+pub(in crate::render) struct Few {
+    pub(in crate::render) balls: Balls,
+    /// The surfaces that cast shadows.
+    casters: u64,
+}
+
+impl Few {
+    /// The surfaces given of a world, and of those the ones that cast shadows; `None` if there are
+    /// too many.
+    pub(super) fn new<S: Geometry>(
+        surfaces: &[Surface<S>],
+        all: &[u32],
+        casters: &[u32],
+    ) -> Option<Self> {
+        if surfaces.len() != all.len() || surfaces.len() > MAX_ITEMS {
+            return None;
+        }
+        let balls = surfaces.iter().map(|surface| surface.shape.ball());
+        let bits = casters.iter().map(|caster| 1 << caster);
+        Some(Self {
+            balls: Balls::new(balls.enumerate()),
+            casters: bits.fold(0, |bits, bit: u64| bits | bit),
+        })
+    }
+
+    /// Those of some surfaces that cast shadows.
+    #[inline]
+    pub(in crate::render) fn casting(&self, items: u64) -> u64 {
+        items & self.casters
+    }
+
+    /// The index of the first surface of some, and the others.
+    #[inline(always)]
+    fn pop(items: &mut u64) -> Option<usize> {
+        if *items == 0 {
+            return None;
+        }
+        let surface = items.trailing_zeros() as usize;
+        *items &= *items - 1;
+        Some(surface)
+    }
+}
+
+impl<S: Geometry> World<S> {
+    /// As [`World::closest_hit`], of a finite ray of length 1 that can meet only some surfaces.
+    #[inline(always)]
+    pub(in crate::render) fn closest_hit_of(&self, mut items: u64, ray: &Ray) -> Option<Hit> {
+        let mut nearest = Nearest::up_to(f64::INFINITY, NOWHERE);
+        if items == 0 {
+            return None;
+        }
+        let shear = Shear::new(ray);
+        while let Some(surface) = Few::pop(&mut items) {
+            let shape = &self.surfaces[surface].shape;
+            if let Some((t, prim_id)) = shape.closest_hit(ray, &shear, nearest.limit()) {
+                nearest.add(t, (surface, prim_id));
+            }
+        }
+        let (t, (surface, prim_id)) = match nearest.key {
+            NOWHERE => return None,
+            _ if nearest.is_tied() => self.settle(ray, NOWHERE, nearest.t)?,
+            key => (nearest.t, key),
+        };
+        Some(Hit {
+            t,
+            surface,
+            prim_id,
+        })
+    }
+
+    /// As [`World::occluded`], where only some surfaces can stand between.
+    #[inline(always)]
+    pub(in crate::render) fn occluded_by(&self, mut items: u64, from: Vec3, to: Vec3) -> bool {
+        let ray = Ray {
+            origin: from,
+            direction: to - from,
+        };
+        if !ray.is_scaled() {
+            return self.occluded(from, to);
+        }
+        let shear = Shear::new(&ray);
+        // The end of the segment is asked for only where there is something to compare it with.
+        let is_before_end = |t: f64| segment(from, to).is_some_and(|(_, t_max)| t < t_max);
+        while let Some(surface) = Few::pop(&mut items) {
+            let shape = &self.surfaces[surface].shape;
+            let hit = shape.intersect(&ray, &shear, 1.0);
+            if hit.is_some_and(|(t, _)| is_before_end(t)) {
+                return true;
+            }
+        }
+        false
+    }
+}
