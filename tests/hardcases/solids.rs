@@ -6,8 +6,8 @@ use super::random::Random;
 use rtc::math::Vec3;
 use rtc::render::{
     Attributes, Cone, Cylinder, Disc, Geometry, Instance, Interaction, Paraboloid, Plane,
-    PreparedMesh, Quad, Ray, Shape, Shear, Sphere, TexturedSphere, TexturedTriangle, Torus,
-    Triangle,
+    PreparedMesh, Quad, Ray, Shape, Shear, SimdLevel, Sphere, TexturedSphere, TexturedTriangle,
+    Torus, Triangle,
 };
 use std::sync::Arc;
 
@@ -91,6 +91,7 @@ pub(crate) fn icosphere() -> Arc<PreparedMesh> {
         &positions,
         &triangles,
         Attributes::default(),
+        SimdLevel::best(),
     ))
 }
 

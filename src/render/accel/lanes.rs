@@ -15,14 +15,14 @@ pub(in crate::render::accel) const TRIANGLES: usize = 4;
 
 /// A node: for each axis the lower and the upper ends of eight boxes, then eight links as the bits of
 /// numbers; four cache lines.
-pub(in crate::render::accel) type Node = [f32; 64];
+pub(in crate::render::accel) type WideNode = [f32; 64];
 
 /// Where the links of a node are.
 pub(in crate::render::accel) const LINKS: usize = 6 * WIDTH;
 
 /// A leaf: for each corner and axis the coordinates of four triangles, then their items as the bits
 /// of numbers.
-pub(in crate::render::accel) type Leaf = [f32; 40];
+pub(in crate::render::accel) type WideLeaf = [f32; 40];
 
 /// Where the items of a leaf are.
 pub(in crate::render::accel) const ITEMS: usize = 9 * TRIANGLES;
@@ -74,7 +74,7 @@ impl<S: Simd> BoxLanes<S> {
 
     /// Where the beam enters the slabs of an axis.
     #[inline(always)]
-    fn enter<const AXIS: usize>(&self, simd: S, node: &Node) -> f32x8<S> {
+    fn enter<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (self.near[AXIS] & WIDTH);
         let ends = f32x8::from_slice(simd, &node[at..at + WIDTH]);
         (ends - self.near_origin[AXIS]) * self.inverse[AXIS]
@@ -82,7 +82,7 @@ impl<S: Simd> BoxLanes<S> {
 
     /// Where the beam leaves the slabs of an axis.
     #[inline(always)]
-    fn leave<const AXIS: usize>(&self, simd: S, node: &Node) -> f32x8<S> {
+    fn leave<const AXIS: usize>(&self, simd: S, node: &WideNode) -> f32x8<S> {
         let at = 2 * WIDTH * AXIS + (!self.near[AXIS] & WIDTH);
         let ends = f32x8::from_slice(simd, &node[at..at + WIDTH]);
         (ends - self.far_origin[AXIS]) * self.inverse[AXIS]
@@ -96,7 +96,7 @@ impl<S: Simd> BoxLanes<S> {
     pub(in crate::render::accel) fn meet(
         &self,
         simd: S,
-        node: &Node,
+        node: &WideNode,
         limit: f32,
     ) -> (u32, [f32; WIDTH]) {
         const GROWN: f32 = 1.0 + 16.0 * f32::EPSILON;
@@ -136,7 +136,7 @@ pub(in crate::render::accel) struct TriangleLanes<S: Simd> {
 
 /// Which triangles of a leaf a beam may hit, and which of them it hits for sure, as bits.
 #[derive(Clone, Copy)]
-pub(in crate::render::accel) struct Verdict {
+pub(in crate::render::accel) struct LeafVerdict {
     pub(in crate::render::accel) may: u32,
     pub(in crate::render::accel) sure: u32,
 }
@@ -156,13 +156,13 @@ impl<S: Simd> TriangleLanes<S> {
 
     /// A corner as seen from the origin, along the k-th axis of the beam.
     #[inline(always)]
-    fn seen<const CORNER: usize>(&self, simd: S, leaf: &Leaf, k: usize) -> f32x4<S> {
+    fn seen<const CORNER: usize>(&self, simd: S, leaf: &WideLeaf, k: usize) -> f32x4<S> {
         let at = place(CORNER, self.axes[k]);
         f32x4::from_slice(simd, &leaf[at..at + TRIANGLES]) - self.origin[k]
     }
 
     #[inline(always)]
-    fn sheared<const CORNER: usize>(&self, simd: S, leaf: &Leaf) -> Sheared<S> {
+    fn sheared<const CORNER: usize>(&self, simd: S, leaf: &WideLeaf) -> Sheared<S> {
         let along = self.seen::<CORNER>(simd, leaf, 2) * self.main;
         [
             self.seen::<CORNER>(simd, leaf, 0) - along * self.slopes[0],
@@ -181,9 +181,9 @@ impl<S: Simd> TriangleLanes<S> {
     pub(in crate::render::accel) fn judge<const SURE: bool>(
         &self,
         simd: S,
-        leaf: &Leaf,
+        leaf: &WideLeaf,
         [limit, sure_limit]: [f32; 2],
-    ) -> Verdict {
+    ) -> LeafVerdict {
         let error = self.error;
         let a = self.sheared::<0>(simd, leaf);
         let b = self.sheared::<1>(simd, leaf);
@@ -202,12 +202,12 @@ impl<S: Simd> TriangleLanes<S> {
             nearest.simd_gt(f32x4::splat(simd, limit)) | farthest.simd_lt(f32x4::splat(simd, 0.0));
         let may = !bits((outside | beyond).to_bitmask()) & 0b1111;
         if !SURE {
-            return Verdict { may, sure: 0 };
+            return LeafVerdict { may, sure: 0 };
         }
         let inside = min.simd_gt(bound) | max.simd_lt(-bound);
         let between = nearest.simd_gt(error) & farthest.simd_lt(f32x4::splat(simd, sure_limit));
         let sure = bits((inside & between).to_bitmask()) & may;
-        Verdict { may, sure }
+        LeafVerdict { may, sure }
     }
 }
 

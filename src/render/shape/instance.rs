@@ -1,10 +1,11 @@
 //! An instance of a mesh: rays are transformed to object space, where all instances share triangles
 //! and hierarchy.
 
-use crate::math::{Column, Vec3, cross, unit};
+use crate::math::{Vec3, cross, unit};
 use crate::render::accel::bounds::Bounds;
 use crate::render::accel::wide::{Candidate, Visitor};
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::corners::{blend, corner_values, handedness, interpolate};
 use crate::render::shape::geometry::{Asked, Details, Geometry, LocalRay};
 use crate::render::shape::mesh::{PlainMesh, PreparedMesh};
 use crate::render::shape::plain::ray::PlainRay;
@@ -307,38 +308,6 @@ impl Geometry for Instance {
     fn bounds(&self) -> Option<Bounds> {
         Some(self.bounds)
     }
-}
-
-/// The side on which the second axis of a normal map lies: against v, which glTF counts downwards.
-fn handedness([a, b, c]: [[f64; 2]; 3]) -> f64 {
-    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    -1.0_f64.copysign(area)
-}
-
-/// What a column, which may be empty, says of three corners.
-#[inline]
-fn corner_values<const N: usize>(column: &Column<N>, [a, b, c]: [u32; 3]) -> Option<[[f64; N]; 3]> {
-    (!column.is_empty()).then(|| {
-        [
-            column.at(a as usize),
-            column.at(b as usize),
-            column.at(c as usize),
-        ]
-    })
-}
-
-/// The mean with these weights of the corners.
-#[inline]
-fn blend([a, b, c]: [[f64; 4]; 3], [u, v, w]: [f64; 3]) -> [f64; 4] {
-    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
-    [mean(0), mean(1), mean(2), mean(3)]
-}
-
-/// The uv at a point with these weights of the corners.
-#[inline]
-pub(in crate::render) fn interpolate([a, b, c]: [[f64; 2]; 3], [u, v, w]: [f64; 3]) -> [f64; 2] {
-    let mean = |k: usize| u * a[k] + v * b[k] + w * c[k];
-    [mean(0), mean(1)]
 }
 
 impl Twin for Instance {

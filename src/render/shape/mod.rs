@@ -121,6 +121,7 @@ macro_rules! dispatch {
 
 pub(in crate::render) mod basic;
 pub(in crate::render) mod cone;
+mod corners;
 pub(in crate::render) mod cylinder;
 pub(in crate::render) mod disc;
 pub(in crate::render) mod geometry;

@@ -8,8 +8,8 @@
 use crate::math::{U, Vec3, difference_of_products};
 use crate::render::accel::bounds::Bounds;
 use crate::render::ray::{Interaction, Ray};
+use crate::render::shape::corners::interpolate;
 use crate::render::shape::geometry::{Asked, Details, Geometry};
-use crate::render::shape::instance::interpolate;
 use crate::render::shape::mesh::PlainMesh;
 use crate::render::shape::plain::ray::PlainRay;
 use crate::render::shape::plain::real::{Real, Vector};

@@ -14,7 +14,7 @@ const FAMILIES: [(&str, f64, f64); 5] = [
     ("close by", 1.0, 1.001),
     ("tiny and far", 1e-3, 1e3),
     ("a planet of 6378 at 150 million", 6378.0, 1.5e8),
-    ("a planet of 6378 from its ground", 6378.0, 6378.000_001),
+    ("a planet of 6378 from its ground", 6_378.0, 6_378.000_001),
 ];
 
 /// A shape, and a ray of length 1 that grazes it, or passes at random.

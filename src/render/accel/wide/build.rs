@@ -4,12 +4,12 @@
 //! Its upper part is built first, then what hangs below on all threads; the result does not depend
 //! on how many there are.
 
-use super::split::{Item, Part};
+use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
 use crate::math::Vec3;
 use crate::render::accel::beam::QuantizationFrame;
 use crate::render::accel::bounds::Bounds;
-use crate::render::accel::lanes::{ITEMS, LINKS, Leaf, Node, TRIANGLES, WIDTH, place};
+use crate::render::accel::lanes::{ITEMS, LINKS, TRIANGLES, WIDTH, WideLeaf, WideNode, place};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
 use rayon::prelude::*;
@@ -41,8 +41,8 @@ impl Wide {
             centers.sum::<Vec3>()
         };
         let frame = QuantizationFrame::around(whole, mean, error_bound);
-        let item = |item| Item::new(item, frame.rounded_outward(bounds(item)));
-        let mut items: Vec<Item> = all.map(item).collect();
+        let item = |item| BoxedItem::new(item, frame.rounded_outward(bounds(item)));
+        let mut items: Vec<BoxedItem> = all.map(item).collect();
         let (root, branches) = grow_all(&mut items, &Leaves { frame, corners });
         drop(items);
         let is_exact = branches.iter().all(|branch| branch.is_exact);
@@ -69,7 +69,7 @@ struct Leaves<C> {
 
 impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
     /// The leaf of some items, and whether it holds their corners exactly.
-    fn leaf(&self, items: &[Item]) -> (Leaf, bool) {
+    fn leaf(&self, items: &[BoxedItem]) -> (WideLeaf, bool) {
         let (mut leaf, mut is_exact) = ([0.0; ITEMS + TRIANGLES], true);
         leaf[ITEMS..].fill(f32::from_bits(NONE));
         for (lane, item) in items.iter().enumerate() {
@@ -89,8 +89,8 @@ impl<C: Fn(u32) -> [Vec3; 3]> Leaves<C> {
 
 /// Nodes and leaves that lead to each other.
 struct Branch {
-    nodes: Vec<Node>,
-    leaves: Vec<Leaf>,
+    nodes: Vec<WideNode>,
+    leaves: Vec<WideLeaf>,
     is_exact: bool,
 }
 
@@ -104,7 +104,7 @@ struct LeftPart<'items> {
 
 /// The link to the root, and all branches: links count the nodes and the leaves of all, in order.
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
-    items: &mut [Item],
+    items: &mut [BoxedItem],
     leaves: &Leaves<C>,
 ) -> (u32, Vec<Branch>) {
     let alone = ALONE.max(items.len() / 64);
@@ -192,7 +192,7 @@ impl Branch {
 
 /// The node of some children, without their links; the boxes of those that are not there are met by
 /// no ray.
-fn node(children: &[Part<'_>]) -> Node {
+fn node(children: &[Part<'_>]) -> WideNode {
     let mut node = [0.0; LINKS + 2 * WIDTH];
     for axis in 0..3 {
         for lane in 0..WIDTH {

@@ -9,7 +9,7 @@ mod walk;
 
 use crate::math::Vec3;
 use crate::render::accel::beam::QuantizationFrame;
-use crate::render::accel::lanes::{ITEMS, Leaf, Node, TRIANGLES, WIDTH, place};
+use crate::render::accel::lanes::{ITEMS, TRIANGLES, WIDTH, WideLeaf, WideNode, place};
 use crate::render::accel::pages::Pages;
 use crate::render::accel::simd::SimdLevel;
 use arrayvec::ArrayVec;
@@ -34,8 +34,8 @@ const NONE: u32 = u32::MAX;
 pub(in crate::render) struct Wide {
     simd: SimdLevel,
     frame: QuantizationFrame,
-    nodes: Pages<Node>,
-    leaves: Pages<Leaf>,
+    nodes: Pages<WideNode>,
+    leaves: Pages<WideLeaf>,
     root: u32,
     /// What 1 of the cube is in space, if leaves hold all corners exactly.
     unit: Option<f64>,
@@ -53,7 +53,7 @@ impl Wide {
 pub(in crate::render) struct Candidate<'walk> {
     /// Its number.
     pub(in crate::render) item: u32,
-    leaf: &'walk Leaf,
+    leaf: &'walk WideLeaf,
     lane: usize,
     unit: Option<f64>,
 }
@@ -72,7 +72,7 @@ impl Candidate<'_> {
 
 /// The item of a lane of a leaf.
 #[inline(always)]
-fn item(leaf: &Leaf, lane: usize) -> u32 {
+fn item(leaf: &WideLeaf, lane: usize) -> u32 {
     leaf[ITEMS + (lane & (TRIANGLES - 1))].to_bits()
 }
 

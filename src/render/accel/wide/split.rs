@@ -10,12 +10,12 @@ const BINS: usize = 16;
 
 /// The box of a triangle in the cube, and its number as the bits of the fourth lane of `min`.
 #[derive(Clone, Copy)]
-pub(super) struct Item {
+pub(super) struct BoxedItem {
     min: Lanes,
     max: Lanes,
 }
 
-impl Item {
+impl BoxedItem {
     /// Of a number and the lowest and the highest corner of its box.
     pub(super) fn new(number: u32, [min, max]: [[f32; 3]; 2]) -> Self {
         let lanes = |[x, y, z]: [f32; 3], w: f32| Lanes::new(x, y, z, w);
@@ -65,7 +65,7 @@ impl LaneBox {
 
 /// Some items side by side, the box around them, and that around twice their centres.
 pub(super) struct Part<'items> {
-    pub(super) items: &'items mut [Item],
+    pub(super) items: &'items mut [BoxedItem],
     bounds: LaneBox,
     centers: LaneBox,
 }
@@ -85,7 +85,7 @@ type Bins = [[(LaneBox, u32); 3]; BINS];
 
 impl<'items> Part<'items> {
     /// All of some items.
-    pub(super) fn of(items: &'items mut [Item]) -> Self {
+    pub(super) fn of(items: &'items mut [BoxedItem]) -> Self {
         let (mut bounds, mut centers) = (LaneBox::EMPTY, LaneBox::EMPTY);
         for item in items.iter() {
             bounds.add(item.min, item.max);
@@ -133,7 +133,7 @@ impl<'items> Part<'items> {
     fn split(self, by_heuristic: bool) -> [Self; 2] {
         let size = self.centers.max - self.centers.min;
         let scale = Lanes::splat(BINS as f32 * 0.9999) / size.max(Lanes::splat(1e-30));
-        let bins = |item: &Item| (item.center() - self.centers.min) * scale;
+        let bins = |item: &BoxedItem| (item.center() - self.centers.min) * scale;
         let border = if by_heuristic {
             cheapest_border(&self.fill(&bins), size)
         } else {
@@ -147,7 +147,7 @@ impl<'items> Part<'items> {
 
     /// What falls into the bins.
     #[inline(always)]
-    fn fill(&self, place: &impl Fn(&Item) -> Lanes) -> Bins {
+    fn fill(&self, place: &impl Fn(&BoxedItem) -> Lanes) -> Bins {
         let mut bins = [[(LaneBox::EMPTY, 0); 3]; BINS];
         for item in self.items.iter() {
             let places = place(item).to_array();
@@ -163,7 +163,8 @@ impl<'items> Part<'items> {
     /// The items below a border, and those above.
     fn parted(self, border: &Border, scale: Lanes) -> [Self; 2] {
         let (axis, origin) = (border.axis, self.centers.min[border.axis]);
-        let is_below = |item: &Item| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
+        let is_below =
+            |item: &BoxedItem| bin((item.center()[axis] - origin) * scale[axis]) < border.bin;
         let mut centers = [LaneBox::EMPTY; 2];
         let (mut next, mut end) = (0, self.items.len());
         while next < end {

@@ -4,7 +4,7 @@
 use super::{Candidate, LEAF, NONE, TraversalStack, Wide, item};
 use crate::render::accel::beam::{Beam, NoBeam};
 use crate::render::accel::lanes::{
-    BoxLanes, LINKS, Leaf, Node, TRIANGLES, TriangleLanes, Verdict, WIDTH,
+    BoxLanes, LINKS, LeafVerdict, TRIANGLES, TriangleLanes, WIDTH, WideLeaf, WideNode,
 };
 use crate::render::accel::simd::at_level;
 use crate::render::ray::Ray;
@@ -16,8 +16,8 @@ const TURNS: usize = 4;
 
 /// Where a ray is in the hierarchy.
 struct Traversal<'walk, S: Simd> {
-    nodes: &'walk [Node],
-    leaves: &'walk [Leaf],
+    nodes: &'walk [WideNode],
+    leaves: &'walk [WideLeaf],
     unit: Option<f64>,
     beam: Beam,
     boxes: BoxLanes<S>,
@@ -195,7 +195,7 @@ impl<S: Simd> Traversal<'_, S> {
         let leaf = &self.leaves[((self.link & !LEAF) >> 2) as usize];
         let all = 0b1111 >> (3 - (self.link & 3));
         let verdict = match (V::CULLS, V::IS_SURE) {
-            (false, _) => Verdict { may: all, sure: 0 },
+            (false, _) => LeafVerdict { may: all, sure: 0 },
             (true, false) => self.triangles.judge::<false>(simd, leaf, [self.limit, 0.0]),
             (true, true) => {
                 let limits = [self.limit, self.sure_limit];
@@ -254,7 +254,7 @@ fn lanes_of(mut bits: u32) -> impl Iterator<Item = usize> {
 
 /// The nearest of the children met; the others are left for later.
 #[inline(always)]
-fn nearest(open: &mut TraversalStack, mut met: u32, enter: &[f32; WIDTH], node: &Node) -> u32 {
+fn nearest(open: &mut TraversalStack, mut met: u32, enter: &[f32; WIDTH], node: &WideNode) -> u32 {
     let child = |met: u32| {
         let lane = met.trailing_zeros() as usize & (WIDTH - 1);
         (enter[lane], node[LINKS + lane].to_bits())
