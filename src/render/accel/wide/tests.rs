@@ -69,6 +69,12 @@ fn aimed(family: usize, triangles: &[Triangle], index: u64) -> Ray {
     }
 }
 
+/// So many rays, or as many as are asked for.
+fn ray_count(usual: u64) -> u64 {
+    let asked = std::env::var("RTC_RAYS").ok();
+    asked.and_then(|count| count.parse().ok()).unwrap_or(usual)
+}
+
 fn built(all: &[Triangle]) -> Wide {
     let corners = |item: u32| *all[item as usize].vertices();
     Wide::build(SimdLevel::best(), all.len(), 0.0, corners).unwrap()
@@ -127,7 +133,7 @@ fn what_is_hit_for_sure_is_hit_before_the_end_of_the_ray() {
             [hits, found.sure.len() as u64, wrong]
         };
         let add = |a: [u64; 3], b: [u64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-        let [hits, sure, wrong] = (0..60_000_u64)
+        let [hits, sure, wrong] = (0..ray_count(60_000))
             .into_par_iter()
             .map(judge)
             .reduce(|| [0; 3], add);
@@ -209,10 +215,7 @@ fn corners_are_exact_or_not_there() {
 
 #[test]
 fn whatever_is_hit_is_visited_and_little_else() {
-    let rays = std::env::var("RTC_RAYS")
-        .ok()
-        .and_then(|count| count.parse().ok())
-        .unwrap_or(20_000_u64);
+    let rays = ray_count(20_000);
     for (family, (name, ..)) in FAMILIES.into_iter().enumerate() {
         let all = triangles(family);
         let wide = built(&all);
