@@ -2,7 +2,7 @@
 
 use crate::math::{Column, Shared, Vec3};
 use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::Wide;
+use crate::render::accel::wide::{Builders, Wide};
 use crate::render::shape::geometry::LocalRay;
 use crate::render::shape::plain::real::Real;
 use crate::render::shape::plane::Normal;
@@ -132,7 +132,7 @@ impl PreparedMesh {
     pub(in crate::render) fn hierarchy(&self) -> Option<&Wide> {
         let vertices = |item: u32| self.vertices(item);
         let build = || {
-            let mut hierarchy = Wide::build(self.simd, self.count(), 0.0, vertices)?;
+            let mut hierarchy = Wide::build(Builders::One, self.simd, self.count(), 0.0, vertices)?;
             if !self.few.is_empty() {
                 hierarchy.forget_corners();
             }

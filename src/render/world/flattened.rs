@@ -2,7 +2,7 @@
 
 use super::Surface;
 use crate::render::accel::simd::SimdLevel;
-use crate::render::accel::wide::{Candidate, Wide};
+use crate::render::accel::wide::{Builders, Candidate, Wide};
 use crate::render::ray::Ray;
 use crate::render::shape::geometry::{Geometry, LocalRay};
 use crate::render::shape::mesh::FEW;
@@ -133,7 +133,7 @@ impl Flattened {
             let (surface, prim_id) = key(&starts, item);
             surfaces[surface].shape.corners(prim_id).unwrap_or_default()
         };
-        let mut hierarchy = Wide::build(simd, count, error_bound, corners)?;
+        let mut hierarchy = Wide::build(Builders::All, simd, count, error_bound, corners)?;
         // Corners in the world are those of a mesh that is not moved alone; few are prepared.
         if count <= FEW || !indices.iter().all(|surface| shape(*surface).is_in_place()) {
             hierarchy.forget_corners();

@@ -1,8 +1,8 @@
 //! How a hierarchy is built: from the top, a node taking the parts of its parts until it is full
 //! (Dammertz, Hanika, Keller, "Shallow bounding volume hierarchies", 2008).
 //!
-//! Its upper part is built first, then what hangs below on all threads; the result does not depend
-//! on how many there are.
+//! Its upper part is built first, then what hangs below, on all threads if they may help; the result
+//! does not depend on how many there are.
 
 use super::split::{BoxedItem, Part};
 use super::{LEAF, NONE, Wide};
@@ -17,10 +17,21 @@ use rayon::prelude::*;
 /// Parts of so few triangles are built by one thread.
 const ALONE: usize = 4096;
 
+/// Who builds a hierarchy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::render) enum Builders {
+    /// This thread. It must be so where others wait until the hierarchy is there: a thread that is
+    /// helped may meanwhile be handed work which waits for that too, and would wait for itself.
+    One,
+    /// All threads of the pool.
+    All,
+}
+
 impl Wide {
     /// Builds the hierarchy of some triangles, each known by its number, with corners that may be
     /// wrong by `error_bound`; `None` if there is none.
     pub(in crate::render) fn build(
+        builders: Builders,
         simd: SimdLevel,
         count: usize,
         error_bound: f64,
@@ -31,19 +42,22 @@ impl Wide {
             return None;
         }
         let bounds = |item| Bounds::of(&corners(item)).grown(error_bound);
-        let all = (0..count).into_par_iter();
-        let whole = all
-            .clone()
-            .map(bounds)
-            .reduce(|| Bounds::EMPTY, Bounds::union);
+        let all = || (0..count).into_par_iter();
+        let whole = match builders {
+            Builders::One => (0..count).map(bounds).fold(Bounds::EMPTY, Bounds::union),
+            Builders::All => all().map(bounds).reduce(|| Bounds::EMPTY, Bounds::union),
+        };
         let mean = || {
             let centers = (0..count).map(|item| bounds(item).center() / f64::from(count));
             centers.sum::<Vec3>()
         };
         let frame = QuantizationFrame::around(whole, mean, error_bound);
         let item = |item| BoxedItem::new(item, frame.rounded_outward(bounds(item)));
-        let mut items: Vec<BoxedItem> = all.map(item).collect();
-        let (root, branches) = grow_all(&mut items, &Leaves { frame, corners });
+        let mut items: Vec<BoxedItem> = match builders {
+            Builders::One => (0..count).map(item).collect(),
+            Builders::All => all().map(item).collect(),
+        };
+        let (root, branches) = grow_all(builders, &mut items, &Leaves { frame, corners });
         drop(items);
         let is_exact = branches.iter().all(|branch| branch.is_exact);
         let (nodes, leaves) = branches
@@ -104,6 +118,7 @@ struct LeftPart<'items> {
 
 /// The link to the root, and all branches: links count the nodes and the leaves of all, in order.
 fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
+    builders: Builders,
     items: &mut [BoxedItem],
     leaves: &Leaves<C>,
 ) -> (u32, Vec<Branch>) {
@@ -118,12 +133,15 @@ fn grow_all<C: Fn(u32) -> [Vec3; 3] + Sync>(
         }
         Some(part)
     });
-    let grown = left.into_par_iter().map(|left| {
+    let grow = |left: LeftPart<'_>| {
         let mut branch = Branch::new();
         let link = branch.grow(left.part, left.depth, leaves, &mut Some);
         (left.node, left.lane, link, branch)
-    });
-    let grown: Vec<_> = grown.collect();
+    };
+    let grown: Vec<_> = match builders {
+        Builders::One => left.into_iter().map(grow).collect(),
+        Builders::All => left.into_par_iter().map(grow).collect(),
+    };
     let (mut nodes, mut leaves) = (top.nodes.len(), top.leaves.len());
     let mut branches = Vec::with_capacity(grown.len() + 1);
     for (node, lane, link, mut branch) in grown {

@@ -77,7 +77,7 @@ fn ray_count(usual: u64) -> u64 {
 
 fn built(all: &[Triangle]) -> Wide {
     let corners = |item: u32| *all[item as usize].vertices();
-    Wide::build(SimdLevel::best(), all.len(), 0.0, corners).unwrap()
+    Wide::build(Builders::All, SimdLevel::best(), all.len(), 0.0, corners).unwrap()
 }
 
 /// Visits all triangles whose boxes are met.
@@ -156,7 +156,7 @@ fn all_levels_visit_the_same_in_the_same_order_alone_and_by_turns() {
     let mut expected: Option<Vec<Visits>> = None;
     for level in SimdLevel::NAMES.into_iter().filter_map(SimdLevel::named) {
         let corners = |item: u32| *all[item as usize].vertices();
-        let wide = Wide::build(level, all.len(), 0.0, corners).unwrap();
+        let wide = Wide::build(Builders::All, level, all.len(), 0.0, corners).unwrap();
         let alone = |ray: &Ray| {
             let mut found = Sure::default();
             wide.walk(ray, 2.0, &mut found);
@@ -188,7 +188,7 @@ fn corners_are_exact_or_not_there() {
     let double = |item: u32| single(item).map(|corner| corner + Vec3::splat(0.1));
     let far = |item: u32| single(item).map(|corner| corner + Vec3::splat(1_048_576.0));
     let visited = |corners: &(dyn Fn(u32) -> [Vec3; 3] + Sync)| {
-        let wide = Wide::build(SimdLevel::best(), 900, 0.0, corners).unwrap();
+        let wide = Wide::build(Builders::All, SimdLevel::best(), 900, 0.0, corners).unwrap();
         let direction = corners(5)[0];
         let ray = Ray {
             origin: Vec3::ZERO,
@@ -297,14 +297,45 @@ fn the_walk_ends_where_it_is_told_to_and_visits_each_triangle_once() {
         .len(),
         1
     );
-    assert!(Wide::build(SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO; 3]).is_none());
+    assert!(
+        Wide::build(Builders::All, SimdLevel::best(), 0, 0.0, |_| [Vec3::ZERO;
+            3])
+        .is_none()
+    );
+}
+
+/// A mesh builds its hierarchy when a ray first asks for it, while others wait for it: a thread that
+/// were helped could be handed a ray that waits for the same.
+#[test]
+fn a_hierarchy_built_amid_the_work_of_all_threads_ends() {
+    let corners = |item: u32| {
+        let key = Key::new([3, 17], item.into());
+        [0, 3, 6].map(|k| Vec3::new(key.uniform(k), key.uniform(k + 1), key.uniform(k + 2)))
+    };
+    let one = Wide::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners).unwrap();
+    let all = Wide::build(Builders::All, SimdLevel::best(), 20_000, 0.0, corners).unwrap();
+    assert_eq!(one.root, all.root);
+    assert!(
+        one.nodes
+            .rows()
+            .as_flattened()
+            .iter()
+            .map(|x| x.to_bits())
+            .eq(all.nodes.rows().as_flattened().iter().map(|x| x.to_bits()))
+    );
+    let shared = std::sync::OnceLock::new();
+    let asked = (0..64).into_par_iter().filter(|_| {
+        let build = || Wide::build(Builders::One, SimdLevel::best(), 20_000, 0.0, corners);
+        shared.get_or_init(build).is_some()
+    });
+    assert_eq!(asked.count(), 64);
 }
 
 /// Equal boxes leave the heuristic nothing to choose by.
 #[test]
 fn equal_triangles_build_a_hierarchy_that_ends() {
     let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-    let wide = Wide::build(SimdLevel::best(), 5000, 0.0, |_| corners).unwrap();
+    let wide = Wide::build(Builders::All, SimdLevel::best(), 5000, 0.0, |_| corners).unwrap();
     let (mut visits, ray) = (
         0,
         Ray {
